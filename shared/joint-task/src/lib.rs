@@ -1,0 +1,10 @@
+//! A joint task from a file: parts, plan, what a person's hand can show, what the robot can do, and the rules that
+//! make populations and synapses of the field network from it.
+
+mod model;
+mod task;
+
+pub use model::{
+    Act, Action, Agent, Chain, Gesture, Grip, Kind, Motion, Part, Scene, Shape, Subgoal,
+};
+pub use task::{Task, TaskError};

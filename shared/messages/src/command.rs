@@ -1,0 +1,51 @@
+use crate::{Header, JOINTS};
+use bytemuck::{Pod, Zeroable};
+use iceoryx2::prelude::ZeroCopySend;
+
+/// What control asks of the joint servos at one tick (1 kHz), and control's own memory.
+///
+/// Every setpoint lies within position, velocity, acceleration and jerk limits, whatever arrived.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct Command {
+    /// Header.
+    pub header: Header,
+    /// Joint position setpoints, rad.
+    pub position: [f64; JOINTS],
+    /// Joint velocity setpoints, rad/s.
+    pub velocity: [f64; JOINTS],
+    /// Joint acceleration setpoints, rad/s².
+    pub acceleration: [f64; JOINTS],
+    /// Measured minus commanded joint position of the last tick, rad.
+    pub tracking_error: [f64; JOINTS],
+    /// Action under way: index into `Task::actions`, or [`NONE`](crate::NONE).
+    pub action: u32,
+    /// [`MotionPhase`] of that action.
+    pub phase: u32,
+    /// Opaque state words of control; `services/control` says what each holds.
+    pub memory: [f64; 256],
+}
+
+/// Phase of a movement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+pub enum MotionPhase {
+    /// Standing at the park posture.
+    Rest = 0,
+    /// Moving the hand to a pose before a grasp, a placing or a gesture.
+    Reach = 1,
+    /// Straight approach to the part or the socket.
+    Approach = 2,
+    /// Closing the fingers.
+    Grasp = 3,
+    /// Moving a held part away, or to where it is used.
+    Transport = 4,
+    /// Opening the fingers.
+    Release = 5,
+    /// Moving the empty hand away.
+    Retreat = 6,
+    /// Holding a pose: the base held, the open hand held out, the part held out.
+    Hold = 7,
+    /// Braking within limits because inputs stopped, then standing.
+    Brake = 8,
+}

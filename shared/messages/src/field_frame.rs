@@ -1,0 +1,88 @@
+use crate::{Header, MAX_LAYERS, MAX_POPULATIONS, MAX_SITES};
+use bytemuck::{Pod, Zeroable};
+use iceoryx2::prelude::ZeroCopySend;
+
+/// The integrator's own state: the whole network of dynamic neural fields at one tick (1 kHz).
+///
+/// A cycle is computed from the previous frame straight into this one, in the loaned sample. Sites of all layers
+/// stand in one row, layer after layer, as [`LayerTable`] says; populations likewise.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct FieldFrame {
+    /// Header.
+    pub header: Header,
+    /// Fingerprint of the task that made the network; a frame of another task is not resumed from.
+    pub task: u64,
+    /// State of the network's noise generator.
+    pub noise: [u64; 4],
+    /// Where each layer's sites and populations stand.
+    pub layers: LayerTable,
+    /// The chosen action of the action execution layer.
+    pub decision: Decision,
+    /// Activity u(x, t) of each site (chapter, eq. 1).
+    pub activity: [f64; MAX_SITES],
+    /// Input S(x, t) of each site in this tick (eq. 4 and external input).
+    pub input: [f64; MAX_SITES],
+    /// Resting level h of each population; constant but for memory layers, where forgetting moves it.
+    pub resting: [f64; MAX_POPULATIONS],
+    /// Signal c(t) of each population: 0 at rest, 1 with a full peak (eq. 4).
+    pub signal: [f64; MAX_POPULATIONS],
+    /// Cycle at which the population's present peak crossed threshold; 0 when it holds no peak.
+    pub since: [u64; MAX_POPULATIONS],
+}
+
+/// Where each layer's sites and populations stand in the rows of a [`FieldFrame`].
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct LayerTable {
+    /// How many layers are valid.
+    pub count: u32,
+    /// Reserved, zero.
+    pub reserved: u32,
+    /// [`LayerKind`] of each layer.
+    pub kind: [u32; MAX_LAYERS],
+    /// First site of each layer.
+    pub first_site: [u32; MAX_LAYERS],
+    /// Number of sites of each layer.
+    pub sites: [u32; MAX_LAYERS],
+    /// First population of each layer.
+    pub first_population: [u32; MAX_LAYERS],
+    /// Number of populations of each layer.
+    pub populations: [u32; MAX_LAYERS],
+}
+
+/// What the robot has decided to do.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable, ZeroCopySend)]
+pub struct Decision {
+    /// Index into `Task::actions` of the action whose peak stands in AEL; [`NONE`](crate::NONE) without a peak.
+    pub action: u32,
+    /// Reserved, zero.
+    pub reserved: u32,
+    /// Cycle at which that peak crossed threshold.
+    pub since: u64,
+}
+
+/// The layers of the architecture (chapter, section 3 and figure 2), in the order in which they stand in a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[repr(u32)]
+pub enum LayerKind {
+    /// AOL: observed acts of the person's hand.
+    ActionObservation = 0,
+    /// OML of the robot's workspace.
+    ObjectMemoryRobot = 1,
+    /// OML of the person's workspace.
+    ObjectMemoryPerson = 2,
+    /// CSGL, first sublayer: achieved subgoals.
+    SubgoalsAchieved = 3,
+    /// CSGL, second sublayer: subgoals available now.
+    SubgoalsAvailable = 4,
+    /// ASL: simulated action chains of the person.
+    ActionSimulation = 5,
+    /// IL: inferred goals of the person.
+    Intention = 6,
+    /// EML: detected errors.
+    ErrorMonitoring = 7,
+    /// AEL: the robot's own actions.
+    ActionExecution = 8,
+}

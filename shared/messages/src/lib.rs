@@ -1,0 +1,71 @@
+//! Every message that crosses a process boundary, and nothing else.
+//!
+//! One cycle of the pipeline is a chain of four messages, each 1 kHz, each descending from the one before it:
+//!
+//! ```text
+//! world --SensorSample--> perception --Percept--> fields --FieldFrame--> control --Command--> world
+//! ```
+//!
+//! Beside the chain stand [`Pulse`] (each process, each cycle: what the deadline accounting knows),
+//! [`Truth`] (world to monitor alone), [`WorldState`] (what a restarted world resumes from) and [`Speech`].
+//!
+//! All messages are `repr(C)`, hold no pointer, accept any bit pattern, and begin with a [`Header`]. Their layout
+//! is versioned by [`LAYOUT`]: whoever changes a field raises it.
+//!
+//! A message is also its producer's memory: a stage keeps nothing that its own last message does not hold, so
+//! that a restarted process resumes from the newest message of its predecessor that survives in shared memory.
+//!
+//! ```
+//! use coact_messages::{FieldFrame, Header};
+//!
+//! let frame: Box<FieldFrame> = bytemuck::zeroed_box();
+//! assert_eq!(frame.header, Header::default());
+//! ```
+
+mod command;
+mod field_frame;
+mod header;
+mod percept;
+mod pulse;
+mod sensor_sample;
+mod speech;
+pub mod topic;
+mod truth;
+mod world_state;
+
+pub use command::{Command, MotionPhase};
+pub use field_frame::{Decision, FieldFrame, LayerKind, LayerTable};
+pub use header::{Header, LAYOUT};
+pub use percept::{HandPercept, Percept, PerceptionMemory, WorkspacePercept};
+pub use pulse::Pulse;
+pub use sensor_sample::{HandView, JointReading, Keypoint, KeypointName, SceneView, SensorSample, Sighting};
+pub use speech::Speech;
+pub use truth::{PartnerPhase, Truth};
+pub use world_state::{PartState, WorldState};
+
+/// Joints of arm (7) and hand (8: spread, three finger bases, three finger tips, one reserved), in that order.
+pub const JOINTS: usize = 15;
+/// Arm joints: the first seven of [`JOINTS`].
+pub const ARM_JOINTS: usize = 7;
+/// Observable acts that a task may name (populations of the action observation layer).
+pub const MAX_ACTS: usize = 64;
+/// Kinds of part that a task may name.
+pub const MAX_KINDS: usize = 16;
+/// Single parts that a scene may hold.
+pub const MAX_PARTS: usize = 32;
+/// Subgoals that a plan may name.
+pub const MAX_SUBGOALS: usize = 32;
+/// Layers of the field network.
+pub const MAX_LAYERS: usize = 16;
+/// Populations of the whole field network.
+pub const MAX_POPULATIONS: usize = 320;
+/// Samples (field sites) of the whole field network.
+pub const MAX_SITES: usize = 5120;
+/// Workspaces: index 0 is the robot's, index 1 is the person's.
+pub const WORKSPACES: usize = 2;
+/// The robot's workspace or side.
+pub const ROBOT: usize = 0;
+/// The person's workspace or side.
+pub const PERSON: usize = 1;
+/// "No such index": an absent population, part, kind or subgoal.
+pub const NONE: u32 = u32::MAX;

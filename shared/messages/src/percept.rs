@@ -1,0 +1,69 @@
+use crate::{Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, WORKSPACES};
+use bytemuck::{Pod, Zeroable};
+use iceoryx2::prelude::ZeroCopySend;
+
+/// What perception makes of the sensor samples: evidence in [0, 1], never labels (1 kHz).
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct Percept {
+    /// Header.
+    pub header: Header,
+    /// The person's hand.
+    pub hand: HandPercept,
+    /// Evidence for each observable act, in the order of `Task::acts`: what drives the action observation layer.
+    pub act: [f64; MAX_ACTS],
+    /// What lies in each workspace: [`ROBOT`](crate::ROBOT), [`PERSON`](crate::PERSON).
+    pub workspace: [WorkspacePercept; WORKSPACES],
+    /// Evidence that a subgoal's part is in its place, by subgoal index.
+    pub achieved: [f64; MAX_SUBGOALS],
+    /// Evidence that the robot's hand holds a part of this kind (touch and sight together).
+    pub robot_holds: [f64; MAX_KINDS],
+    /// Evidence that the person's hand holds a part of this kind.
+    pub person_holds: [f64; MAX_KINDS],
+    /// What perception itself must remember from cycle to cycle.
+    pub memory: PerceptionMemory,
+}
+
+/// The person's hand, estimated at this tick.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct HandPercept {
+    /// Wrist position, m.
+    pub wrist: [f64; 3],
+    /// Wrist velocity, m/s.
+    pub velocity: [f64; 3],
+    /// Distance of thumb tip and index tip, m.
+    pub aperture: f64,
+    /// 1 while a reach is under way, else 0.
+    pub reaching: u32,
+    /// 1 while the tracker's evidence is young enough to be used, else 0.
+    pub tracked: u32,
+    /// Cycles since the onset of the present reach; 0 when none is under way.
+    pub since_onset: u64,
+    /// Age of the newest usable hand frame, cycles.
+    pub age: u64,
+}
+
+/// What lies in one workspace, by kind of part.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct WorkspacePercept {
+    /// Evidence that at least one part of this kind lies here and is free (in nobody's hand, not mounted).
+    pub seen: [f64; MAX_KINDS],
+    /// Evidence that none lies here: its place is in view and empty. Neither seen nor gone = out of view.
+    pub gone: [f64; MAX_KINDS],
+    /// Where the one lies that is nearest to the workspace's owner, m; the last known place when out of view.
+    pub position: [[f64; 3]; MAX_KINDS],
+    /// Its orientation, quaternion x, y, z, w.
+    pub orientation: [[f64; 4]; MAX_KINDS],
+}
+
+/// Perception's own memory, carried in its message so that a restarted perception resumes from it.
+///
+/// The words belong to perception alone; other readers ignore them.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct PerceptionMemory {
+    /// Opaque state words; `services/perception` says what each holds.
+    pub word: [f64; 1024],
+}

@@ -1,0 +1,30 @@
+use crate::Header;
+use bytemuck::{Pod, Zeroable};
+use iceoryx2::prelude::ZeroCopySend;
+
+/// One cycle's accounts of one process: its heartbeat, and all that the latency monitor measures from.
+///
+/// Sent after the cycle's own output, so that it holds the output's true publication stamp
+/// (`header.published_ns`). Times are ns of `CLOCK_MONOTONIC`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable, ZeroCopySend)]
+pub struct Pulse {
+    /// Header of the output that this cycle published.
+    pub header: Header,
+    /// Start of the cycle's period: the deadline is one period later.
+    pub released_ns: u64,
+    /// When the cycle was due to start: its release (first stage), its input's arrival event or its latest start.
+    pub scheduled_ns: u64,
+    /// When it did start.
+    pub started_ns: u64,
+    /// Publication stamp of the input that it ran on; 0 without input.
+    pub input_published_ns: u64,
+    /// When that input was received; 0 without input or when the input was stale.
+    pub input_received_ns: u64,
+    /// Deadline misses of this process so far (this generation).
+    pub missed: u64,
+    /// Cycles so far that ran on an input they had used before (this generation).
+    pub stale: u64,
+    /// Cycles skipped so far because the one before overran (this generation).
+    pub skipped: u64,
+}

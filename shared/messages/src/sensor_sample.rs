@@ -1,0 +1,103 @@
+use crate::{Header, JOINTS, MAX_PARTS};
+use bytemuck::{Pod, Zeroable};
+use iceoryx2::prelude::ZeroCopySend;
+
+/// All that the robot's sensors say at one tick (1 kHz). Camera sections repeat until their next frame.
+///
+/// Lengths in m, angles in rad, world frame.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct SensorSample {
+    /// Header; `sensor_ns` is the instant of acquisition.
+    pub header: Header,
+    /// Joint encoders of arm and hand, every tick.
+    pub joints: JointReading,
+    /// The hand tracker's newest frame.
+    pub hand: HandView,
+    /// The object recogniser's newest frame.
+    pub scene: SceneView,
+}
+
+/// Proprioception: joint encoders and fingertip touch.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct JointReading {
+    /// Measured positions, rad; see [`JOINTS`](crate::JOINTS) for the order.
+    pub position: [f64; JOINTS],
+    /// Measured velocities, rad/s.
+    pub velocity: [f64; JOINTS],
+    /// Force that the fingers exert on what they hold, N; 0 when they touch nothing.
+    pub touch: f64,
+}
+
+/// One frame of the hand tracker.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct HandView {
+    /// Frames delivered before this one; unchanged while no new frame came. A dropped frame delivers nothing.
+    pub frame: u64,
+    /// Cycle at which the frame was captured.
+    pub captured_cycle: u64,
+    /// Keypoints in the order of [`KeypointName`].
+    pub keypoints: [Keypoint; 9],
+}
+
+/// One joint of the person's right arm or hand.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable, ZeroCopySend)]
+pub struct Keypoint {
+    /// Position, m, world frame.
+    pub position: [f64; 3],
+    /// The detector's confidence, 0..1; 0 = joint lost in this frame.
+    pub confidence: f64,
+}
+
+/// Index of each keypoint in [`HandView::keypoints`]; the order of the recordings' columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(usize)]
+#[allow(missing_docs, reason = "the names are the anatomical terms")]
+pub enum KeypointName {
+    Shoulder = 0,
+    Elbow = 1,
+    Wrist = 2,
+    PalmBase = 3,
+    ThumbTip = 4,
+    IndexKnuckle = 5,
+    IndexTip = 6,
+    MiddleTip = 7,
+    LittleKnuckle = 8,
+}
+
+/// One frame of the object recogniser.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct SceneView {
+    /// Frames delivered before this one.
+    pub frame: u64,
+    /// Cycle at which the frame was captured.
+    pub captured_cycle: u64,
+    /// How many of `sightings` are valid.
+    pub sightings: u32,
+    /// How many of `occluders` are valid.
+    pub occluders: u32,
+    /// Recognised parts. A part that is occluded, or missed by the recogniser, is absent.
+    pub sighting: [Sighting; MAX_PARTS],
+    /// Opaque boxes that hide what lies behind or below them: centre and half extents, m.
+    pub occluder: [[f64; 6]; 4],
+}
+
+/// One recognised part. The recogniser names the kind, not the individual.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable, ZeroCopySend)]
+pub struct Sighting {
+    /// Kind of part: index into the task's part kinds.
+    pub kind: u32,
+    /// Reserved, zero.
+    pub reserved: u32,
+    /// The recogniser's confidence, 0..1.
+    pub confidence: f64,
+    /// Position of the part's grasp frame, m.
+    pub position: [f64; 3],
+    /// Orientation of that frame, quaternion x, y, z, w.
+    pub orientation: [f64; 4],
+}

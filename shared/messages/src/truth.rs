@@ -1,0 +1,43 @@
+use crate::Header;
+use bytemuck::{Pod, Zeroable};
+use iceoryx2::prelude::ZeroCopySend;
+
+/// What really happens, for the monitor alone: no other service may subscribe to this topic (1 kHz).
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct Truth {
+    /// Header.
+    pub header: Header,
+    /// The person's actions begun so far (an action starts at reach onset; idling is none).
+    pub actions: u32,
+    /// [`PartnerPhase`] of the person now.
+    pub phase: u32,
+    /// Chain that the person is carrying out: index into `Task::chains`, or [`NONE`](crate::NONE).
+    pub chain: u32,
+    /// Subgoal that the person means to bring about: index into `Task::subgoals`, or [`NONE`](crate::NONE).
+    pub subgoal: u32,
+    /// Cycle of the present (or last) action's reach onset.
+    pub onset_cycle: u64,
+    /// Cycle at which the fingers closed on the part (a gesture: at which it was fully shown); 0 until then.
+    pub grasp_cycle: u64,
+    /// Bit i set: subgoal i's part is really in its place.
+    pub achieved: u64,
+    /// Completed assemblies before the present one (the scene is laid out again after each).
+    pub assemblies: u64,
+}
+
+/// What the person is doing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+pub enum PartnerPhase {
+    /// Hand at rest.
+    Idle = 0,
+    /// From onset until the fingers have closed (or the gesture is fully shown).
+    Reach = 1,
+    /// Carrying the part to its place or to the robot.
+    Transport = 2,
+    /// At the place: mounting it, holding it out, or keeping the gesture up.
+    Act = 3,
+    /// Moving the empty hand back to rest.
+    Withdraw = 4,
+}

@@ -1,0 +1,43 @@
+use crate::{Header, JOINTS, MAX_PARTS};
+use bytemuck::{Pod, Zeroable};
+use iceoryx2::prelude::ZeroCopySend;
+
+/// The world's own memory: what a restarted world resumes from. Read by the supervisor's keeper alone (1 kHz).
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+pub struct WorldState {
+    /// Header.
+    pub header: Header,
+    /// Fingerprint of the task; a state of another task is not resumed from.
+    pub task: u64,
+    /// Joint positions, rad.
+    pub position: [f64; JOINTS],
+    /// Joint velocities, rad/s.
+    pub velocity: [f64; JOINTS],
+    /// How many of `part` are valid.
+    pub parts: u64,
+    /// Every part of the scene.
+    pub part: [PartState; MAX_PARTS],
+    /// Opaque words: partner, random generators, sensors; `services/world` says what each holds.
+    pub memory: [f64; 768],
+}
+
+/// Where one part is and who has it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable, ZeroCopySend)]
+pub struct PartState {
+    /// Position, m.
+    pub position: [f64; 3],
+    /// Orientation, quaternion x, y, z, w.
+    pub orientation: [f64; 4],
+    /// Velocity, m/s.
+    pub velocity: [f64; 3],
+    /// Kind of part: index into the task's part kinds.
+    pub kind: u32,
+    /// 0 free, 1 in the robot's hand, 2 in the person's hand, 3 mounted.
+    pub state: u32,
+    /// Subgoal that it fulfils when mounted, or [`NONE`](crate::NONE).
+    pub subgoal: u32,
+    /// Reserved, zero.
+    pub reserved: u32,
+}

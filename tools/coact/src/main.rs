@@ -1,0 +1,2 @@
+//! coact: the operator's command line.
+fn main() {}
