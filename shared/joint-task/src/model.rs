@@ -70,6 +70,8 @@ pub struct Subgoal {
     pub side: Agent,
     /// Where the part's frame ends up: position, m.
     pub socket: [f64; 3],
+    /// Where the part's own z axis points when it is in place; unit vector.
+    pub axis: [f64; 3],
     /// True if the other one steadies the base meanwhile.
     pub held: bool,
     /// Indices of the subgoals that must be achieved before.
@@ -127,6 +129,8 @@ pub struct Chain {
     pub from: Agent,
     /// Whose subgoal it serves.
     pub side: Agent,
+    /// Name of the robot's action that complements it, if one does: with the chain's subgoal it names an action.
+    pub answer: Option<String>,
 }
 
 /// Something that the robot can do.

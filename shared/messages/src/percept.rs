@@ -16,6 +16,8 @@ pub struct Percept {
     pub workspace: [WorkspacePercept; WORKSPACES],
     /// Evidence that a subgoal's part is in its place, by subgoal index.
     pub achieved: [f64; MAX_SUBGOALS],
+    /// Evidence that a subgoal's place is in view and empty. Neither achieved nor open = out of view.
+    pub open: [f64; MAX_SUBGOALS],
     /// Evidence that the robot's hand holds a part of this kind (touch and sight together).
     pub robot_holds: [f64; MAX_KINDS],
     /// Evidence that the person's hand holds a part of this kind.
