@@ -1,10 +1,12 @@
 //! A joint task from a file: parts, plan, what a person's hand can show, what the robot can do, and the rules that
 //! make populations and synapses of the field network from it.
 
+mod error;
+mod file;
+mod load;
 mod model;
 mod task;
 
-pub use model::{
-    Act, Action, Agent, Chain, Gesture, Grip, Kind, Motion, Part, Scene, Shape, Subgoal,
-};
-pub use task::{Task, TaskError};
+pub use error::TaskError;
+pub use model::{Act, Action, Agent, Chain, Gesture, Grip, Kind, Motion, Part, Scene, Shape, Subgoal};
+pub use task::Task;

@@ -138,6 +138,8 @@ pub struct Chain {
 pub struct Action {
     /// Its name with its object, e.g. "insert: wheel on the robot's side".
     pub name: String,
+    /// Name of the rule that made it, e.g. "insert".
+    pub rule: String,
     /// The motor skill.
     pub motion: Motion,
     /// Index of the kind of part that it handles.

@@ -1,4 +1,5 @@
-use crate::{Act, Action, Chain, Gesture, Grip, Kind, Part, Scene, Subgoal};
+use crate::{Act, Action, Chain, Gesture, Grip, Kind, Motion, Part, Scene, Subgoal, TaskError};
+use std::path::Path;
 
 /// A joint task as its file describes it: parts, plan, what the person's hand can show, what the robot can do.
 ///
@@ -30,17 +31,34 @@ pub struct Task {
     pub fingerprint: u64,
 }
 
-/// Why a task file was refused.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct TaskError(pub String);
-
 impl Task {
-    /// Reads a task file and the network file that it names.
+    /// Reads a task file; see `rt-config/tasks/toy-vehicle.toml` for what stands in one.
     ///
     /// # Errors
     /// A [`TaskError`] that names file, line, key and what was expected.
-    pub fn load(path: &std::path::Path) -> Result<Self, TaskError> {
-        Err(TaskError(format!("{}: not yet readable", path.display())))
+    pub fn load(path: &Path) -> Result<Self, TaskError> {
+        crate::load::load(path).map(|(task, _)| task)
+    }
+
+    /// The subgoal that `chain` serves: of its kind and side; if its kind is needed on the other side only, that one.
+    ///
+    /// Several subgoals of one kind and side are told apart by `open`, which says whether a subgoal may be meant.
+    pub fn goal_of(&self, chain: usize, open: impl Fn(usize) -> bool) -> Option<usize> {
+        let Chain { kind, side, .. } = self.chains[chain];
+        let meant = |index: &usize| self.subgoals[*index].kind == kind && self.subgoals[*index].side == side;
+        let mut own = (0..self.subgoals.len()).filter(meant);
+        own.clone()
+            .find(|&index| open(index))
+            .or_else(|| own.next())
+            .or_else(|| (0..self.subgoals.len()).find(|&index| self.subgoals[index].kind == kind))
+    }
+
+    /// The robot's action that complements `chain` when it serves `subgoal`; none where the task names none.
+    pub fn complement(&self, chain: usize, subgoal: usize) -> Option<usize> {
+        let answer = self.chains[chain].answer.as_ref()?;
+        self.actions.iter().position(|action| {
+            let wanted = action.motion != Motion::Hold || self.subgoals[subgoal].held;
+            action.rule == *answer && wanted && action.subgoal.is_none_or(|own| own == subgoal)
+        })
     }
 }

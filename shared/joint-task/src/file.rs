@@ -1,0 +1,146 @@
+//! The task file as it is written: names where [`Task`](crate::Task) has indices, degrees where it has radians.
+
+use crate::{Agent, Motion, Shape};
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A name with its place in the file, for errors that point at it.
+pub(crate) type Name = Spanned<String>;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TaskFile {
+    pub name: String,
+    pub network: Name,
+    pub kind: Vec<KindEntry>,
+    pub part: Vec<PartEntry>,
+    pub subgoal: Vec<SubgoalEntry>,
+    pub grip: Vec<GripEntry>,
+    #[serde(default)]
+    pub gesture: Vec<GestureEntry>,
+    pub chain: Vec<ChainEntry>,
+    pub action: Vec<ActionEntry>,
+    pub scene: SceneEntry,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct KindEntry {
+    pub name: Name,
+    pub width: Spanned<f64>,
+    pub shape: Shape,
+    pub mass: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PartEntry {
+    pub kind: Name,
+    pub workspace: Agent,
+    pub at: Spanned<[f64; 2]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SubgoalEntry {
+    pub name: Name,
+    pub kind: Name,
+    pub side: Agent,
+    pub socket: SocketEntry,
+    #[serde(default)]
+    pub held: bool,
+    #[serde(default)]
+    pub after: Vec<Name>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SocketEntry {
+    pub at: Spanned<[f64; 3]>,
+    #[serde(default = "upright")]
+    pub axis: [f64; 3],
+}
+
+fn upright() -> [f64; 3] {
+    [0.0, 0.0, 1.0]
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GripEntry {
+    pub name: Name,
+    pub pitch: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GestureEntry {
+    pub name: Name,
+    pub pitch: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ChainEntry {
+    pub name: Name,
+    pub grip: Option<Name>,
+    pub gesture: Option<Name>,
+    pub from: Agent,
+    pub side: Agent,
+    pub answer: Option<Name>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ActionEntry {
+    pub name: Name,
+    pub motion: Motion,
+    #[serde(rename = "for")]
+    pub each: Each,
+    pub side: Option<Agent>,
+}
+
+/// For what a rule of the file makes one entry each.
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Each {
+    Once,
+    Kind,
+    Subgoal,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SceneEntry {
+    pub table: TableEntry,
+    pub platform: PlatformEntry,
+    pub hold: [f64; 3],
+    pub handover: [f64; 3],
+    pub person_rest: [f64; 3],
+    pub person_shoulder: [f64; 3],
+    pub robot_workspace: RectangleEntry,
+    pub person_workspace: RectangleEntry,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TableEntry {
+    pub height: f64,
+    pub centre: [f64; 2],
+    pub size: [f64; 2],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlatformEntry {
+    pub at: [f64; 3],
+    pub radius: f64,
+    pub height: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RectangleEntry {
+    pub min: [f64; 2],
+    pub max: [f64; 2],
+}
