@@ -24,3 +24,32 @@ pub fn pulse(process: &str) -> String {
 pub fn resume(topic: &str) -> String {
     format!("{topic}/resume")
 }
+
+/// The topic whose newest message is all the memory that `process` has; `None` for a process that needs none.
+pub fn state_of(process: &str) -> Option<&'static str> {
+    match process {
+        "world" => Some(WORLD_STATE),
+        "perception" => Some(PERCEPT),
+        "fields" => Some(FIELDS),
+        "control" => Some(COMMAND),
+        _ => None,
+    }
+}
+
+/// True if each message of `topic` is announced by an event, so that a process may wait for it.
+pub fn announces(topic: &str) -> bool {
+    matches!(topic, SENSORS | PERCEPT | FIELDS | COMMAND)
+}
+
+/// How many messages of `topic` a reader may fall behind without losing one.
+///
+/// The chain wants the newest message only. Accounts, truth and sentences must all arrive at a monitor that
+/// looks a few times a second.
+pub fn depth(topic: &str) -> usize {
+    match topic {
+        TRUTH => 512,
+        SPEECH => 32,
+        _ if topic.starts_with("coact/pulse/") => 512,
+        _ => 2,
+    }
+}

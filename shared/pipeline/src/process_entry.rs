@@ -1,0 +1,37 @@
+use std::time::Duration;
+
+/// One process of the table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProcessEntry {
+    /// Its name: what operators, reports and topics call it.
+    pub name: String,
+    /// The program that is started: a file beside the supervisor's own, or a path.
+    pub program: String,
+    /// Processes are started in ascending order, and stopped in descending order; equal ones together.
+    pub order: u32,
+    /// True if it is to run under SCHED_FIFO with locked memory.
+    pub realtime: bool,
+    /// SCHED_FIFO priority, 1 to 99; used when `realtime`.
+    pub priority: u8,
+    /// Core to which it is pinned; any core when absent.
+    pub core: Option<usize>,
+    /// What starts its cycle.
+    pub trigger: Trigger,
+    /// Offset from the release at which a cycle starts without its trigger's message, µs; 0 for the timer.
+    pub latest_start_us: u64,
+    /// How long it may take from its start to its report of readiness.
+    pub ready_within: Duration,
+    /// How long it may take to stop after SIGTERM before it is killed.
+    pub stop_grace: Duration,
+}
+
+/// What starts the cycle of a process.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Trigger {
+    /// The release of each period.
+    Timer,
+    /// Arrival of a message on this topic.
+    Topic(String),
+    /// Nothing: the process follows the run at its own pace (monitor, voice).
+    None,
+}

@@ -1,0 +1,24 @@
+use serde::{Deserialize, Serialize};
+
+/// What a process reports when it is ready to run: in `<run>/ready/<name>.<generation>.json`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Ready {
+    /// Its name in the process table.
+    pub process: String,
+    /// How often it was restarted in this run; 0 for the first start.
+    pub generation: u32,
+    /// Its process id.
+    pub pid: u32,
+    /// Scheduling class obtained: "SCHED_FIFO" or "SCHED_OTHER".
+    pub scheduler: String,
+    /// Real-time priority obtained; 0 for SCHED_OTHER.
+    pub priority: u8,
+    /// Core to which it is pinned, if it is.
+    pub core: Option<usize>,
+    /// True if all its present and future memory is locked.
+    pub memory_locked: bool,
+    /// Everything it asked for and was refused, each with the reason; empty when it got what it asked for.
+    pub why_not: Vec<String>,
+    /// True if it goes on from the newest surviving message of its predecessor.
+    pub resumed: bool,
+}

@@ -1,0 +1,37 @@
+use std::path::PathBuf;
+
+/// Why a run directory could not be made or used.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// A file or directory of the run refused an operation.
+    #[error("{}: {operation}: {source}", path.display())]
+    File {
+        /// The file or directory.
+        path: PathBuf,
+        /// What was tried.
+        operation: &'static str,
+        /// Why it failed.
+        source: std::io::Error,
+    },
+    /// A file of the run does not hold what it should.
+    #[error("{}: {problem}; expected a file that a coact supervisor of this version wrote", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Shared memory is full: a process that touches a page it does not get is killed by SIGBUS.
+    #[error(
+        "{}: {free_mib} MiB of shared memory are free; expected at least {needed_mib} MiB: remove stale files or remount it larger",
+        path.display()
+    )]
+    SharedMemoryFull {
+        /// The file system of shared memory.
+        path: PathBuf,
+        /// Free space, MiB.
+        free_mib: u64,
+        /// Space that a run needs, MiB.
+        needed_mib: u64,
+    },
+}

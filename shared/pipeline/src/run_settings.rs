@@ -1,0 +1,47 @@
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// What a run is made of: every process finds it in the run directory. Paths are absolute.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunSettings {
+    /// The task file.
+    pub task: PathBuf,
+    /// The robot's URDF.
+    pub robot: PathBuf,
+    /// The perception model.
+    pub model: PathBuf,
+    /// The process table.
+    pub pipeline: PathBuf,
+    /// Where reports go; it outlives the run.
+    pub report: PathBuf,
+    /// Seed of every random generator of the run.
+    pub seed: u64,
+    /// The partner: `synthetic`, `script:FILE` or `recorded:DIR`.
+    pub partner: String,
+    /// How the world computes.
+    pub world: WorldMode,
+}
+
+/// How the world computes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum WorldMode {
+    /// Rigid bodies with contact forces.
+    #[default]
+    Physics,
+    /// Same sensors and truth, without contact forces.
+    Kinematic,
+}
+
+impl std::str::FromStr for WorldMode {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "physics" => Ok(Self::Physics),
+            "kinematic" => Ok(Self::Kinematic),
+            _ => Err(format!("world \"{text}\" is unknown; expected physics or kinematic")),
+        }
+    }
+}
