@@ -1,0 +1,18 @@
+/// Why the whole set was given up.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{process}: {reason}{}", quoted(.last_words))]
+pub struct GaveUp {
+    /// Name of the process.
+    pub process: String,
+    /// What happened to it and why it was not started again.
+    pub reason: String,
+    /// Its last lines on standard error.
+    pub last_words: Vec<String>,
+    /// True when it refused its configuration (exit status 2): starting it again cannot help.
+    pub configuration: bool,
+}
+
+/// The last lines, indented below the reason.
+fn quoted(lines: &[String]) -> String {
+    lines.iter().map(|line| format!("\n    {line}")).collect()
+}

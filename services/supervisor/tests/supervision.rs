@@ -1,0 +1,269 @@
+//! The supervision of real processes, with shell scripts in place of services.
+#![allow(clippy::unwrap_used)]
+
+use coact_supervisor::{
+    Event, EventKind, EventLog, Fault, GaveUp, Intensity, ProcessSet, ProcessSpec, Refusal, Survivors,
+};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+const READY_AND_RUN: &str = "touch \"$READY\"; exec sleep 600";
+
+/// A folder for ready files and report, and the set that is tried in it.
+struct Trial {
+    folder: tempfile::TempDir,
+    set: ProcessSet,
+    events: Vec<Event>,
+}
+
+/// What was asked of it, in order.
+#[derive(Default)]
+struct Offers(Vec<String>);
+
+impl Survivors for Offers {
+    fn offer(&mut self, process: &str) {
+        self.0.push(format!("offer {process}"));
+    }
+    fn recovered(&mut self, process: &str) {
+        self.0.push(format!("recovered {process}"));
+    }
+}
+
+fn script(folder: &Path, name: &str, script: &str) -> ProcessSpec {
+    let ready_file = folder.join(format!("{name}.ready"));
+    let script = format!("READY='{}'; DIR='{}'; {script}", ready_file.display(), folder.display());
+    ProcessSpec {
+        name: name.into(),
+        program: "/bin/sh".into(),
+        arguments: vec!["-c".into(), script.into()],
+        ready_file,
+        ready_within: Duration::from_secs(60),
+        hung_after: None,
+    }
+}
+
+impl Trial {
+    fn of(scripts: &[(&str, &str)]) -> Self {
+        Self::with(scripts, |_| {})
+    }
+
+    fn with(scripts: &[(&str, &str)], change: impl Fn(&mut ProcessSpec)) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let mut specs: Vec<_> =
+            scripts.iter().map(|(name, text)| script(folder.path(), name, text)).collect();
+        specs.iter_mut().for_each(change);
+        let intensity = Intensity {
+            restarts: 3,
+            period: Duration::from_secs(600),
+            backoff: Duration::from_millis(1),
+            longest_backoff: Duration::from_millis(4),
+        };
+        let log = EventLog::create(folder.path()).unwrap();
+        let set = ProcessSet::new(specs, intensity, log, Arc::new(|_, _| {}));
+        Self { folder, set, events: Vec::new() }
+    }
+
+    /// Advances until `done`, or the set is given up.
+    fn until(&mut self, survivors: &mut dyn Survivors, done: impl Fn(&Self) -> bool) -> Result<(), GaveUp> {
+        let begin = Instant::now();
+        while !done(self) {
+            assert!(begin.elapsed() < Duration::from_secs(60), "it never came: {:#?}", self.events);
+            self.set.wait(Duration::from_millis(2));
+            let outcome = self.set.advance(survivors);
+            self.events.extend(self.set.take_news());
+            outcome?;
+        }
+        Ok(())
+    }
+
+    fn run_until_ready(&mut self) {
+        self.until(&mut (), |trial| trial.set.all_ready()).unwrap();
+    }
+
+    fn gives_up(&mut self) -> GaveUp {
+        self.until(&mut (), |_| false).unwrap_err()
+    }
+
+    fn pid(&self, name: &str) -> u32 {
+        self.set.pids().find(|(other, _)| *other == name).unwrap().1
+    }
+
+    fn count(&self, kind: EventKind, process: &str) -> usize {
+        self.events.iter().filter(|event| event.event == kind && event.process == process).count()
+    }
+
+    fn story(&self) -> Vec<(EventKind, &str)> {
+        self.events.iter().map(|event| (event.event, event.process.as_str())).collect()
+    }
+}
+
+fn exists(pid: u32) -> bool {
+    Path::new(&format!("/proc/{pid}")).exists()
+}
+
+#[test]
+fn each_process_starts_when_those_before_it_are_ready() {
+    use EventKind::{Ready, Started};
+    let slowly = "sleep 0.2; touch \"$READY\"; exec sleep 600";
+    let mut trial = Trial::of(&[("first", slowly), ("second", READY_AND_RUN), ("third", READY_AND_RUN)]);
+    trial.run_until_ready();
+    let expected = [
+        (Started, "first"),
+        (Ready, "first"),
+        (Started, "second"),
+        (Ready, "second"),
+        (Started, "third"),
+        (Ready, "third"),
+    ];
+    assert_eq!(trial.story(), expected);
+}
+
+#[test]
+fn a_killed_process_is_replaced_after_its_survivors_were_offered_and_the_others_run_on() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN), ("b", READY_AND_RUN)]);
+    trial.run_until_ready();
+    let (a, b) = (trial.pid("a"), trial.pid("b"));
+    trial.set.inject("a", Fault::Kill).unwrap();
+    let mut offers = Offers::default();
+    trial.until(&mut offers, |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
+    assert_eq!(offers.0, ["offer a", "recovered a"]);
+    assert_eq!(trial.pid("b"), b);
+    assert_ne!(trial.pid("a"), a);
+    let died = trial.events.iter().find(|event| event.event == EventKind::Died).unwrap();
+    assert_eq!((died.pid, died.reason.as_deref()), (a, Some("killed by SIGKILL")));
+    assert_eq!(died.fault.as_deref(), Some("kill"));
+    let restarted = trial.events.iter().find(|event| event.event == EventKind::Restarted).unwrap();
+    assert_eq!((restarted.generation, restarted.pid), (1, trial.pid("a")));
+}
+
+#[test]
+fn crash_on_start_kills_the_replacement_before_it_is_ready_and_the_next_one_lives() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN)]);
+    trial.run_until_ready();
+    trial.set.inject("a", Fault::CrashOnStart).unwrap();
+    trial.until(&mut (), |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
+    let ready = trial.events.iter().rfind(|event| event.event == EventKind::Ready).unwrap();
+    assert_eq!(ready.generation, 2);
+    assert_eq!(trial.count(EventKind::Died, "a"), 2);
+}
+
+#[test]
+fn a_process_killed_while_it_starts_is_started_again() {
+    let dies_once = "if mkdir \"$DIR/once\" 2>/dev/null; then kill -9 $$; fi; touch \"$READY\"; exec sleep 600";
+    let mut trial = Trial::of(&[("a", dies_once), ("b", READY_AND_RUN)]);
+    trial.run_until_ready();
+    assert_eq!(trial.count(EventKind::Died, "a"), 1);
+    assert_eq!(trial.count(EventKind::Restarted, "a"), 1);
+    assert_eq!(trial.count(EventKind::Started, "b"), 1);
+}
+
+#[test]
+fn a_stopped_process_goes_on_after_its_pause_when_silence_is_allowed() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN)]);
+    trial.run_until_ready();
+    let pid = trial.pid("a");
+    let state = |_: &Trial| std::fs::read_to_string(format!("/proc/{pid}/stat")).unwrap().contains(") T ");
+    trial.set.inject("a", Fault::Stop).unwrap();
+    trial.until(&mut (), state).unwrap();
+    trial.until(&mut (), |trial| !state(trial)).unwrap();
+    assert_eq!(trial.count(EventKind::Died, "a"), 0);
+}
+
+#[test]
+fn a_stopped_process_that_stays_silent_for_too_long_is_killed_as_hung_and_replaced() {
+    let mut trial = Trial::with(&[("a", READY_AND_RUN), ("b", READY_AND_RUN)], |spec| {
+        spec.hung_after = (spec.name == "a").then_some(Duration::from_millis(300));
+    });
+    trial.run_until_ready();
+    trial.set.inject("a", Fault::Stop).unwrap();
+    trial.until(&mut (), |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
+    let died = trial.events.iter().find(|event| event.event == EventKind::Died).unwrap();
+    assert_eq!(died.reason.as_deref(), Some("hung: no pulse for more than 300 ms"));
+    assert_eq!(died.fault.as_deref(), Some("stop"));
+}
+
+#[test]
+fn a_process_that_refuses_its_configuration_is_not_started_again() {
+    let mut trial = Trial::of(&[("a", "echo 'task.toml:3: no such kind' >&2; exit 2")]);
+    let gave_up = trial.gives_up();
+    assert!(gave_up.configuration);
+    assert_eq!(gave_up.last_words, ["task.toml:3: no such kind"]);
+    assert_eq!(trial.count(EventKind::Restarted, "a"), 0);
+}
+
+#[test]
+fn a_process_that_dies_over_and_over_is_given_up_with_its_last_words() {
+    let mut trial = Trial::of(&[("a", "echo 'the arm is on fire' >&2; exit 1")]);
+    let gave_up = trial.gives_up();
+    assert!(!gave_up.configuration);
+    assert_eq!(trial.count(EventKind::Restarted, "a"), 3);
+    assert_eq!(trial.count(EventKind::GaveUp, "a"), 1);
+    let text = gave_up.to_string();
+    for part in ["exit status 1", "4 restarts within 600 s, 3 are allowed", "the arm is on fire"] {
+        assert!(text.contains(part), "{text}");
+    }
+}
+
+#[test]
+fn a_process_that_never_gets_ready_is_given_up_with_the_reason() {
+    let mut trial = Trial::with(&[("a", "echo 'waiting for the camera' >&2; exec sleep 600")], |spec| {
+        spec.ready_within = Duration::from_millis(200);
+    });
+    let gave_up = trial.gives_up();
+    assert_eq!(gave_up.reason, "not ready within 0.2 s");
+    assert_eq!(gave_up.last_words, ["waiting for the camera"]);
+}
+
+#[test]
+fn a_program_that_does_not_exist_is_named() {
+    let mut trial = Trial::with(&[("a", "")], |spec| spec.program = "/no/such/program".into());
+    assert!(trial.gives_up().reason.contains("/no/such/program"));
+}
+
+#[test]
+fn all_are_stopped_in_reverse_order_the_accountant_last_and_the_deaf_by_force() {
+    let deaf = "trap '' TERM; touch \"$READY\"; while :; do sleep 0.01; done";
+    let mut trial =
+        Trial::of(&[("a", READY_AND_RUN), ("deaf", deaf), ("accountant", READY_AND_RUN), ("z", READY_AND_RUN)]);
+    trial.run_until_ready();
+    let pids: Vec<u32> = trial.set.pids().map(|(_, pid)| pid).collect();
+    trial.events.clear();
+    trial.set.stop(Duration::from_millis(300), "accountant", || {});
+    trial.events.extend(trial.set.take_news());
+    let order: Vec<&str> = trial.story().iter().map(|(_, name)| *name).collect();
+    assert_eq!(order, ["z", "deaf", "a", "accountant"]);
+    assert!(trial.events.iter().all(|event| event.event == EventKind::Stopped));
+    assert!(trial.events[1].reason.as_deref().unwrap().starts_with("killed"), "{:?}", trial.events[1]);
+    assert!(pids.into_iter().all(|pid| !exists(pid)));
+}
+
+#[test]
+fn a_dropped_set_leaves_no_process_behind() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN), ("b", READY_AND_RUN)]);
+    trial.run_until_ready();
+    let pids: Vec<u32> = trial.set.pids().map(|(_, pid)| pid).collect();
+    assert!(pids.iter().all(|&pid| exists(pid)));
+    drop(trial);
+    assert!(pids.into_iter().all(|pid| !exists(pid)));
+}
+
+#[test]
+fn an_unknown_process_is_refused_with_the_names_that_there_are() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN), ("b", READY_AND_RUN)]);
+    let refusal = trial.set.inject("c", Fault::Kill).unwrap_err();
+    assert_eq!(refusal.to_string(), "unknown process 'c'; this set has: a, b");
+    assert_eq!(trial.set.inject("a", Fault::Kill), Err(Refusal::NotRunning("a".into())));
+}
+
+#[test]
+fn the_log_on_disk_holds_every_event() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN)]);
+    trial.run_until_ready();
+    trial.set.inject("a", Fault::Kill).unwrap();
+    trial.until(&mut (), |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
+    let text = std::fs::read_to_string(trial.folder.path().join(EventLog::FILE)).unwrap();
+    let logged: Vec<Event> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(logged, trial.events);
+    assert!(logged.is_sorted_by_key(|event| event.at_ns));
+}
