@@ -5,8 +5,14 @@ mod error;
 mod file;
 mod load;
 mod model;
+mod network_file;
+mod network_plan;
+mod population;
 mod task;
+mod wiring;
 
 pub use error::TaskError;
 pub use model::{Act, Action, Agent, Chain, Gesture, Grip, Kind, Motion, Part, Scene, Shape, Subgoal};
+pub use network_plan::{Channel, ChannelPlan, LayerPlan, NetworkPlan, Synapse};
+pub use population::Population;
 pub use task::Task;

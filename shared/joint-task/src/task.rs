@@ -40,6 +40,17 @@ impl Task {
         crate::load::load(path).map(|(task, _)| task)
     }
 
+    /// The observable act at `index`, in words.
+    pub fn act_name(&self, index: usize) -> String {
+        match self.acts[index] {
+            Act::Rest => "rest".into(),
+            Act::Idle => "idle".into(),
+            Act::Reach => "reach".into(),
+            Act::Gesture(gesture) => self.gestures[gesture].name.clone(),
+            Act::Grasp { grip, kind } => format!("{} grip: {}", self.grips[grip].name, self.kinds[kind].name),
+        }
+    }
+
     /// The subgoal that `chain` serves: of its kind and side; if its kind is needed on the other side only, that one.
     ///
     /// Several subgoals of one kind and side are told apart by `open`, which says whether a subgoal may be meant.

@@ -1,0 +1,108 @@
+//! The network file as it is written.
+
+use crate::{Agent, file::Name};
+use serde::Deserialize;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct NetworkFile {
+    pub sites: SitesEntry,
+    pub layer: Vec<LayerEntry>,
+    pub synapse: Vec<RuleEntry>,
+    #[serde(default)]
+    pub forgetting: Vec<RuleEntry>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SitesEntry {
+    pub per_population: Spanned<usize>,
+    pub spacing: f64,
+    pub input_sigma: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LayerEntry {
+    pub name: Name,
+    pub tau: f64,
+    pub h: Spanned<f64>,
+    pub slope: f64,
+    #[serde(default)]
+    pub threshold: f64,
+    pub gain: f64,
+    #[serde(default)]
+    pub noise: f64,
+    pub kernel: KernelEntry,
+    pub forgets: Option<ForgetsEntry>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct KernelEntry {
+    pub amplitude: f64,
+    pub sigma: f64,
+    pub inhibition: f64,
+    pub range: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ForgetsEntry {
+    pub h_min: f64,
+    pub r_min: f64,
+    pub r_max: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RuleEntry {
+    pub from: Selector,
+    pub to: Selector,
+    #[serde(default)]
+    pub same: Vec<Attribute>,
+    pub relation: Option<Relation>,
+    #[serde(default)]
+    pub share: bool,
+    #[serde(default)]
+    pub weight: f64,
+    #[serde(default)]
+    pub why: String,
+}
+
+/// Which populations or channels a rule speaks of.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Selector {
+    pub layer: Name,
+    pub role: Option<Name>,
+    pub side: Option<Agent>,
+    pub workspace: Option<Agent>,
+    pub held: Option<bool>,
+    pub first: Option<bool>,
+}
+
+/// What two populations may have in common.
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Attribute {
+    Act,
+    Kind,
+    Grip,
+    Gesture,
+    Subgoal,
+    Side,
+    Workspace,
+    Chain,
+}
+
+/// A relation that the task itself defines.
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Relation {
+    /// The plan puts the source's subgoal before the target's.
+    Before,
+    /// The source's chain names the target's rule as its answer.
+    Answers,
+}

@@ -1,0 +1,119 @@
+use crate::{Population, Task, TaskError, wiring};
+use coact_messages::LayerKind;
+use coact_neural_field::{Forgetting, Parameters};
+use std::ops::Range;
+use std::path::Path;
+
+/// The network of a task, ready to be integrated: layers, populations and the synapse table.
+///
+/// Populations of all layers stand in one row, layer after layer, in the order of [`LayerKind`]; behind them stand
+/// the channels of the percept. A [`Synapse`] names its ends by their place in that row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NetworkPlan {
+    /// All layers, in the order of [`LayerKind`].
+    pub layers: Vec<LayerPlan>,
+    /// All populations, layer after layer.
+    pub populations: Vec<Population>,
+    /// The percept's channels.
+    pub channels: Vec<ChannelPlan>,
+    /// Synapses, sorted by target, then source.
+    pub synapses: Vec<Synapse>,
+    /// Which channel makes which memory population forget.
+    pub forgetting: Vec<Synapse>,
+    /// Why each rule stands in the network file, by [`Synapse::rule`].
+    pub reasons: Vec<String>,
+    /// Sites of each population.
+    pub sites_per_population: usize,
+}
+
+/// One layer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayerPlan {
+    /// Which layer it is.
+    pub kind: LayerKind,
+    /// Constants of its field.
+    pub parameters: Parameters,
+    /// Resting level h.
+    pub resting: f64,
+    /// K of equation 4: the input that ignites a population at rest.
+    pub gain: f64,
+    /// Standard deviation of each population's noise, in units of the gain.
+    pub noise: f64,
+    /// How it forgets, if it remembers.
+    pub forgetting: Option<Forgetting>,
+    /// Its populations in the row of all.
+    pub populations: Range<usize>,
+}
+
+/// One channel of the percept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelPlan {
+    /// Where its value stands.
+    pub channel: Channel,
+    /// What it stands for.
+    pub meaning: Population,
+}
+
+/// Where a channel's value stands in the percept; the number is the act's, kind's or subgoal's index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the names are those of the percept's fields")]
+pub enum Channel {
+    Always,
+    Act(usize),
+    Seen { workspace: usize, kind: usize },
+    Gone { workspace: usize, kind: usize },
+    Achieved(usize),
+    Open(usize),
+    RobotHolds(usize),
+    PersonHolds(usize),
+}
+
+/// One connection of strength a_mj (chapter, eq. 4), in units of the target's ignition threshold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Synapse {
+    /// Source: a population, or behind all populations, a channel.
+    pub from: usize,
+    /// Target population.
+    pub to: usize,
+    /// Strength.
+    pub weight: f64,
+    /// The rule that made it: index into [`NetworkPlan::reasons`].
+    pub rule: usize,
+}
+
+impl NetworkPlan {
+    /// Makes the network of the task file at `path` by the rules of the network file that it names.
+    ///
+    /// # Errors
+    /// A [`TaskError`] that names file, line, key and what was expected.
+    pub fn load(path: &Path) -> Result<(Task, Self), TaskError> {
+        let (mut task, network) = crate::load::load(path)?;
+        let (plan, fingerprint) = wiring::wire(&task, &network)?;
+        task.fingerprint ^= fingerprint;
+        Ok((task, plan))
+    }
+
+    /// The layer of `kind`.
+    pub fn layer(&self, kind: LayerKind) -> &LayerPlan {
+        &self.layers[kind as usize]
+    }
+
+    /// The populations of the layer of `kind`.
+    pub fn populations_of(&self, kind: LayerKind) -> &[Population] {
+        &self.populations[self.layer(kind).populations.clone()]
+    }
+
+    /// What stands at place `index` of the row of populations and channels.
+    pub fn meaning(&self, index: usize) -> &Population {
+        self.populations.get(index).unwrap_or_else(|| &self.channels[index - self.populations.len()].meaning)
+    }
+
+    /// Population of the intention layer that stands for `chain` (index into `Task::chains`) serving `subgoal`.
+    pub fn goal(&self, chain: usize, subgoal: usize) -> Option<usize> {
+        let layer = self.layer(LayerKind::Intention).populations.clone();
+        layer.into_iter().find(|&index| {
+            let goal = &self.populations[index];
+            goal.chain_index == Some(chain) && goal.subgoal == Some(subgoal)
+        })
+    }
+}

@@ -1,0 +1,61 @@
+use crate::Kernel;
+
+/// Constants of one field.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameters {
+    /// Time scale tau, in the unit of the step (ms here).
+    pub tau: f64,
+    /// Slope beta of the threshold function.
+    pub slope: f64,
+    /// Threshold u0 of the threshold function.
+    pub threshold: f64,
+    /// Distance of two sites, dx.
+    pub spacing: f64,
+    /// Standard deviation of the Gaussian input to a population (chapter, eq. 4).
+    pub input_sigma: f64,
+    /// Lateral interaction.
+    pub kernel: Kernel,
+}
+
+/// A constant with which no field can be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{name} is {value}; expected {expected}")]
+pub struct ParameterError {
+    /// Name of the constant.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What it must be.
+    pub expected: &'static str,
+}
+
+impl Parameters {
+    /// Checks that a field of these constants is well defined.
+    ///
+    /// # Errors
+    /// The first constant that is out of its range.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        let Kernel { amplitude, sigma, inhibition, range } = self.kernel;
+        let range = range.unwrap_or(0.0);
+        for (name, value) in [
+            ("tau", self.tau),
+            ("slope", self.slope),
+            ("spacing", self.spacing),
+            ("input_sigma", self.input_sigma),
+            ("kernel sigma", sigma),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(ParameterError { name, value, expected: "a finite number above 0" });
+            }
+        }
+        for (name, value) in [("amplitude", amplitude), ("inhibition", inhibition), ("range", range)] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(ParameterError { name, value, expected: "a finite number, at least 0" });
+            }
+        }
+        if !self.threshold.is_finite() {
+            return Err(ParameterError { name: "threshold", value: self.threshold, expected: "a finite number" });
+        }
+        Ok(())
+    }
+}
