@@ -1,0 +1,191 @@
+use crate::{Held, Input, Message, Output, PortError};
+use coact_messages::{LAYOUT, topic};
+use coact_pipeline::{Pipeline, Run};
+use iceoryx2::prelude::*;
+use iceoryx2::service::port_factory::{event, publish_subscribe};
+use std::time::{Duration, Instant};
+
+/// Readers that may look at one topic at the same time.
+const MAX_READERS: usize = 8;
+/// Writers of one topic: the living one, and dead ones until the supervisor has cleaned up after them.
+const MAX_WRITERS: usize = 4;
+/// Processes that may have one topic open: the set, replacements beside their dead predecessors, and guests.
+const MAX_NODES: usize = 24;
+/// How often a replacement looks for what its predecessor left.
+const LOOK_AGAIN: Duration = Duration::from_micros(200);
+
+/// A process's way into one run's topics: its iceoryx2 node, kept apart from other runs by the run's prefix.
+#[derive(Debug)]
+pub struct Bus {
+    node: Node<ipc::Service>,
+    process: String,
+    generation: u32,
+}
+
+impl Bus {
+    /// Joins `run` as `process`, in its `generation`-th restart.
+    ///
+    /// # Errors
+    /// [`PortError::Join`].
+    pub fn open(run: &Run, process: &str, generation: u32) -> Result<Self, PortError> {
+        set_log_level_from_env_or(LogLevel::Fatal);
+        let refused = |problem: String| PortError::Join { process: process.to_owned(), problem };
+        let config = config(run).map_err(refused)?;
+        let name = NodeName::new(process).map_err(|error| refused(format!("{error:?}")))?;
+        let node = NodeBuilder::new()
+            .name(&name)
+            .config(&config)
+            .signal_handling_mode(SignalHandlingMode::Disabled)
+            .create::<ipc::Service>()
+            .map_err(|error| refused(format!("{error:?}")))?;
+        Ok(Self { node, process: process.to_owned(), generation })
+    }
+
+    /// A writer of `topic`. It announces each message by an event if [`topic::announces`] says so.
+    ///
+    /// # Errors
+    /// [`PortError::Refused`].
+    pub fn output<T: Message>(&self, topic: &str) -> Result<Output<T>, PortError> {
+        let service = self.service(topic)?;
+        let notifier = match topic::announces(topic) {
+            true => Some(self.event(topic)?.notifier_builder().create()),
+            false => None,
+        };
+        let notifier =
+            notifier.transpose().map_err(|error| PortError::refused(topic, "opening its event", error))?;
+        Output::new(topic, &service, notifier, self.generation)
+    }
+
+    /// A reader of `topic`.
+    ///
+    /// # Errors
+    /// [`PortError::Refused`], or [`PortError::TruthIsForTheMonitor`].
+    pub fn input<T: Message>(&self, topic: &str) -> Result<Input<T>, PortError> {
+        self.may_read(topic)?;
+        Input::new(topic, &self.service(topic)?, None)
+    }
+
+    /// A reader of `topic` that can wait for its messages.
+    ///
+    /// # Errors
+    /// As [`Bus::input`].
+    pub fn trigger<T: Message>(&self, topic: &str) -> Result<Input<T>, PortError> {
+        self.may_read(topic)?;
+        let listener = self.event(topic)?.listener_builder().create();
+        let listener = listener.map_err(|error| PortError::refused(topic, "listening", error))?;
+        Input::new(topic, &self.service(topic)?, Some(listener))
+    }
+
+    /// The newest message that a killed predecessor sent on `topic`, as the supervisor's keeper offers it.
+    ///
+    /// `None` when the predecessor left nothing, or when nobody offers anything `within` this time.
+    ///
+    /// # Errors
+    /// [`PortError::Refused`] or [`PortError::Layout`].
+    pub fn survivor<T: Message>(&self, topic: &str, within: Duration) -> Result<Option<Box<T>>, PortError> {
+        let topic = topic::resume(topic);
+        let mut offer = Input::<T>::new(&topic, &self.service(&topic)?, None)?;
+        let since = Instant::now();
+        while since.elapsed() < within {
+            offer.receive_any()?;
+            match offer.latest() {
+                Some(message) if message.header().layout == LAYOUT => return Ok(Some(Box::new(*message))),
+                // The keeper says that nothing survived by a header of zeros.
+                Some(message) if message.header().layout == 0 => return Ok(None),
+                Some(message) => return Err(layout_error(&topic, message)),
+                None => std::thread::sleep(LOOK_AGAIN),
+            }
+        }
+        Ok(None)
+    }
+
+    /// Creates every topic of a set, and keeps all of them usable until the answer is dropped.
+    ///
+    /// A process that is killed while it creates a topic alone would leave it unusable: the supervisor calls this first.
+    ///
+    /// # Errors
+    /// [`PortError::Refused`].
+    pub fn hold_all(&self, pipeline: &Pipeline) -> Result<Held, PortError> {
+        Held::new(self, pipeline)
+    }
+
+    /// Frees what dead processes left in shared memory; answers how many were cleaned up.
+    ///
+    /// Takes 1 to 9 ms for each: never to be called on a real-time thread.
+    pub fn clean_dead(&self) -> u64 {
+        self.node.try_cleanup_dead_nodes().cleanups
+    }
+
+    /// Name of the process.
+    pub fn process(&self) -> &str {
+        &self.process
+    }
+
+    fn may_read(&self, topic: &str) -> Result<(), PortError> {
+        if topic == topic::TRUTH && self.process != "monitor" {
+            return Err(PortError::TruthIsForTheMonitor {
+                process: self.process.clone(),
+                topic: topic.to_owned(),
+            });
+        }
+        Ok(())
+    }
+
+    /// The topic itself; every process asks for the same properties.
+    pub(crate) fn service<T: Message>(
+        &self,
+        topic: &str,
+    ) -> Result<publish_subscribe::PortFactory<ipc::Service, T, ()>, PortError> {
+        self.node
+            .service_builder(&service_name(topic)?)
+            .publish_subscribe::<T>()
+            // A reader that hangs loses old messages; it never holds up the writer.
+            .enable_safe_overflow(true)
+            .history_size(1)
+            .subscriber_max_buffer_size(topic::depth(topic))
+            // One held by the stage, one on its way to replace it.
+            .subscriber_max_borrowed_samples(2)
+            .max_subscribers(MAX_READERS)
+            .max_publishers(MAX_WRITERS)
+            .max_nodes(MAX_NODES)
+            .open_or_create()
+            .map_err(|error| PortError::refused(topic, "opening", error))
+    }
+
+    /// The event that announces the topic's messages.
+    pub(crate) fn event(&self, topic: &str) -> Result<event::PortFactory<ipc::Service>, PortError> {
+        self.node
+            .service_builder(&service_name(topic)?)
+            .event()
+            .max_listeners(MAX_READERS)
+            .max_notifiers(MAX_WRITERS)
+            .max_nodes(MAX_NODES)
+            .event_id_max_value(1)
+            .open_or_create()
+            .map_err(|error| PortError::refused(topic, "opening its event", error))
+    }
+}
+
+pub(crate) fn layout_error(topic: &str, message: &impl Message) -> PortError {
+    PortError::Layout { topic: topic.to_owned(), found: message.header().layout, expected: LAYOUT }
+}
+
+fn service_name(topic: &str) -> Result<ServiceName, PortError> {
+    ServiceName::new(topic).map_err(|error| PortError::refused(topic, "naming", error))
+}
+
+fn config(run: &Run) -> Result<Config, String> {
+    let mut config = Config::default();
+    let prefix = run.prefix();
+    let root = run.iceoryx2_root();
+    config.global.prefix =
+        FileName::new(prefix.as_bytes()).map_err(|error| format!("{prefix}: {error:?}"))?;
+    let root_bytes = root.as_os_str().as_encoded_bytes();
+    let path = Path::new(root_bytes).map_err(|error| format!("{}: {error:?}", root.display()))?;
+    config.global.set_root_path(&path);
+    // Scanning for the dead takes milliseconds; only the supervisor does it, by `Bus::clean_dead`.
+    config.global.service.cleanup_dead_nodes_on_open = false;
+    config.global.node.cleanup_dead_nodes_on_creation = false;
+    config.global.node.cleanup_dead_nodes_on_destruction = false;
+    Ok(config)
+}

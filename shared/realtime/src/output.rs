@@ -1,0 +1,64 @@
+use crate::{Loan, Message, PortError};
+use coact_messages::Header;
+use iceoryx2::port::{notifier::Notifier, publisher::Publisher, update_connections::UpdateConnections};
+use iceoryx2::prelude::*;
+use iceoryx2::service::port_factory::publish_subscribe;
+
+/// Writer of one topic.
+///
+/// Messages are written in place: [`Output::loan`] hands out memory that readers will see, [`Loan::send`] shows it.
+#[derive(Debug)]
+pub struct Output<T: Message> {
+    pub(crate) topic: String,
+    pub(crate) publisher: Publisher<ipc::Service, T, ()>,
+    pub(crate) notifier: Option<Notifier<ipc::Service>>,
+    pub(crate) generation: u32,
+    pub(crate) sequence: u64,
+}
+
+impl<T: Message> Output<T> {
+    pub(crate) fn new(
+        topic: &str,
+        service: &publish_subscribe::PortFactory<ipc::Service, T, ()>,
+        notifier: Option<Notifier<ipc::Service>>,
+        generation: u32,
+    ) -> Result<Self, PortError> {
+        let publisher = service
+            .publisher_builder()
+            .max_loaned_samples(2)
+            .backpressure_strategy(BackpressureStrategy::DiscardData)
+            .create()
+            .map_err(|error| PortError::refused(topic, "writing", error))?;
+        Ok(Self { topic: topic.to_owned(), publisher, notifier, generation, sequence: 0 })
+    }
+
+    /// Counts on from a predecessor's last message, so that the topic's sequence has no second beginning.
+    pub fn continue_after(&mut self, last: &Header) {
+        self.sequence = last.sequence + 1;
+    }
+
+    /// The next message's memory, with the contents of some earlier message or zeros.
+    ///
+    /// # Errors
+    /// [`PortError::Refused`] when two loans are out already.
+    pub fn loan(&mut self) -> Result<Loan<'_, T>, PortError> {
+        let sample = self
+            .publisher
+            .loan_uninit()
+            .map_err(|error| PortError::refused(&self.topic, "loaning a message", error))?;
+        // SAFETY: the payload lies in a shared-memory segment that the kernel filled with zeros and that only
+        // messages were written to since, so every byte is initialised; `T: Pod` accepts any bit pattern.
+        let sample = unsafe { sample.assume_init() };
+        Ok(Loan { output: self, sample })
+    }
+
+    /// Connects to readers that joined since the last message, and hands them that message.
+    ///
+    /// # Errors
+    /// [`PortError::Refused`].
+    pub(crate) fn greet(&self) -> Result<(), PortError> {
+        self.publisher
+            .update_connections()
+            .map_err(|error| PortError::refused(&self.topic, "connecting readers", error))
+    }
+}

@@ -1,0 +1,53 @@
+use std::fmt::Debug;
+
+/// Why a port could not be opened or used.
+#[derive(Debug, thiserror::Error)]
+pub enum PortError {
+    /// iceoryx2 refused an operation.
+    #[error(
+        "topic {topic}: {operation} failed: {problem}; expected a running set whose supervisor holds the topic, \
+         and room in shared memory"
+    )]
+    Refused {
+        /// The topic.
+        topic: String,
+        /// What was tried.
+        operation: &'static str,
+        /// iceoryx2's reason.
+        problem: String,
+    },
+    /// The process may not join the run.
+    #[error("process {process} cannot join the run: {problem}; expected a writable run directory")]
+    Join {
+        /// The process.
+        process: String,
+        /// iceoryx2's reason.
+        problem: String,
+    },
+    /// Only the monitor may know the truth.
+    #[error("process {process} asked for {topic}; expected the process \"monitor\": truth is for it alone")]
+    TruthIsForTheMonitor {
+        /// The process that asked.
+        process: String,
+        /// The topic.
+        topic: String,
+    },
+    /// The sender was built from other message layouts.
+    #[error(
+        "topic {topic}: message of layout {found}; expected layout {expected}: rebuild all programs together"
+    )]
+    Layout {
+        /// The topic.
+        topic: String,
+        /// Layout of the message.
+        found: u32,
+        /// Layout of this program.
+        expected: u32,
+    },
+}
+
+impl PortError {
+    pub(crate) fn refused(topic: &str, operation: &'static str, problem: impl Debug) -> Self {
+        Self::Refused { topic: topic.to_owned(), operation, problem: format!("{problem:?}") }
+    }
+}
