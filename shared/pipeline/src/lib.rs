@@ -33,7 +33,7 @@ mod shared_memory;
 pub use pipeline::Pipeline;
 pub use pipeline_error::PipelineError;
 pub use process_entry::{ProcessEntry, Trigger};
-pub use ready::Ready;
+pub use ready::{GENERATION_VARIABLE, Ready};
 pub use restart_policy::RestartPolicy;
 pub use run::Run;
 pub use run_error::RunError;

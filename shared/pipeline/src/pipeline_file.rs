@@ -23,6 +23,7 @@ struct RestartText {
     period_s: Spanned<f64>,
     backoff_initial_ms: u64,
     backoff_max_ms: u64,
+    hung_after_ms: Spanned<u64>,
 }
 
 #[derive(Deserialize)]
@@ -50,6 +51,7 @@ impl Default for RestartText {
             period_s: Spanned::new(0..0, 30.0),
             backoff_initial_ms: 100,
             backoff_max_ms: 2000,
+            hung_after_ms: Spanned::new(0..0, 500),
         }
     }
 }
@@ -98,11 +100,16 @@ impl Source<'_> {
         if !(period_s > 0.0 && period_s <= 86_400.0) {
             return Err(self.error(&raw.period_s, "period_s", period_s, "seconds, above 0, at most a day"));
         }
+        let hung_after_ms = *raw.hung_after_ms.get_ref();
+        if hung_after_ms < 50 {
+            return Err(self.error(&raw.hung_after_ms, "hung_after_ms", hung_after_ms, "at least 50"));
+        }
         Ok(RestartPolicy {
             intensity: raw.intensity,
             period: Duration::from_secs_f64(period_s),
             backoff_initial: Duration::from_millis(raw.backoff_initial_ms),
             backoff_max: Duration::from_millis(raw.backoff_max_ms),
+            hung_after: Duration::from_millis(hung_after_ms),
         })
     }
 

@@ -1,5 +1,8 @@
 use serde::{Deserialize, Serialize};
 
+/// Environment variable in which the supervisor tells a process its generation; absent: 0.
+pub const GENERATION_VARIABLE: &str = "COACT_GENERATION";
+
 /// What a process reports when it is ready to run: in `<run>/ready/<name>.<generation>.json`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Ready {

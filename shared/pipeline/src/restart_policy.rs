@@ -11,6 +11,8 @@ pub struct RestartPolicy {
     pub backoff_initial: Duration,
     /// Longest pause before a restart.
     pub backoff_max: Duration,
+    /// Silence (no pulse) after which a process that takes part in every cycle counts as hung and is killed.
+    pub hung_after: Duration,
 }
 
 impl RestartPolicy {
@@ -33,6 +35,7 @@ mod tests {
         period: Duration::from_secs(30),
         backoff_initial: Duration::from_millis(100),
         backoff_max: Duration::from_millis(300),
+        hung_after: Duration::from_millis(500),
     };
 
     #[test]
