@@ -1,1 +1,9 @@
-//! (in construction)
+//! The neural-field network: what the person means, whether it is right, and what the robot does about it.
+//!
+//! Data flow of one tick: the percept's channels and the previous frame's signals go through the synapse table into
+//! each population's input; each layer is integrated from the previous frame straight into the new one; signals,
+//! peaks and the decision are read off it. The frame is the whole state: nothing else is remembered.
+
+mod network;
+
+pub use network::Network;

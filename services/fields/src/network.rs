@@ -1,0 +1,204 @@
+use coact_joint_task::{Channel, LayerPlan, NetworkPlan, Synapse};
+use coact_messages::{Decision, FieldFrame, LayerKind, NONE, Percept};
+use coact_neural_field::{Field, ParameterError, forget};
+use rand::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64Mcg;
+
+/// A percept older than this says nothing about now, ms: memories stay, everything else loses its input.
+const PERCEPT_LIFETIME: u64 = 200;
+
+/// The network stage: percept in, field frame out, one period at a time.
+pub struct Network {
+    plan: NetworkPlan,
+    task: u64,
+    seed: u64,
+    fields: Vec<Field>,
+    /// Signals of all populations, then the values of the percept's channels.
+    sources: Vec<f64>,
+    /// Input strength of each population.
+    strength: Vec<f64>,
+    /// For each population, how surely what supported its memory is gone.
+    gone: Vec<f64>,
+}
+
+impl Network {
+    /// The network of `plan`; `task` is the fingerprint of the task, `seed` that of the noise.
+    ///
+    /// # Errors
+    /// A layer's constant that is out of its range.
+    pub fn new(plan: NetworkPlan, task: u64, seed: u64) -> Result<Self, ParameterError> {
+        let field = |layer: &LayerPlan| {
+            Field::new(layer.parameters, layer.populations.len(), plan.sites_per_population)
+        };
+        let populations = plan.populations.len();
+        Ok(Self {
+            fields: plan.layers.iter().map(field).collect::<Result<_, _>>()?,
+            sources: vec![0.0; populations + plan.channels.len()],
+            strength: vec![0.0; populations],
+            gone: vec![0.0; populations],
+            plan,
+            task,
+            seed,
+        })
+    }
+
+    /// The plan that it was made from.
+    pub fn plan(&self) -> &NetworkPlan {
+        &self.plan
+    }
+
+    /// Writes the frame of the network at rest: what the first step starts from.
+    pub fn rest(&self, out: &mut FieldFrame) {
+        let width = self.plan.sites_per_population;
+        self.describe(out);
+        out.input.fill(0.0);
+        out.signal.fill(0.0);
+        out.since.fill(0);
+        out.decision = Decision { action: NONE, reserved: 0, since: 0 };
+        for layer in &self.plan.layers {
+            let Range { first, last } = sites(layer, width);
+            out.activity[first..last].fill(layer.resting);
+            out.resting[layer.populations.clone()].fill(layer.resting);
+        }
+    }
+
+    /// Whether `frame` is a state of this network, so that it can be resumed from.
+    pub fn fits(&self, frame: &FieldFrame) -> bool {
+        frame.task == self.task && frame.layers.count as usize == self.plan.layers.len()
+    }
+
+    /// Integrates one period of 1 ms from `previous` into `out`.
+    ///
+    /// Costs about 14 multiplications per site, one exponential per site and one multiplication per synapse.
+    pub fn step(&mut self, tick: u64, percept: Option<&Percept>, previous: &FieldFrame, out: &mut FieldFrame) {
+        self.describe(out);
+        self.collect(tick, percept, previous);
+        self.transmit(tick);
+        for index in 0..self.plan.layers.len() {
+            self.integrate(index, previous, out);
+        }
+        let peaks = self.strength.len();
+        for index in 0..peaks {
+            out.since[index] = match (out.signal[index] > 0.0, previous.since[index]) {
+                (false, _) => 0,
+                (true, 0) => tick.max(1),
+                (true, since) => since,
+            };
+        }
+        out.decision = self.decision(out);
+    }
+
+    /// Fills the parts of the frame that never change.
+    fn describe(&self, out: &mut FieldFrame) {
+        let width = self.plan.sites_per_population;
+        out.task = self.task;
+        out.noise = [self.seed, 0, 0, 0];
+        out.layers.count = self.plan.layers.len() as u32;
+        out.layers.reserved = 0;
+        for (index, layer) in self.plan.layers.iter().enumerate() {
+            let Range { first, last } = sites(layer, width);
+            out.layers.kind[index] = layer.kind as u32;
+            out.layers.first_site[index] = first as u32;
+            out.layers.sites[index] = (last - first) as u32;
+            out.layers.first_population[index] = layer.populations.start as u32;
+            out.layers.populations[index] = layer.populations.len() as u32;
+        }
+    }
+
+    /// Gathers the signals of all populations and the values of all channels.
+    fn collect(&mut self, tick: u64, percept: Option<&Percept>, previous: &FieldFrame) {
+        let populations = self.strength.len();
+        self.sources[..populations].copy_from_slice(&previous.signal[..populations]);
+        let fresh = percept.filter(|percept| tick.saturating_sub(percept.header.cycle) <= PERCEPT_LIFETIME);
+        for (source, plan) in self.sources[populations..].iter_mut().zip(&self.plan.channels) {
+            let value = fresh.map_or(f64::from(plan.channel == Channel::Always), |percept| read(percept, plan.channel));
+            // A broken sensor may deliver anything; evidence is a number between 0 and 1.
+            *source = if value.is_finite() { value.clamp(0.0, 1.0) } else { 0.0 };
+        }
+    }
+
+    /// Sends the sources through the synapse table (chapter, eq. 4), adds noise.
+    fn transmit(&mut self, tick: u64) {
+        self.strength.fill(0.0);
+        for &Synapse { from, to, weight, .. } in &self.plan.synapses {
+            self.strength[to] += weight * self.sources[from];
+        }
+        // The generator is made anew from seed and tick, so that a restarted network makes the same noise.
+        let mut random = Pcg64Mcg::seed_from_u64(self.seed ^ tick.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        for layer in &self.plan.layers {
+            for strength in &mut self.strength[layer.populations.clone()] {
+                if layer.noise > 0.0 {
+                    let normal: f64 = StandardNormal.sample(&mut random);
+                    *strength += layer.noise * normal;
+                }
+                *strength *= layer.gain;
+            }
+        }
+        self.gone.fill(0.0);
+        for &Synapse { from, to, .. } in &self.plan.forgetting {
+            self.gone[to] = self.gone[to].max(self.sources[from]);
+        }
+    }
+
+    fn integrate(&mut self, index: usize, previous: &FieldFrame, out: &mut FieldFrame) {
+        let layer = &self.plan.layers[index];
+        let field = &mut self.fields[index];
+        let rows = layer.populations.clone();
+        let Range { first, last } = sites(layer, self.plan.sites_per_population);
+        for population in rows.clone() {
+            out.resting[population] = match &layer.forgetting {
+                None => layer.resting,
+                Some(forgetting) => {
+                    let c = self.gone[population] * f64::from(self.sources[population] > 0.0);
+                    forget(previous.resting[population], c, 1.0, forgetting)
+                }
+            };
+        }
+        let input = &mut out.input[first..last];
+        field.spread(&self.strength[rows.clone()], input);
+        let next = &mut out.activity[first..last];
+        field.step(1.0, &previous.activity[first..last], input, &out.resting[rows.clone()], next);
+        field.signals(next, &mut out.signal[rows]);
+    }
+
+    /// The action whose peak stands in AEL: the highest, should two ever stand.
+    fn decision(&self, out: &FieldFrame) -> Decision {
+        let layer = self.plan.layer(LayerKind::ActionExecution).populations.clone();
+        let mut decision = Decision { action: NONE, reserved: 0, since: 0 };
+        let mut highest = DECIDED;
+        for (action, population) in layer.enumerate() {
+            if out.signal[population] > highest {
+                highest = out.signal[population];
+                decision = Decision { action: action as u32, reserved: 0, since: out.since[population] };
+            }
+        }
+        decision
+    }
+}
+
+/// A peak whose signal is above this has formed.
+const DECIDED: f64 = 0.5;
+
+/// Sites of one layer in the frame's rows.
+struct Range {
+    first: usize,
+    last: usize,
+}
+
+fn sites(layer: &LayerPlan, width: usize) -> Range {
+    Range { first: layer.populations.start * width, last: layer.populations.end * width }
+}
+
+fn read(percept: &Percept, channel: Channel) -> f64 {
+    match channel {
+        Channel::Always => 1.0,
+        Channel::Act(act) => percept.act[act],
+        Channel::Seen { workspace, kind } => percept.workspace[workspace].seen[kind],
+        Channel::Gone { workspace, kind } => percept.workspace[workspace].gone[kind],
+        Channel::Achieved(subgoal) => percept.achieved[subgoal],
+        Channel::Open(subgoal) => percept.open[subgoal],
+        Channel::RobotHolds(kind) => percept.robot_holds[kind],
+        Channel::PersonHolds(kind) => percept.person_holds[kind],
+    }
+}
