@@ -1,0 +1,77 @@
+use crate::{Posture, RobotError};
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// A robot file: what a URDF does not say.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Config {
+    /// URDF file, beside this one.
+    pub urdf: PathBuf,
+    /// Link that is the palm frame.
+    pub palm: String,
+    pub arm: ArmConfig,
+    pub hand: HandConfig,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ArmConfig {
+    pub joints: [String; 7],
+    /// rad/s².
+    pub acceleration: [f64; 7],
+    /// rad/s³.
+    pub jerk: [f64; 7],
+    /// rad.
+    pub park: Posture,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HandConfig {
+    pub spread: String,
+    pub bases: [String; 3],
+    pub tips: [String; 3],
+    /// Links at the finger ends.
+    pub ends: [String; 3],
+    /// rad/s².
+    pub acceleration: f64,
+    /// rad/s³.
+    pub jerk: f64,
+    /// m.
+    pub grasp_distance: f64,
+}
+
+impl Config {
+    pub(crate) fn load(path: &Path) -> Result<Self, RobotError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| RobotError::File { path: path.to_path_buf(), source })?;
+        let config: Self = toml::from_str(&text).map_err(|error| RobotError::Malformed {
+            path: path.to_path_buf(),
+            line: error.span().map(|span| 1 + text[..span.start].matches('\n').count()),
+            message: format!("{}; see rt-config/robots/aros.toml for all keys", error.message()),
+        })?;
+        config.check(path)?;
+        Ok(config)
+    }
+
+    fn check(&self, path: &Path) -> Result<(), RobotError> {
+        let positive = |values: &[f64]| values.iter().all(|value| value.is_finite() && *value > 0.0);
+        if !positive(&self.arm.acceleration) || !positive(&[self.hand.acceleration]) {
+            return Err(Self::fault(path, "acceleration", "expected limits above zero, rad/s²"));
+        }
+        if !positive(&self.arm.jerk) || !positive(&[self.hand.jerk]) {
+            return Err(Self::fault(path, "jerk", "expected limits above zero, rad/s³"));
+        }
+        if !positive(&[self.hand.grasp_distance]) {
+            return Err(Self::fault(path, "grasp_distance", "expected a length above zero, m"));
+        }
+        Ok(())
+    }
+
+    pub(crate) fn fault(path: &Path, key: &str, message: &str) -> RobotError {
+        let text = std::fs::read_to_string(path).unwrap_or_default();
+        let line = text.lines().position(|line| line.trim_start().starts_with(key)).map(|index| index + 1);
+        RobotError::Malformed { path: path.to_path_buf(), line, message: format!("key \"{key}\": {message}") }
+    }
+}

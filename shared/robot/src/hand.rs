@@ -1,0 +1,86 @@
+use crate::Joint;
+use nalgebra::{Isometry3, Point3, Vector3};
+
+/// A hand of three fingers: one spread angle, and a base and a coupled tip joint for each finger.
+///
+/// In the palm frame (z out of the palm, x the closing direction) finger 3 stands at -x, fingers 1 and 2 at +x when
+/// the spread is zero. Angle 0 is a flat open hand; growing angles close. Tips follow their bases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hand {
+    /// Joints in message order: spread, three bases, three tips.
+    pub joints: Vec<Joint>,
+    /// Each finger: its chain from the palm frame to its end.
+    pub fingers: [Finger; 3],
+    /// Tip angle for each rad of base angle.
+    pub coupling: f64,
+    /// Distance of the grasp point from the palm frame's origin, along the palm's z axis, m.
+    pub grasp_distance: f64,
+}
+
+/// The chain of one finger, from the palm frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finger {
+    /// Spread joint (fingers 1 and 2 only), base joint, tip joint.
+    pub joints: Vec<Joint>,
+    /// Pose of the finger's end in the tip joint's frame.
+    pub end: Isometry3<f64>,
+}
+
+/// Joints of a [`Hand`].
+pub const HAND_JOINTS: usize = 7;
+
+impl Hand {
+    /// Angles of all hand joints (message order) with the spread at zero and the bases at `base` rad.
+    pub fn posture(&self, base: f64) -> [f64; HAND_JOINTS] {
+        let tip = (base * self.coupling).min(self.joints[4].limits.upper);
+        [0.0, base, base, base, tip, tip, tip]
+    }
+
+    /// Place of each finger's end in the palm frame, m, for hand joint angles in message order.
+    pub fn ends(&self, angles: &[f64; HAND_JOINTS]) -> [Point3<f64>; 3] {
+        std::array::from_fn(|finger| {
+            let Finger { joints, end } = &self.fingers[finger];
+            let own = [angles[0], angles[1 + finger], angles[4 + finger]];
+            let own = &own[3 - joints.len()..];
+            let pose =
+                joints.iter().zip(own).fold(Isometry3::identity(), |pose, (j, &a)| pose * j.transform(a));
+            Point3::from((pose * end).translation.vector)
+        })
+    }
+
+    /// Clear width between finger 3 and fingers 1 and 2, measured at their ends, m.
+    pub fn width(&self, base: f64) -> f64 {
+        let ends = self.ends(&self.posture(base));
+        ends[0].x.min(ends[1].x) - ends[2].x
+    }
+
+    /// Base angle at which the fingers close on something `width` m wide. Bisection between flat open and fully
+    /// closed; a width beyond the hand gives the nearest end.
+    pub fn base_for_width(&self, width: f64) -> f64 {
+        let limits = self.joints[1].limits;
+        let (mut open, mut closed) = (limits.lower, limits.upper);
+        for _ in 0..60 {
+            let middle = 0.5 * (open + closed);
+            if self.width(middle) > width { open = middle } else { closed = middle }
+        }
+        0.5 * (open + closed)
+    }
+
+    /// The grasp point in the palm frame: where the finger ends meet what they close on.
+    pub fn grasp_point(&self) -> Point3<f64> {
+        Point3::new(0.0, 0.0, self.grasp_distance)
+    }
+
+    /// Palm pose that puts the grasp point at `point` with the palm's z axis along `approach` (unit) and its closing
+    /// axis x turned by `roll` rad about it; at roll 0, x is as near to `closing` as the approach allows.
+    pub fn palm_at(
+        &self,
+        point: &Point3<f64>,
+        approach: &Vector3<f64>,
+        closing: &Vector3<f64>,
+        roll: f64,
+    ) -> Isometry3<f64> {
+        let grip = crate::grip::frame(point, approach, closing, roll);
+        grip * nalgebra::Translation3::new(0.0, 0.0, -self.grasp_distance)
+    }
+}

@@ -1,0 +1,128 @@
+use crate::config::Config;
+use crate::{Arm, Finger, HAND_JOINTS, Hand, Joint, JointLimits, Posture, RobotError, Srs, Urdf};
+use nalgebra::{Isometry3, Point3};
+use std::path::Path;
+
+/// Joints of arm and hand in message order: seven arm joints, then spread, three finger bases, three finger tips.
+pub const ROBOT_JOINTS: usize = 7 + HAND_JOINTS;
+
+/// An arm with a hand: geometry, limits, inverse kinematics and park posture.
+#[derive(Debug, Clone)]
+pub struct Robot {
+    /// The robot's name in its URDF.
+    pub name: String,
+    /// Inverse kinematics of the arm.
+    pub kinematics: Srs,
+    /// The hand.
+    pub hand: Hand,
+    /// Arm posture at rest, rad.
+    pub park: Posture,
+}
+
+impl Robot {
+    /// Reads a robot file (TOML: URDF, joint names, acceleration and jerk limits, park posture) and its URDF.
+    ///
+    /// # Errors
+    /// [`RobotError`] with file, line where it is known, what was found and what was expected.
+    pub fn load(path: &Path) -> Result<Self, RobotError> {
+        let config = Config::load(path)?;
+        let urdf = Urdf::load(&path.with_file_name(&config.urdf))?;
+        let arm = arm(path, &config, &urdf)?;
+        let hand = hand(path, &config, &urdf)?;
+        let kinematics = Srs::new(arm).map_err(|error| urdf.fault(&config.palm, &error.to_string()))?;
+        if !kinematics.arm().within_limits(&config.arm.park, 0.0) {
+            return Err(Config::fault(
+                path,
+                "park",
+                "lies outside the joint limits of the URDF; choose it within",
+            ));
+        }
+        Ok(Self { name: urdf.name().to_owned(), kinematics, hand, park: config.arm.park })
+    }
+
+    /// The arm.
+    pub fn arm(&self) -> &Arm {
+        self.kinematics.arm()
+    }
+
+    /// Pose of the palm in the world; `angles` in message order.
+    pub fn palm(&self, angles: &[f64]) -> Isometry3<f64> {
+        self.arm().palm(angles)
+    }
+
+    /// The grasp point in the world, m; `angles` in message order.
+    pub fn grasp_point(&self, angles: &[f64]) -> Point3<f64> {
+        self.palm(angles) * self.hand.grasp_point()
+    }
+
+    /// Limits of all joints in message order.
+    pub fn limits(&self) -> [JointLimits; ROBOT_JOINTS] {
+        std::array::from_fn(|index| match index.checked_sub(7) {
+            None => self.arm().joints[index].limits,
+            Some(index) => self.hand.joints[index].limits,
+        })
+    }
+}
+
+fn arm(path: &Path, config: &Config, urdf: &Urdf) -> Result<Arm, RobotError> {
+    let (mut joints, tool) = urdf.chain(None, &config.palm)?;
+    if !joints.iter().map(|joint| &joint.name).eq(&config.arm.joints) {
+        let found: Vec<_> = joints.iter().map(|joint| joint.name.as_str()).collect();
+        return Err(Config::fault(
+            path,
+            "joints",
+            &format!("expected the joints of the URDF down to the palm: {found:?}"),
+        ));
+    }
+    for (index, joint) in joints.iter_mut().enumerate() {
+        joint.limits.acceleration = config.arm.acceleration[index];
+        joint.limits.jerk = config.arm.jerk[index];
+    }
+    Ok(Arm { joints, tool })
+}
+
+fn hand(path: &Path, config: &Config, urdf: &Urdf) -> Result<Hand, RobotError> {
+    let names = &config.hand;
+    let last_arm_joint = config.arm.joints.last().map(String::as_str);
+    let mut fingers = Vec::with_capacity(3);
+    for finger in 0..3 {
+        let (joints, end) = urdf.chain(last_arm_joint, &names.ends[finger])?;
+        let tail = joints.len().saturating_sub(2);
+        let expected = [&names.bases[finger], &names.tips[finger]];
+        if !joints[tail..].iter().map(|joint| &joint.name).eq(expected) || tail > 1 {
+            return Err(Config::fault(
+                path,
+                "ends",
+                "each finger must be an optional spread, a base and a tip joint",
+            ));
+        }
+        fingers.push(Finger { joints, end });
+    }
+    let fingers: [Finger; 3] =
+        fingers.try_into().map_err(|_| Config::fault(path, "ends", "expected three fingers"))?;
+    let (_, palm) = urdf.chain(None, &config.palm)?;
+    let fingers = fingers.map(|finger| from_palm(finger, &palm));
+    let pick = |name: &String| {
+        let mut all = fingers.iter().flat_map(|finger| &finger.joints);
+        all.find(|joint| &joint.name == name).cloned().map(|joint| limited(joint, config))
+    };
+    let names = std::iter::once(&names.spread).chain(&names.bases).chain(&names.tips);
+    let joints: Option<Vec<Joint>> = names.map(pick).collect();
+    let joints = joints.ok_or_else(|| Config::fault(path, "spread", "is not a joint of any finger"))?;
+    let coupling = urdf.mimic(&config.hand.tips[0]).unwrap_or(0.0);
+    Ok(Hand { joints, fingers, coupling, grasp_distance: config.hand.grasp_distance })
+}
+
+/// A finger's chain below the last arm joint, seen from the palm frame instead.
+fn from_palm(mut finger: Finger, palm: &Isometry3<f64>) -> Finger {
+    if let Some(first) = finger.joints.first_mut() {
+        first.origin = palm.inverse() * first.origin;
+    }
+    finger
+}
+
+fn limited(mut joint: Joint, config: &Config) -> Joint {
+    joint.limits.acceleration = config.hand.acceleration;
+    joint.limits.jerk = config.hand.jerk;
+    joint
+}

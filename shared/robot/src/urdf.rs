@@ -1,0 +1,142 @@
+use crate::{Joint, JointLimits, RobotError};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, UnitVector3, Vector3};
+use std::path::{Path, PathBuf};
+
+/// A URDF file, read and checked joint by joint as chains are taken from it.
+#[derive(Debug, Clone)]
+pub struct Urdf {
+    path: PathBuf,
+    text: String,
+    robot: urdf_rs::Robot,
+}
+
+impl Urdf {
+    /// Reads a URDF file.
+    ///
+    /// # Errors
+    /// [`RobotError`] with the file and, where it is known, the line.
+    pub fn load(path: &Path) -> Result<Self, RobotError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| RobotError::File { path: path.to_path_buf(), source })?;
+        Self::parse(path, text)
+    }
+
+    /// Parses the text of a URDF file; `path` is only named in errors.
+    ///
+    /// # Errors
+    /// [`RobotError::Malformed`].
+    pub fn parse(path: &Path, text: String) -> Result<Self, RobotError> {
+        match urdf_rs::read_from_string(&text) {
+            Ok(robot) => Ok(Self { path: path.to_path_buf(), text, robot }),
+            Err(error) => Err(RobotError::Malformed {
+                path: path.to_path_buf(),
+                line: crate::xml_line::of_first_fault(&text),
+                message: format!("not a URDF: {error}; expected <robot> with <link> and <joint> elements"),
+            }),
+        }
+    }
+
+    /// The robot's name.
+    pub fn name(&self) -> &str {
+        &self.robot.name
+    }
+
+    /// The links and their inertials as the URDF states them.
+    pub fn links(&self) -> &[urdf_rs::Link] {
+        &self.robot.links
+    }
+
+    /// The revolute joints from the root link (or from the child link of joint `from`, when given) down to `link`,
+    /// and the fixed pose of `link` after the last of them. Accelerations and jerks are infinite: a URDF has none.
+    ///
+    /// # Errors
+    /// [`RobotError::Malformed`] when the link does not exist, the chain is broken or looped, or a joint in it is
+    /// neither fixed nor revolute, has no axis, or has no usable limits.
+    pub fn chain(&self, from: Option<&str>, link: &str) -> Result<(Vec<Joint>, Isometry3<f64>), RobotError> {
+        let mut joints = Vec::new();
+        let mut pending = Isometry3::identity();
+        for joint in self.path_to(from, link)? {
+            pending *= pose(&joint.origin);
+            match joint.joint_type {
+                urdf_rs::JointType::Fixed => {}
+                urdf_rs::JointType::Revolute | urdf_rs::JointType::Continuous => {
+                    joints.push(self.revolute(joint, pending)?);
+                    pending = Isometry3::identity();
+                }
+                ref other => {
+                    return Err(self.fault(&joint.name, &format!("is {other:?}; expected revolute or fixed")));
+                }
+            }
+        }
+        Ok((joints, pending))
+    }
+
+    /// Multiplier with which a joint mimics another, when it does.
+    pub fn mimic(&self, joint: &str) -> Option<f64> {
+        let joint = self.robot.joints.iter().find(|known| known.name == joint)?;
+        joint.mimic.as_ref().map(|mimic| mimic.multiplier.unwrap_or(1.0))
+    }
+
+    /// URDF joints from the root (or from below joint `from`) to `link`, in order.
+    fn path_to(&self, from: Option<&str>, link: &str) -> Result<Vec<&urdf_rs::Joint>, RobotError> {
+        if !self.robot.links.iter().any(|known| known.name == link) {
+            return Err(self.fault(link, "is not a link of this robot; check the name"));
+        }
+        let mut path = Vec::new();
+        let mut at = link;
+        while let Some(joint) = self.robot.joints.iter().find(|joint| joint.child.link == at) {
+            if from == Some(joint.name.as_str()) {
+                path.reverse();
+                return Ok(path);
+            }
+            if path.len() > self.robot.joints.len() {
+                return Err(self.fault(link, "lies on a loop of joints; expected a tree"));
+            }
+            path.push(joint);
+            at = &joint.parent.link;
+        }
+        if let Some(from) = from {
+            return Err(self.fault(from, &format!("is not a joint above link \"{link}\"")));
+        }
+        path.reverse();
+        Ok(path)
+    }
+
+    fn revolute(&self, joint: &urdf_rs::Joint, origin: Isometry3<f64>) -> Result<Joint, RobotError> {
+        let axis = UnitVector3::try_new(Vector3::from(joint.axis.xyz.0), 1e-9)
+            .ok_or_else(|| self.fault(&joint.name, "has a zero axis; expected a direction"))?;
+        if !origin.translation.vector.iter().chain(axis.iter()).all(|value| value.is_finite()) {
+            return Err(self.fault(&joint.name, "has an origin or axis that is not finite"));
+        }
+        let urdf_rs::JointLimit { lower, upper, effort, velocity, .. } = joint.limit.clone();
+        let (lower, upper) = match joint.joint_type {
+            urdf_rs::JointType::Continuous => (-std::f64::consts::PI, std::f64::consts::PI),
+            _ => (lower, upper),
+        };
+        if !(lower < upper && lower.is_finite() && upper.is_finite()) {
+            return Err(self.fault(&joint.name, "needs <limit> with lower < upper, rad"));
+        }
+        if !(velocity > 0.0 && velocity.is_finite() && effort > 0.0 && effort.is_finite()) {
+            return Err(self.fault(&joint.name, "needs <limit> with velocity and effort above zero"));
+        }
+        let (acceleration, jerk) = (f64::INFINITY, f64::INFINITY);
+        let limits = JointLimits { lower, upper, velocity, effort, acceleration, jerk };
+        Ok(Joint { name: joint.name.clone(), origin, axis, limits })
+    }
+
+    /// An error about the named element, with the line on which the name is declared.
+    pub(crate) fn fault(&self, name: &str, message: &str) -> RobotError {
+        RobotError::Malformed {
+            path: self.path.clone(),
+            line: crate::xml_line::of_name(&self.text, name),
+            message: format!("\"{name}\" {message}"),
+        }
+    }
+}
+
+/// A URDF pose: translation, then roll, pitch, yaw about fixed axes.
+pub(crate) fn pose(pose: &urdf_rs::Pose) -> Isometry3<f64> {
+    let [roll, pitch, yaw] = pose.rpy.0;
+    let [x, y, z] = pose.xyz.0;
+    Isometry3::from_parts(Translation3::new(x, y, z), UnitQuaternion::from_euler_angles(roll, pitch, yaw))
+}
