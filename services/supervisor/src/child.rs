@@ -1,5 +1,8 @@
 use crate::{ProcessSpec, StderrTail};
-use rustix::process::{Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal, set_parent_process_death_signal};
+use coact_pipeline::GENERATION_VARIABLE;
+use rustix::process::{
+    Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal, set_parent_process_death_signal,
+};
 use std::io;
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 use std::os::unix::process::CommandExt;
@@ -21,13 +24,17 @@ pub struct RunningChild {
 }
 
 impl RunningChild {
-    /// Starts the program of `spec`; each line that it writes to standard error goes to `pass_on`.
+    /// Starts the program of `spec` for the `generation`-th time after the first; each line that it writes to standard error goes to `pass_on`.
     ///
     /// # Errors
     /// The program cannot be executed.
-    pub fn spawn(spec: &ProcessSpec, pass_on: impl FnMut(&str) + Send + 'static) -> io::Result<Self> {
+    pub fn spawn(
+        spec: &ProcessSpec,
+        generation: u32,
+        pass_on: impl FnMut(&str) + Send + 'static,
+    ) -> io::Result<Self> {
         let mut command = Command::new(&spec.program);
-        command.args(&spec.arguments);
+        command.args(&spec.arguments).env(GENERATION_VARIABLE, generation.to_string());
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
         // A group of its own: Ctrl-C in the terminal reaches the supervisor alone, which stops the set in order.
         command.process_group(0);

@@ -28,7 +28,9 @@ pub enum InjectionError {
         cause: UnknownFault,
     },
     /// Not a time.
-    #[error("'{spec}': '{time}' is not a time; expected seconds or milliseconds, for example 20s, 1.5s or 500ms")]
+    #[error(
+        "'{spec}': '{time}' is not a time; expected seconds or milliseconds, for example 20s, 1.5s or 500ms"
+    )]
     Time {
         /// The whole text.
         spec: String,
@@ -48,8 +50,8 @@ impl FromStr for Injection {
             return Err(form());
         }
         let fault = fault.parse().map_err(|cause| InjectionError::Fault { spec: spec.into(), cause })?;
-        let at = read_time(time)
-            .ok_or_else(|| InjectionError::Time { spec: spec.into(), time: time.into() })?;
+        let at =
+            read_time(time).ok_or_else(|| InjectionError::Time { spec: spec.into(), time: time.into() })?;
         Ok(Self { process: process.into(), fault, at })
     }
 }
@@ -74,7 +76,8 @@ mod tests {
 
     #[test]
     fn process_fault_and_time_are_read() {
-        let expected = Injection { process: "fields".into(), fault: Fault::Kill, at: Duration::from_secs(20) };
+        let expected =
+            Injection { process: "fields".into(), fault: Fault::Kill, at: Duration::from_secs(20) };
         assert_eq!("fields:kill@20s".parse(), Ok(expected));
         let later: Injection = "world:crash-on-start@1500ms".parse().unwrap();
         assert_eq!((later.fault, later.at), (Fault::CrashOnStart, Duration::from_millis(1500)));

@@ -1,10 +1,11 @@
 use crate::supervised::{Death, Phase, Supervised};
 use crate::{
-    Event, EventKind, EventLog, Fault, GaveUp, Intensity, ProcessSpec, Refusal, Remedy, RestartLedger,
-    RunningChild, Survivors, clock,
+    Event, EventKind, EventLog, Fault, GaveUp, ProcessSpec, Refusal, RunningChild, Survivors, clock,
 };
+use coact_pipeline::RestartPolicy;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::process::Signal;
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// A set of processes that are started in order, watched, restarted when they die, and stopped in reverse order.
@@ -13,9 +14,11 @@ use std::time::Duration;
 /// and each call does what is due by then.
 pub struct ProcessSet {
     processes: Vec<Supervised>,
-    ledger: RestartLedger,
+    policy: RestartPolicy,
     log: EventLog,
     news: Vec<Event>,
+    /// From when on silence counts; none while the run's clock does not run yet.
+    pulses_from: Option<Duration>,
     /// Called with process name and line for each line that a process writes to standard error.
     on_line: LineSink,
 }
@@ -24,18 +27,18 @@ pub struct ProcessSet {
 pub type LineSink = std::sync::Arc<dyn Fn(&str, &str) + Send + Sync>;
 
 impl ProcessSet {
-    /// A set of which nothing runs yet. `specs` stand in starting order.
-    pub fn new(specs: Vec<ProcessSpec>, intensity: Intensity, log: EventLog, on_line: LineSink) -> Self {
-        let processes = specs.into_iter().map(Supervised::new).collect();
-        Self { processes, ledger: RestartLedger::new(intensity), log, news: Vec::new(), on_line }
+    /// A set of which nothing runs yet.
+    pub fn new(specs: Vec<ProcessSpec>, policy: RestartPolicy, log: EventLog, on_line: LineSink) -> Self {
+        let mut processes: Vec<_> = specs.into_iter().map(Supervised::new).collect();
+        processes.sort_by_key(|process| process.spec.order);
+        Self { processes, policy, log, news: Vec::new(), pulses_from: None, on_line }
     }
 
     /// Waits until a process dies, a signal arrives, or `limit` has passed.
     pub fn wait(&self, limit: Duration) {
         let children = self.processes.iter().filter_map(|process| process.alive());
-        let mut deaths: Vec<PollFd<'_>> = children
-            .map(|alive| PollFd::from_borrowed_fd(alive.child.death(), PollFlags::IN))
-            .collect();
+        let mut deaths: Vec<PollFd<'_>> =
+            children.map(|alive| PollFd::from_borrowed_fd(alive.child.death(), PollFlags::IN)).collect();
         let limit = Timespec { tv_sec: limit.as_secs() as i64, tv_nsec: limit.subsec_nanos().into() };
         // The only failure is an interrupting signal: the caller looks for it anyway.
         poll(&mut deaths, Some(&limit)).ok();
@@ -53,15 +56,21 @@ impl ProcessSet {
             if self.processes[index].becomes_ready(clock::now()) {
                 self.greet(index, survivors);
             }
-            self.processes[index].discipline(clock::now());
+            self.processes[index].discipline(clock::now(), self.pulses_from);
             self.start_if_due(index, survivors)?;
         }
         Ok(())
     }
 
+    /// The run's clock starts at `from`: pulses are due from then on.
+    pub fn expect_pulses(&mut self, from: Duration) {
+        self.pulses_from = Some(from);
+    }
+
     /// A process published a pulse at `at`: it is alive.
     pub fn heard(&mut self, process: &str, at: Duration) {
-        let alive = self.processes.iter_mut().find(|p| p.spec.name == process).and_then(Supervised::alive_mut);
+        let alive =
+            self.processes.iter_mut().find(|p| p.spec.name == process).and_then(Supervised::alive_mut);
         if let Some(alive) = alive {
             alive.heard = alive.heard.max(at);
         }
@@ -72,7 +81,7 @@ impl ProcessSet {
     /// # Errors
     /// There is no such process, or it is not running just now.
     pub fn inject(&mut self, process: &str, fault: Fault) -> Result<(), Refusal> {
-        let names = || self.processes.iter().map(|p| p.spec.name.clone()).collect();
+        let names = || self.names().map(str::to_owned).collect();
         let index = self.processes.iter().position(|p| p.spec.name == process);
         let index = index.ok_or_else(|| Refusal::UnknownProcess { name: process.into(), known: names() })?;
         if !self.processes[index].is_ready() {
@@ -102,6 +111,16 @@ impl ProcessSet {
         self.processes.iter().all(Supervised::is_ready)
     }
 
+    /// Names of those that are not.
+    pub fn not_ready(&self) -> impl Iterator<Item = &str> {
+        self.processes.iter().filter(|process| !process.is_ready()).map(|process| process.spec.name.as_str())
+    }
+
+    /// Names of all processes, in starting order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.processes.iter().map(|process| process.spec.name.as_str())
+    }
+
     /// Process id of each running process, by name.
     pub fn pids(&self) -> impl Iterator<Item = (&str, u32)> {
         self.processes.iter().filter_map(|p| Some((p.spec.name.as_str(), p.alive()?.child.pid())))
@@ -112,63 +131,49 @@ impl ProcessSet {
         std::mem::take(&mut self.news)
     }
 
-    /// Stops all in reverse order of their start: SIGTERM, and SIGKILL after `grace`. `last` is stopped last of
-    /// all: it accounts for the others. Calls `meanwhile` every few milliseconds.
-    pub fn stop(&mut self, grace: Duration, last: &str, mut meanwhile: impl FnMut()) {
-        let mut order: Vec<usize> = (0..self.processes.len()).rev().collect();
-        order.sort_by_key(|&index| self.processes[index].spec.name == last);
-        for index in order {
-            self.stop_one(index, grace, &mut meanwhile);
+    /// Stops all in descending order, equal ones together: SIGTERM, and SIGKILL when the grace is over. Calls
+    /// `meanwhile` every few milliseconds.
+    pub fn stop(&mut self, mut meanwhile: impl FnMut()) {
+        let orders: BTreeSet<u32> = self.processes.iter().map(|process| process.spec.order).collect();
+        for &order in orders.iter().rev() {
+            let group = |set: &Self, i: usize| set.processes[i].spec.order == order;
+            let group: Vec<usize> = (0..self.processes.len()).filter(|&i| group(self, i)).collect();
+            self.stop_together(&group, &mut meanwhile);
         }
     }
 
-    fn stop_one(&mut self, index: usize, grace: Duration, meanwhile: &mut impl FnMut()) {
-        let Some(alive) = self.processes[index].alive() else {
-            self.processes[index].phase = Phase::Stopped;
-            return;
-        };
-        let pid = alive.child.pid();
-        alive.child.signal(Signal::TERM);
-        alive.child.signal(Signal::CONT);
-        let limit = clock::now() + grace;
-        let mut forced = None;
-        let death = loop {
-            if let Some(death) = self.processes[index].died(clock::now()) {
-                break death;
-            }
-            if clock::now() >= limit && forced.is_none() {
-                forced = Some(format!("killed: it did not end within {} s", grace.as_secs_f64()));
-                if let Some(alive) = self.processes[index].alive() {
-                    alive.child.signal(Signal::KILL);
+    fn stop_together(&mut self, group: &[usize], meanwhile: &mut impl FnMut()) {
+        let begin = clock::now();
+        for &index in group {
+            self.processes[index].ask_to_end();
+        }
+        while group.iter().any(|&index| self.processes[index].alive().is_some()) {
+            for &index in group {
+                if let Some(death) = self.processes[index].died(clock::now()) {
+                    self.record(index, EventKind::Stopped, Some(death.pid), Some(death.reason));
                 }
+                self.processes[index].force_to_end(clock::now().saturating_sub(begin));
             }
-            self.wait_for(index, Duration::from_millis(5));
             meanwhile();
-        };
-        self.processes[index].phase = Phase::Stopped;
-        self.record(index, EventKind::Stopped, Some(pid), forced.or(Some(death.reason)));
-    }
-
-    /// Waits until this one process dies or `limit` has passed.
-    fn wait_for(&self, index: usize, limit: Duration) {
-        let Some(alive) = self.processes[index].alive() else { return };
-        let limit = Timespec { tv_sec: 0, tv_nsec: limit.subsec_nanos().into() };
-        poll(&mut [PollFd::from_borrowed_fd(alive.child.death(), PollFlags::IN)], Some(&limit)).ok();
+            self.wait(Duration::from_millis(3));
+        }
+        for &index in group {
+            self.processes[index].phase = Phase::Stopped;
+        }
     }
 
     /// Enters a death and decides whether a replacement is started, and when.
     fn bury(&mut self, index: usize, death: Death) -> Result<(), GaveUp> {
-        let Death { pid, reason, was_ready, configuration, child } = death;
+        let Death { pid, reason, was_ready, overdue, configuration, child } = death;
         self.record(index, EventKind::Died, Some(pid), Some(reason.clone()));
         let first_start = self.processes[index].generation == 0 && !was_ready;
-        let overdue = first_start && reason.starts_with("not ready");
-        if (first_start && configuration) || overdue {
+        if first_start && (configuration || overdue) {
             return Err(self.give_up(index, pid, reason, child.last_words(), configuration));
         }
         self.remedy(index, pid, &reason, || child.last_words())
     }
 
-    /// Asks the ledger; gives up when it says so.
+    /// Asks the policy; gives up when it says so.
     fn remedy(
         &mut self,
         index: usize,
@@ -177,20 +182,13 @@ impl ProcessSet {
         last_words: impl FnOnce() -> Vec<String>,
     ) -> Result<(), GaveUp> {
         let now = clock::now();
-        match self.ledger.died(index, now) {
-            Remedy::RestartAfter(delay) => {
-                self.processes[index].phase = Phase::Down(now + delay);
-                Ok(())
-            }
-            Remedy::GiveUp { needed } => {
-                let Intensity { restarts, period, .. } = self.ledger.intensity();
-                let reason = format!(
-                    "{reason}; not restarted: {needed} restarts within {} s, {restarts} are allowed",
-                    period.as_secs_f64()
-                );
-                Err(self.give_up(index, pid, reason, last_words(), false))
-            }
+        let RestartPolicy { intensity, period, .. } = self.policy;
+        if let Some(pause) = self.processes[index].ledger.died(&self.policy, now) {
+            self.processes[index].phase = Phase::Down(now + pause);
+            return Ok(());
         }
+        let allowed = format!("{intensity} restarts within {} s are allowed", period.as_secs_f64());
+        Err(self.give_up(index, pid, format!("{reason}; not restarted: {allowed}"), last_words(), false))
     }
 
     fn give_up(
@@ -218,7 +216,7 @@ impl ProcessSet {
     fn start_if_due(&mut self, index: usize, survivors: &mut dyn Survivors) -> Result<(), GaveUp> {
         let process = &self.processes[index];
         let kind = match process.phase {
-            Phase::Waiting if self.processes[..index].iter().all(Supervised::is_ready) => EventKind::Started,
+            Phase::Waiting if self.is_turn_of(process.spec.order) => EventKind::Started,
             Phase::Down(due) if clock::now() >= due => EventKind::Restarted,
             _ => return Ok(()),
         };
@@ -229,12 +227,16 @@ impl ProcessSet {
         self.spawn(index, kind)
     }
 
+    /// True when every process that is to be started before this order is ready.
+    fn is_turn_of(&self, order: u32) -> bool {
+        self.processes.iter().filter(|process| process.spec.order < order).all(Supervised::is_ready)
+    }
+
     fn spawn(&mut self, index: usize, kind: EventKind) -> Result<(), GaveUp> {
         let Self { processes, on_line, .. } = self;
         let process = &mut processes[index];
-        drop(std::fs::remove_file(&process.spec.ready_file));
         let (sink, name) = (on_line.clone(), process.spec.name.clone());
-        match RunningChild::spawn(&process.spec, move |line| sink(&name, line)) {
+        match RunningChild::spawn(&process.spec, process.generation, move |line| sink(&name, line)) {
             Ok(child) => {
                 process.started(child, clock::now());
                 self.record(index, kind, None, None);

@@ -7,14 +7,25 @@ use std::time::Duration;
 pub struct ProcessSpec {
     /// Its name in the pipeline.
     pub name: String,
+    /// Started in ascending order, stopped in descending order; equal ones together.
+    pub order: u32,
     /// The program to run.
     pub program: PathBuf,
     /// Its arguments.
     pub arguments: Vec<OsString>,
-    /// The file that it writes when it is ready.
-    pub ready_file: PathBuf,
+    /// Where it writes `<name>.<generation>.json` when it is ready.
+    pub ready_directory: PathBuf,
     /// How long it may take until then.
     pub ready_within: Duration,
     /// Silence (no pulse) after which it counts as hung and is killed; `None` for a process without pulses.
     pub hung_after: Option<Duration>,
+    /// How long it may take to end after SIGTERM.
+    pub stop_grace: Duration,
+}
+
+impl ProcessSpec {
+    /// The file that this generation of the process writes when it is ready.
+    pub fn ready_file(&self, generation: u32) -> PathBuf {
+        self.ready_directory.join(format!("{}.{generation}.json", self.name))
+    }
 }

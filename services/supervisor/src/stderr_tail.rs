@@ -16,7 +16,10 @@ impl StderrTail {
     const KEPT: usize = 12;
 
     /// Reads `stderr` until its end on a thread of its own; each line goes to `pass_on`, too.
-    pub fn follow(stderr: impl Read + Send + 'static, mut pass_on: impl FnMut(&str) + Send + 'static) -> Self {
+    pub fn follow(
+        stderr: impl Read + Send + 'static,
+        mut pass_on: impl FnMut(&str) + Send + 'static,
+    ) -> Self {
         let lines = Arc::new(Mutex::new(VecDeque::with_capacity(Self::KEPT)));
         let kept = Arc::clone(&lines);
         let reader = std::thread::spawn(move || {

@@ -1,4 +1,4 @@
-use crate::{Fault, ProcessSpec, RunningChild};
+use crate::{Fault, ProcessSpec, RestartLedger, RunningChild};
 use rustix::process::Signal;
 use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
@@ -10,6 +10,7 @@ pub(crate) struct Supervised {
     pub(crate) spec: ProcessSpec,
     pub(crate) generation: u32,
     pub(crate) phase: Phase,
+    pub(crate) ledger: RestartLedger,
     /// Fault that was injected and not yet recovered from: stands in the events that it causes.
     pub(crate) fault: Option<Fault>,
     /// The next replacement is to be killed before it is ready.
@@ -37,6 +38,8 @@ pub(crate) struct Alive {
     pub(crate) ready: bool,
     /// Its newest sign of life.
     pub(crate) heard: Duration,
+    /// Killed because it was not ready in time.
+    pub(crate) overdue: bool,
     /// Why the supervisor killed it, if it did.
     pub(crate) sentence: Option<String>,
     /// When a stopped process is continued.
@@ -50,6 +53,8 @@ pub(crate) struct Alive {
 pub(crate) struct Death {
     pub(crate) pid: u32,
     pub(crate) reason: String,
+    /// It never became ready in time.
+    pub(crate) overdue: bool,
     pub(crate) was_ready: bool,
     /// It exited with status 2: it refused its configuration.
     pub(crate) configuration: bool,
@@ -61,7 +66,8 @@ impl Supervised {
     const CRASH_AFTER: Duration = Duration::from_millis(5);
 
     pub(crate) fn new(spec: ProcessSpec) -> Self {
-        Self { spec, generation: 0, phase: Phase::Waiting, fault: None, crash_next: false }
+        let ledger = RestartLedger::default();
+        Self { spec, generation: 0, phase: Phase::Waiting, ledger, fault: None, crash_next: false }
     }
 
     pub(crate) fn alive(&self) -> Option<&Alive> {
@@ -90,6 +96,7 @@ impl Supervised {
             since: now,
             ready: false,
             heard: now,
+            overdue: false,
             sentence: None,
             continue_at: None,
             crash_at,
@@ -103,6 +110,7 @@ impl Supervised {
         Some(Death {
             pid: alive.child.pid(),
             reason: alive.sentence.unwrap_or_else(|| describe(status)),
+            overdue: alive.overdue,
             was_ready: alive.ready,
             configuration: status.code() == Some(2),
             child: alive.child,
@@ -111,9 +119,12 @@ impl Supervised {
 
     /// True once, when its ready file has appeared.
     pub(crate) fn becomes_ready(&mut self, now: Duration) -> bool {
-        let there = self.spec.ready_file.exists();
+        if self.alive().is_none_or(|alive| alive.ready) {
+            return false;
+        }
+        let there = self.spec.ready_file(self.generation).exists();
         let Some(alive) = self.alive_mut() else { return false };
-        if alive.ready || alive.crash_at.is_some() || alive.sentence.is_some() || !there {
+        if alive.crash_at.is_some() || alive.sentence.is_some() || !there {
             return false;
         }
         alive.ready = true;
@@ -122,7 +133,8 @@ impl Supervised {
     }
 
     /// Kills it when it is overdue, silent or meant to crash; continues it when its pause is over.
-    pub(crate) fn discipline(&mut self, now: Duration) {
+    /// Silence counts from `pulses_from` on.
+    pub(crate) fn discipline(&mut self, now: Duration, pulses_from: Option<Duration>) {
         let (ready_within, hung_after) = (self.spec.ready_within, self.spec.hung_after);
         let Phase::Alive(alive) = &mut self.phase else { return };
         if alive.continue_at.is_some_and(|due| now >= due) {
@@ -135,13 +147,32 @@ impl Supervised {
             alive.condemn("killed before it was ready: injected crash-on-start".into());
         }
         if !alive.ready && now.saturating_sub(alive.since) > ready_within {
+            alive.overdue = true;
             alive.condemn(format!("not ready within {} s", ready_within.as_secs_f64()));
         }
-        if let Some(limit) = hung_after
+        if let (Some(limit), Some(from)) = (hung_after, pulses_from)
             && alive.ready
-            && now.saturating_sub(alive.heard) > limit
+            && now.saturating_sub(alive.heard.max(from)) > limit
         {
             alive.condemn(format!("hung: no pulse for more than {} ms", limit.as_millis()));
+        }
+    }
+}
+
+impl Supervised {
+    /// Asks it to end, also when it stands still.
+    pub(crate) fn ask_to_end(&mut self) {
+        if let Some(alive) = self.alive() {
+            alive.child.signal(Signal::TERM);
+            alive.child.signal(Signal::CONT);
+        }
+    }
+
+    /// Kills it when its grace is over; `asked` is the time since it was asked.
+    pub(crate) fn force_to_end(&mut self, asked: Duration) {
+        let grace = self.spec.stop_grace;
+        if let Some(alive) = self.alive_mut().filter(|_| asked > grace) {
+            alive.condemn(format!("killed: it did not end within {} s", grace.as_secs_f64()));
         }
     }
 }

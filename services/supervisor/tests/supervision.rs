@@ -1,8 +1,9 @@
 //! The supervision of real processes, with shell scripts in place of services.
 #![allow(clippy::unwrap_used)]
 
+use coact_pipeline::RestartPolicy;
 use coact_supervisor::{
-    Event, EventKind, EventLog, Fault, GaveUp, Intensity, ProcessSet, ProcessSpec, Refusal, Survivors,
+    Event, EventKind, EventLog, Fault, GaveUp, ProcessSet, ProcessSpec, Refusal, Survivors,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -31,13 +32,15 @@ impl Survivors for Offers {
 }
 
 fn script(folder: &Path, name: &str, script: &str) -> ProcessSpec {
-    let ready_file = folder.join(format!("{name}.ready"));
-    let script = format!("READY='{}'; DIR='{}'; {script}", ready_file.display(), folder.display());
+    let script =
+        format!("DIR='{}'; READY=\"$DIR/{name}.$COACT_GENERATION.json\"; {script}", folder.display());
     ProcessSpec {
         name: name.into(),
         program: "/bin/sh".into(),
         arguments: vec!["-c".into(), script.into()],
-        ready_file,
+        order: 0,
+        ready_directory: folder.to_owned(),
+        stop_grace: Duration::from_millis(300),
         ready_within: Duration::from_secs(60),
         hung_after: None,
     }
@@ -53,15 +56,22 @@ impl Trial {
         let mut specs: Vec<_> =
             scripts.iter().map(|(name, text)| script(folder.path(), name, text)).collect();
         specs.iter_mut().for_each(change);
-        let intensity = Intensity {
-            restarts: 3,
+        let policy = RestartPolicy {
+            intensity: 3,
             period: Duration::from_secs(600),
-            backoff: Duration::from_millis(1),
-            longest_backoff: Duration::from_millis(4),
+            backoff_initial: Duration::from_millis(1),
+            backoff_max: Duration::from_millis(4),
+            hung_after: Duration::from_millis(300),
         };
         let log = EventLog::create(folder.path()).unwrap();
-        let set = ProcessSet::new(specs, intensity, log, Arc::new(|_, _| {}));
+        let set = ProcessSet::new(specs, policy, log, Arc::new(|_, _| {}));
         Self { folder, set, events: Vec::new() }
+    }
+
+    /// Each process in its own step: the first of `scripts` is started first.
+    fn in_steps(scripts: &[(&str, &str)]) -> Self {
+        let position = |name: &str| scripts.iter().position(|(other, _)| *other == name).unwrap();
+        Self::with(scripts, |spec| spec.order = position(&spec.name) as u32)
     }
 
     /// Advances until `done`, or the set is given up.
@@ -106,7 +116,8 @@ fn exists(pid: u32) -> bool {
 fn each_process_starts_when_those_before_it_are_ready() {
     use EventKind::{Ready, Started};
     let slowly = "sleep 0.2; touch \"$READY\"; exec sleep 600";
-    let mut trial = Trial::of(&[("first", slowly), ("second", READY_AND_RUN), ("third", READY_AND_RUN)]);
+    let mut trial =
+        Trial::in_steps(&[("first", slowly), ("second", READY_AND_RUN), ("third", READY_AND_RUN)]);
     trial.run_until_ready();
     let expected = [
         (Started, "first"),
@@ -150,7 +161,8 @@ fn crash_on_start_kills_the_replacement_before_it_is_ready_and_the_next_one_live
 
 #[test]
 fn a_process_killed_while_it_starts_is_started_again() {
-    let dies_once = "if mkdir \"$DIR/once\" 2>/dev/null; then kill -9 $$; fi; touch \"$READY\"; exec sleep 600";
+    let dies_once =
+        "if mkdir \"$DIR/once\" 2>/dev/null; then kill -9 $$; fi; touch \"$READY\"; exec sleep 600";
     let mut trial = Trial::of(&[("a", dies_once), ("b", READY_AND_RUN)]);
     trial.run_until_ready();
     assert_eq!(trial.count(EventKind::Died, "a"), 1);
@@ -176,6 +188,7 @@ fn a_stopped_process_that_stays_silent_for_too_long_is_killed_as_hung_and_replac
         spec.hung_after = (spec.name == "a").then_some(Duration::from_millis(300));
     });
     trial.run_until_ready();
+    trial.set.expect_pulses(coact_supervisor::now());
     trial.set.inject("a", Fault::Stop).unwrap();
     trial.until(&mut (), |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
     let died = trial.events.iter().find(|event| event.event == EventKind::Died).unwrap();
@@ -200,7 +213,7 @@ fn a_process_that_dies_over_and_over_is_given_up_with_its_last_words() {
     assert_eq!(trial.count(EventKind::Restarted, "a"), 3);
     assert_eq!(trial.count(EventKind::GaveUp, "a"), 1);
     let text = gave_up.to_string();
-    for part in ["exit status 1", "4 restarts within 600 s, 3 are allowed", "the arm is on fire"] {
+    for part in ["exit status 1", "3 restarts within 600 s are allowed", "the arm is on fire"] {
         assert!(text.contains(part), "{text}");
     }
 }
@@ -222,20 +235,39 @@ fn a_program_that_does_not_exist_is_named() {
 }
 
 #[test]
-fn all_are_stopped_in_reverse_order_the_accountant_last_and_the_deaf_by_force() {
+fn all_are_stopped_in_descending_order_and_the_deaf_by_force() {
     let deaf = "trap '' TERM; touch \"$READY\"; while :; do sleep 0.01; done";
-    let mut trial =
-        Trial::of(&[("a", READY_AND_RUN), ("deaf", deaf), ("accountant", READY_AND_RUN), ("z", READY_AND_RUN)]);
+    let mut trial = Trial::in_steps(&[
+        ("accountant", READY_AND_RUN),
+        ("a", READY_AND_RUN),
+        ("deaf", deaf),
+        ("z", READY_AND_RUN),
+    ]);
     trial.run_until_ready();
     let pids: Vec<u32> = trial.set.pids().map(|(_, pid)| pid).collect();
     trial.events.clear();
-    trial.set.stop(Duration::from_millis(300), "accountant", || {});
+    trial.set.stop(|| {});
     trial.events.extend(trial.set.take_news());
     let order: Vec<&str> = trial.story().iter().map(|(_, name)| *name).collect();
     assert_eq!(order, ["z", "deaf", "a", "accountant"]);
     assert!(trial.events.iter().all(|event| event.event == EventKind::Stopped));
-    assert!(trial.events[1].reason.as_deref().unwrap().starts_with("killed"), "{:?}", trial.events[1]);
+    assert!(
+        trial.events[1].reason.as_deref().unwrap().starts_with("killed: it did not"),
+        "{:?}",
+        trial.events
+    );
     assert!(pids.into_iter().all(|pid| !exists(pid)));
+}
+
+#[test]
+fn those_of_the_same_order_start_and_stop_together() {
+    let waits_for_other =
+        "touch \"$DIR/$$\"; while [ $(ls \"$DIR\" | grep -cE '^[0-9]+$') -lt 2 ]; do sleep 0.01; done";
+    let script = format!("{waits_for_other}; {READY_AND_RUN}");
+    let mut trial = Trial::of(&[("a", &script), ("b", &script)]);
+    trial.run_until_ready();
+    trial.set.stop(|| {});
+    assert_eq!(trial.set.pids().count(), 0);
 }
 
 #[test]

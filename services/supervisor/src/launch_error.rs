@@ -1,0 +1,48 @@
+use crate::GaveUp;
+use coact_pipeline::{PipelineError, RunError};
+use coact_realtime::PortError;
+use std::io;
+use std::path::PathBuf;
+
+/// Why a run could not be started, or was given up.
+#[derive(Debug, thiserror::Error)]
+pub enum LaunchError {
+    /// A program of the process table does not exist.
+    #[error("process {process}: {} does not exist; build it with: cargo build --release", program.display())]
+    MissingProgram {
+        /// Name of the process.
+        process: String,
+        /// Where its program was expected.
+        program: PathBuf,
+    },
+    /// An injection names no process of the table.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+    /// The run directory or shared memory refuses.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// iceoryx2 refuses.
+    #[error(transparent)]
+    Port(#[from] PortError),
+    /// A file of the report or the run.
+    #[error("{}: {source}; expected a place that can be written", path.display())]
+    File {
+        /// The file or directory.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// Signals cannot be handled.
+    #[error("signals cannot be handled: {0}")]
+    Signals(io::Error),
+    /// The set was given up.
+    #[error(transparent)]
+    GaveUp(#[from] GaveUp),
+}
+
+impl LaunchError {
+    /// True when usage, configuration or the machine is at fault, and no run has taken place.
+    pub fn is_configuration(&self) -> bool {
+        !matches!(self, Self::GaveUp(GaveUp { configuration: false, .. }))
+    }
+}

@@ -1,0 +1,54 @@
+use crate::{ProcessSet, Progress};
+use coact_messages::{FieldFrame, Pulse, Speech, topic};
+use coact_pipeline::{Pipeline, Trigger};
+use coact_realtime::{Bus, Input, PortError};
+use std::time::Duration;
+
+/// Looks on: the newest field frame, what is said, and every process's pulses.
+pub(crate) struct Observer {
+    frame: Input<FieldFrame>,
+    speech: Input<Speech>,
+    pulses: Vec<(String, Input<Pulse>)>,
+    failed: bool,
+}
+
+impl Observer {
+    /// Opens its topics.
+    ///
+    /// # Errors
+    /// Shared memory refuses it.
+    pub(crate) fn new(bus: &Bus, pipeline: &Pipeline) -> Result<Self, PortError> {
+        let pulsing = pipeline.processes.iter().filter(|entry| entry.trigger != Trigger::None);
+        let pulses = pulsing
+            .map(|entry| Ok((entry.name.clone(), bus.input(&topic::pulse(&entry.name))?)))
+            .collect::<Result<_, PortError>>()?;
+        let (frame, speech) = (bus.input(topic::FIELDS)?, bus.input(topic::SPEECH)?);
+        Ok(Self { frame, speech, pulses, failed: false })
+    }
+
+    /// Tells `set` who is alive, and `progress` what has changed.
+    pub(crate) fn poll(&mut self, set: &mut ProcessSet, progress: &mut Progress) {
+        if let (Err(error), false) = (self.look(set, progress), self.failed) {
+            self.failed = true;
+            tracing::warn!("the progress shown is incomplete: {error}");
+        }
+    }
+
+    fn look(&mut self, set: &mut ProcessSet, progress: &mut Progress) -> Result<(), PortError> {
+        for (process, input) in &mut self.pulses {
+            if input.refresh()?
+                && let Some(pulse) = input.latest()
+            {
+                set.heard(process, Duration::from_nanos(pulse.header.published_ns));
+                progress.pulse(process, pulse);
+            }
+        }
+        if self.frame.refresh()?
+            && let Some(frame) = self.frame.latest()
+        {
+            progress.frame(frame);
+        }
+        self.speech.each(|speech| progress.speech(speech))?;
+        Ok(())
+    }
+}

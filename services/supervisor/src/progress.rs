@@ -1,0 +1,133 @@
+use crate::{Event, EventKind, Note, Tone};
+use coact_joint_task::Task;
+use coact_messages::{FieldFrame, LayerKind, Pulse, Speech};
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// How the run stands, as the person at the terminal sees it; each change becomes a [`Note`].
+#[derive(Debug)]
+pub struct Progress {
+    subgoals: Vec<String>,
+    actions: Vec<String>,
+    achieved: Vec<bool>,
+    decision: Option<usize>,
+    /// Deadline misses of each process: of its dead generations, and of the present one.
+    missed: BTreeMap<String, Missed>,
+    restarts: u32,
+    notes: Vec<Note>,
+}
+
+#[derive(Debug, Default)]
+struct Missed {
+    before: u64,
+    generation: u32,
+    now: u64,
+}
+
+/// A population whose signal is above this stands for an achieved subgoal.
+const ACHIEVED: f64 = 0.5;
+
+impl Progress {
+    /// Of a run with this task, at its beginning.
+    pub fn new(task: &Task) -> Self {
+        Self {
+            subgoals: task.subgoals.iter().map(|subgoal| subgoal.name.clone()).collect(),
+            actions: task.actions.iter().map(|action| action.name.clone()).collect(),
+            achieved: vec![false; task.subgoals.len()],
+            decision: None,
+            missed: BTreeMap::new(),
+            restarts: 0,
+            notes: Vec::new(),
+        }
+    }
+
+    /// The newest field frame: achieved subgoals and decision.
+    pub fn frame(&mut self, frame: &FieldFrame) {
+        let populations = frame.populations(LayerKind::SubgoalsAchieved);
+        let Self { subgoals, achieved, notes, .. } = self;
+        for ((population, achieved), name) in populations.zip(achieved.iter_mut()).zip(subgoals) {
+            let now = frame.signal[population] > ACHIEVED;
+            if now && !*achieved {
+                notes.push(Note::new(Tone::Achieved, format!("achieved: {name}")));
+            }
+            *achieved = now;
+        }
+        self.decided(usize::try_from(frame.decision.action).ok());
+    }
+
+    fn decided(&mut self, action: Option<usize>) {
+        let action = action.filter(|&index| index < self.actions.len());
+        if let (Some(index), true) = (action, action != self.decision) {
+            self.notes.push(Note::new(Tone::Decision, format!("decides: {}", self.actions[index])));
+        }
+        self.decision = action;
+    }
+
+    /// A sentence that the robot says.
+    pub fn speech(&mut self, speech: &Speech) {
+        let length = usize::try_from(speech.length).unwrap_or(usize::MAX).min(speech.text.len());
+        let text = String::from_utf8_lossy(&speech.text[..length]);
+        self.notes.push(Note::new(Tone::Speech, format!("says: \u{201c}{text}\u{201d}")));
+    }
+
+    /// The newest pulse of a process.
+    pub fn pulse(&mut self, process: &str, pulse: &Pulse) {
+        if !self.missed.contains_key(process) {
+            self.missed.insert(process.to_owned(), Missed::default());
+        }
+        let Some(missed) = self.missed.get_mut(process) else { return };
+        if pulse.header.generation != missed.generation {
+            missed.before += missed.now;
+            missed.generation = pulse.header.generation;
+        }
+        missed.now = pulse.missed;
+    }
+
+    /// Something that happened to a process.
+    pub fn event(&mut self, event: &Event) {
+        let Event { process, pid, generation, .. } = event;
+        let fault = event.fault.as_deref().unwrap_or("fault");
+        let reason = event.reason.as_deref().unwrap_or("no reason known");
+        let (tone, text) = match event.event {
+            EventKind::Started | EventKind::Stopped => return,
+            EventKind::Ready if *generation == 0 => return,
+            EventKind::Ready => (Tone::Achieved, format!("{process} is back (restart {generation})")),
+            EventKind::Died => (Tone::Disturbance, format!("{process} died: {reason} (pid {pid})")),
+            EventKind::Injected => (Tone::Disturbance, format!("injecting {fault} into {process}")),
+            EventKind::GaveUp => (Tone::Alarm, format!("{process} is given up: {reason}")),
+            EventKind::Restarted => {
+                self.restarts += 1;
+                return;
+            }
+        };
+        self.notes.push(Note::new(tone, text));
+    }
+
+    /// A note from elsewhere.
+    pub fn note(&mut self, note: Note) {
+        self.notes.push(note);
+    }
+
+    /// Every subgoal is achieved.
+    pub fn all_achieved(&self) -> bool {
+        !self.achieved.is_empty() && self.achieved.iter().all(|&achieved| achieved)
+    }
+
+    /// What has changed since the last call.
+    pub fn take_notes(&mut self) -> Vec<Note> {
+        std::mem::take(&mut self.notes)
+    }
+
+    /// The run in one line.
+    pub fn status(&self, elapsed: Duration) -> String {
+        let reached = self.achieved.iter().filter(|&&achieved| achieved).count();
+        let missed: u64 = self.missed.values().map(|missed| missed.before + missed.now).sum();
+        let decision = self.decision.map_or("no decision", |index| &self.actions[index]);
+        format!(
+            "{:>6.1} s  subgoals {reached}/{}  missed {missed}  restarts {}  {decision}",
+            elapsed.as_secs_f64(),
+            self.achieved.len(),
+            self.restarts
+        )
+    }
+}
