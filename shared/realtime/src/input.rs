@@ -78,6 +78,11 @@ impl<T: Message> Input<T> {
         Ok(count)
     }
 
+    /// Name of the topic.
+    pub fn topic(&self) -> &str {
+        &self.topic
+    }
+
     /// The newest message taken in so far, however old it is.
     pub fn latest(&self) -> Option<&T> {
         self.held.as_deref()

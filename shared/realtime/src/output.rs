@@ -32,6 +32,11 @@ impl<T: Message> Output<T> {
         Ok(Self { topic: topic.to_owned(), publisher, notifier, generation, sequence: 0 })
     }
 
+    /// Name of the topic.
+    pub fn topic(&self) -> &str {
+        &self.topic
+    }
+
     /// Counts on from a predecessor's last message, so that the topic's sequence has no second beginning.
     pub fn continue_after(&mut self, last: &Header) {
         self.sequence = last.sequence + 1;

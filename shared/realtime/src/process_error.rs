@@ -1,0 +1,39 @@
+use crate::PortError;
+use coact_pipeline::{PipelineError, RunError};
+
+/// Why a process ended.
+#[derive(Debug, thiserror::Error)]
+pub enum ProcessError {
+    /// The run directory cannot be used.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The process table cannot be used.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+    /// A port failed.
+    #[error(transparent)]
+    Port(#[from] PortError),
+    /// The process table starts the process by something else than its input.
+    #[error(
+        "process {process}: its trigger in the process table is {found}; expected \"timer\" or \"{expected}\""
+    )]
+    Trigger {
+        /// The process.
+        process: String,
+        /// What the table says.
+        found: String,
+        /// The topic of the input.
+        expected: String,
+    },
+    /// The generation is no number.
+    #[error("environment variable {variable}: is \"{found}\"; expected how often the process was restarted")]
+    Generation {
+        /// The variable.
+        variable: &'static str,
+        /// Its value.
+        found: String,
+    },
+    /// A signal handler cannot be installed.
+    #[error("signals cannot be handled: {0}; expected a system that lets a process handle SIGTERM")]
+    Signals(#[source] std::io::Error),
+}

@@ -1,0 +1,51 @@
+//! Scheduling class and core of the calling thread: asked for, and read back as obtained.
+
+use coact_pipeline::{ProcessEntry, Ready};
+use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity, set_current_timer_slack};
+use std::io;
+use std::num::NonZeroU64;
+
+/// Asks for what `entry` wants; returns what was refused, with the reasons.
+pub(crate) fn request(entry: &ProcessEntry) -> Vec<String> {
+    // Without SCHED_FIFO the kernel may delay wake-ups by this slack, 50 µs by default.
+    let _ = set_current_timer_slack(NonZeroU64::new(1));
+    let core = entry.core.map_or(Ok(()), pin);
+    let class = if entry.realtime { fifo(entry.priority) } else { Ok(()) };
+    [core, class].into_iter().filter_map(Result::err).collect()
+}
+
+/// What the calling thread has: scheduling class and priority, and its core if it has only one.
+pub(crate) fn obtained(ready: &mut Ready) {
+    // SAFETY: both calls only read the calling thread's attributes into a structure of ours.
+    let (policy, priority) = unsafe {
+        let mut parameter = std::mem::zeroed::<libc::sched_param>();
+        libc::sched_getparam(0, &raw mut parameter);
+        (libc::sched_getscheduler(0), parameter.sched_priority)
+    };
+    ready.scheduler = if policy == libc::SCHED_FIFO { "SCHED_FIFO" } else { "SCHED_OTHER" }.to_owned();
+    ready.priority = u8::try_from(priority).unwrap_or(0);
+    let cores = sched_getaffinity(None).unwrap_or_default();
+    let mut allowed = (0..CpuSet::MAX_CPU).filter(|&core| cores.is_set(core));
+    ready.core = allowed.next().filter(|_| allowed.next().is_none());
+}
+
+fn pin(core: usize) -> Result<(), String> {
+    let mut cores = CpuSet::new();
+    if core < CpuSet::MAX_CPU {
+        cores.set(core);
+    }
+    sched_setaffinity(None, &cores).map_err(|error| format!("core {core}: {error}"))
+}
+
+fn fifo(priority: u8) -> Result<(), String> {
+    // SAFETY: sets the class of the calling thread from a structure of ours.
+    let refused = unsafe {
+        let mut parameter = std::mem::zeroed::<libc::sched_param>();
+        parameter.sched_priority = i32::from(priority);
+        libc::sched_setscheduler(0, libc::SCHED_FIFO, &raw const parameter) != 0
+    };
+    match refused {
+        true => Err(format!("SCHED_FIFO {priority}: {}", io::Error::last_os_error())),
+        false => Ok(()),
+    }
+}

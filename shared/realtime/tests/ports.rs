@@ -1,0 +1,215 @@
+//! What ports promise: messages lie in the run's own shared memory, the newest counts, and other layouts are refused.
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use bytemuck::Zeroable;
+use coact_messages::{FieldFrame, LAYOUT, Percept, Pulse, Truth, topic};
+use coact_realtime::{Bus, Input, PortError};
+use iceoryx2::prelude::*;
+use support::{TABLE, TestRun};
+
+fn send(output: &mut coact_realtime::Output<Percept>, cycle: u64) {
+    let mut loan = output.loan().unwrap();
+    loan.act[0] = cycle as f64;
+    loan.send(cycle, 42).unwrap();
+}
+
+/// The shared-memory file in which `address` lies, if it lies in one.
+fn file_at(address: usize) -> Option<String> {
+    let maps = std::fs::read_to_string("/proc/self/maps").unwrap();
+    let line = maps.lines().find(|line| {
+        let (first, last) = line.split_whitespace().next().unwrap().split_once('-').unwrap();
+        let parse = |text| usize::from_str_radix(text, 16).unwrap();
+        (parse(first)..parse(last)).contains(&address)
+    })?;
+    line.split_whitespace().nth(5).map(str::to_owned)
+}
+
+#[test]
+fn message_is_written_and_read_in_the_shared_memory_of_its_run() {
+    let run = TestRun::new(TABLE);
+    let bus = Bus::open(&run.0, "fields", 0).unwrap();
+    let mut input: Input<FieldFrame> = bus.input(topic::FIELDS).unwrap();
+    let mut output = bus.output::<FieldFrame>(topic::FIELDS).unwrap();
+    let mut loan = output.loan().unwrap();
+    loan.activity[7] = 1.5;
+    let written_at = file_at(&raw const loan.activity as usize).unwrap();
+    loan.send(1, 2).unwrap();
+    input.refresh().unwrap();
+    let frame = input.latest().unwrap();
+    assert_eq!(frame.activity[7], 1.5);
+    let read_at = file_at(&raw const frame.activity as usize).unwrap();
+    assert_eq!(written_at, read_at);
+    assert!(read_at.starts_with(&format!("/dev/shm/{}", run.0.prefix())), "{read_at}");
+}
+
+#[test]
+fn header_tells_where_the_message_comes_from() {
+    let run = TestRun::new(TABLE);
+    let bus = Bus::open(&run.0, "perception", 3).unwrap();
+    let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
+    let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    send(&mut output, 10);
+    send(&mut output, 11);
+    let before = coact_realtime::now();
+    input.refresh().unwrap();
+    let header = *input.header().unwrap();
+    assert_eq!((header.layout, header.generation, header.sequence), (LAYOUT, 3, 1));
+    assert_eq!((header.cycle, header.sensor_ns, header.reserved), (11, 42, 0));
+    assert!(header.published_ns <= before && input.received_ns() >= before);
+}
+
+#[test]
+fn refresh_keeps_the_newest_and_tells_whether_it_is_newer() {
+    let run = TestRun::new(TABLE);
+    let bus = Bus::open(&run.0, "perception", 0).unwrap();
+    let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
+    let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    assert!(!input.refresh().unwrap() && input.latest().is_none());
+    for cycle in 1..=20 {
+        send(&mut output, cycle);
+    }
+    assert!(input.refresh().unwrap());
+    assert_eq!(input.latest().unwrap().act[0], 20.0);
+    assert!(!input.refresh().unwrap(), "the same message again is not newer");
+    assert_eq!(input.latest().unwrap().act[0], 20.0);
+}
+
+#[test]
+fn late_message_of_a_dead_writer_does_not_replace_its_successors() {
+    let run = TestRun::new(TABLE);
+    let bus = Bus::open(&run.0, "perception", 0).unwrap();
+    let mut dead = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    let mut successor = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
+    send(&mut successor, 9);
+    input.refresh().unwrap();
+    send(&mut dead, 8);
+    assert!(!input.refresh().unwrap());
+    assert_eq!(input.header().unwrap().cycle, 9);
+}
+
+#[test]
+fn reader_that_joins_late_gets_the_last_message_with_the_next_one_at_the_latest() {
+    let run = TestRun::new(TABLE);
+    let bus = Bus::open(&run.0, "perception", 0).unwrap();
+    let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    send(&mut output, 1);
+    let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
+    send(&mut output, 2);
+    let mut seen = Vec::new();
+    input.each(|percept| seen.push(percept.header.cycle)).unwrap();
+    assert_eq!(seen, [1, 2]);
+}
+
+#[test]
+fn reader_of_accounts_misses_none_while_it_falls_behind_by_half_a_second() {
+    let run = TestRun::new(TABLE);
+    let bus = Bus::open(&run.0, "monitor", 0).unwrap();
+    let topic = topic::pulse("fields");
+    let mut input: Input<Pulse> = bus.input(&topic).unwrap();
+    let mut output = bus.output::<Pulse>(&topic).unwrap();
+    for cycle in 0..500 {
+        output.loan().unwrap().send(cycle, 0).unwrap();
+    }
+    let mut expected = 0;
+    let count = input.each(|pulse| {
+        assert_eq!(pulse.header.cycle, expected);
+        expected += 1;
+    });
+    assert_eq!(count.unwrap(), 500);
+}
+
+#[test]
+fn writer_is_not_held_up_by_a_reader_that_never_looks() {
+    let run = TestRun::new(TABLE);
+    let bus = Bus::open(&run.0, "perception", 0).unwrap();
+    let mut hung: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
+    let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    for cycle in 1..=1000 {
+        send(&mut output, cycle);
+    }
+    hung.refresh().unwrap();
+    assert_eq!(hung.header().unwrap().cycle, 1000);
+}
+
+#[test]
+fn message_of_another_layout_is_refused() {
+    let run = TestRun::new(TABLE);
+    let bus = Bus::open(&run.0, "fields", 0).unwrap();
+    let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
+    // A program that was built from other layouts.
+    let mut config = Config::default();
+    config.global.prefix = FileName::new(run.0.prefix().as_bytes()).unwrap();
+    config.global.set_root_path(&Path::new(run.0.iceoryx2_root().as_os_str().as_encoded_bytes()).unwrap());
+    let node = NodeBuilder::new().config(&config).create::<ipc::Service>().unwrap();
+    let name = ServiceName::new(topic::PERCEPT).unwrap();
+    let service = node.service_builder(&name).publish_subscribe::<Percept>().open().unwrap();
+    let mut percept = Percept::zeroed();
+    percept.header.layout = LAYOUT + 1;
+    let publisher = service.publisher_builder().create().unwrap();
+    publisher.send_copy(percept).unwrap();
+    match input.refresh() {
+        Err(PortError::Layout { topic, found, expected }) => {
+            assert_eq!((topic.as_str(), found, expected), (topic::PERCEPT, LAYOUT + 1, LAYOUT));
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn truth_is_for_the_monitor_alone() {
+    let run = TestRun::new(TABLE);
+    for process in ["world", "perception", "fields", "control", "voice", "supervisor"] {
+        let bus = Bus::open(&run.0, process, 0).unwrap();
+        assert!(matches!(bus.input::<Truth>(topic::TRUTH), Err(PortError::TruthIsForTheMonitor { .. })));
+        assert!(matches!(bus.trigger::<Truth>(topic::TRUTH), Err(PortError::TruthIsForTheMonitor { .. })));
+    }
+    let world = Bus::open(&run.0, "world", 0).unwrap();
+    let monitor = Bus::open(&run.0, "monitor", 0).unwrap();
+    let mut truth: Input<Truth> = monitor.input(topic::TRUTH).unwrap();
+    let mut output = world.output::<Truth>(topic::TRUTH).unwrap();
+    output.loan().unwrap().send(5, 0).unwrap();
+    assert!(truth.refresh().unwrap());
+}
+
+#[test]
+fn waiting_ends_with_the_message_and_not_with_its_event_alone() {
+    let run = TestRun::new(TABLE);
+    let bus = Bus::open(&run.0, "fields", 0).unwrap();
+    let mut input: Input<Percept> = bus.trigger(topic::PERCEPT).unwrap();
+    let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    send(&mut output, 4);
+    let soon = || coact_realtime::now() + 3_000_000;
+    assert!(input.wait_for(4, soon()).unwrap(), "the message of cycle 4 is there");
+    send(&mut output, 5);
+    let until = soon();
+    assert!(!input.wait_for(6, until).unwrap(), "an event for cycle 5 does not start cycle 6");
+    assert!(coact_realtime::now() >= until);
+}
+
+#[test]
+fn runs_beside_each_other_do_not_hear_each_other_and_leave_nothing() {
+    let (first, second) = (TestRun::new(TABLE), TestRun::new(TABLE));
+    let (prefix, directory) = (first.0.prefix(), first.0.directory().to_owned());
+    let bus = Bus::open(&first.0, "perception", 0).unwrap();
+    let other = Bus::open(&second.0, "fields", 0).unwrap();
+    let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    let mut input: Input<Percept> = other.input(topic::PERCEPT).unwrap();
+    send(&mut output, 1);
+    assert!(!input.refresh().unwrap());
+    let files = || {
+        let entries = std::fs::read_dir("/dev/shm").unwrap();
+        let names = entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
+        names.filter(|name| name.starts_with(&prefix)).count()
+    };
+    assert!(files() > 0);
+    drop((output, bus));
+    drop(first);
+    assert_eq!(files(), 0);
+    assert!(!directory.exists());
+    let mut output = other.output(topic::PERCEPT).unwrap();
+    send(&mut output, 7);
+    assert!(input.refresh().unwrap(), "the run beside goes on");
+}
