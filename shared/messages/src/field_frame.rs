@@ -31,6 +31,20 @@ pub struct FieldFrame {
     pub since: [u64; MAX_POPULATIONS],
 }
 
+impl FieldFrame {
+    /// Populations of the first layer of this kind, as indices into [`signal`](Self::signal) and
+    /// [`since`](Self::since); empty when the network has no such layer.
+    pub fn populations(&self, kind: LayerKind) -> std::ops::Range<usize> {
+        let table = &self.layers;
+        let layers = (table.count as usize).min(MAX_LAYERS);
+        let Some(layer) = table.kind[..layers].iter().position(|&own| own == kind as u32) else {
+            return 0..0;
+        };
+        let first = (table.first_population[layer] as usize).min(MAX_POPULATIONS);
+        first..(first + table.populations[layer] as usize).min(MAX_POPULATIONS)
+    }
+}
+
 /// Where each layer's sites and populations stand in the rows of a [`FieldFrame`].
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]

@@ -1,0 +1,71 @@
+use coact_messages::Pulse;
+
+/// The deadline accounts of one process over the whole run, its restarts included.
+#[derive(Debug, Clone, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Account {
+    /// Cycles that published an output.
+    pub cycles: u64,
+    /// Deadline misses.
+    pub missed: u64,
+    /// Longest run of misses in consecutive cycles.
+    pub longest_miss_run: u64,
+    /// Cycles that ran on an input they had used before.
+    pub stale: u64,
+    /// Cycles skipped because the one before overran.
+    pub skipped: u64,
+    /// How often the process was restarted.
+    pub restarts: u32,
+    /// Misses at the end of what was seen so far, without a timely cycle in between.
+    run: u64,
+    /// Counters of the newest pulse.
+    last: Option<Counters>,
+}
+
+/// The counters that a pulse carries: they begin anew with each generation.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+struct Counters {
+    generation: u32,
+    sequence: u64,
+    missed: u64,
+    stale: u64,
+    skipped: u64,
+}
+
+/// What one cycle added to an account.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Lapse {
+    /// Deadline misses.
+    pub missed: u64,
+    /// Skipped cycles.
+    pub skipped: u64,
+}
+
+impl Account {
+    /// Adds one cycle and gives the lapses that it brought.
+    ///
+    /// Pulses that were lost on the way are made up for from the counters; misses among them count as one run,
+    /// the worst that may have been.
+    pub fn add(&mut self, pulse: &Pulse) -> Lapse {
+        let now = Counters {
+            generation: pulse.header.generation,
+            sequence: pulse.header.sequence,
+            missed: pulse.missed,
+            stale: pulse.stale,
+            skipped: pulse.skipped,
+        };
+        let same = self.last.filter(|last| last.generation == now.generation && last.sequence < now.sequence);
+        let before =
+            same.unwrap_or(Counters { sequence: now.sequence.saturating_sub(1), ..Counters::default() });
+        let missed = now.missed.saturating_sub(before.missed);
+        let skipped = now.skipped.saturating_sub(before.skipped);
+        self.cycles += now.sequence.saturating_sub(before.sequence).max(1);
+        self.missed += missed;
+        self.stale += now.stale.saturating_sub(before.stale);
+        self.skipped += skipped;
+        self.restarts = self.restarts.max(now.generation);
+        self.run = if missed == 0 { 0 } else { self.run + missed };
+        self.longest_miss_run = self.longest_miss_run.max(self.run);
+        self.last = Some(now);
+        Lapse { missed, skipped }
+    }
+}

@@ -1,0 +1,128 @@
+use crate::expectation::Expectation;
+use crate::{ActionEvent, Event, Intentions};
+use coact_joint_task::Task;
+use coact_messages::{FieldFrame, PartnerPhase, Truth};
+
+/// Finds for each of the partner's actions whether the robot had decided on the right answer before the grasp
+/// was complete, and by how much.
+///
+/// The state that counts is that of the first frame at or after grasp completion: a peak that crossed threshold
+/// before and has stayed until then still shows the cycle at which it crossed. So frames may be missing now and
+/// then, and a peak that rose and fell again does not count. A wrong peak counts only if it rose during the
+/// reach: what the robot was doing anyway is no answer. An action that is unanswered when the fingers close may
+/// still be answered, late, until the partner's hand rests or reaches again.
+#[derive(Debug)]
+pub struct Anticipation {
+    task: Task,
+    intentions: Intentions,
+    /// Number of the newest action that is dealt with, or under way.
+    seen: u32,
+    open: Option<OpenAction>,
+}
+
+/// An action whose answer is not settled.
+#[derive(Debug, Clone, Copy)]
+struct OpenAction {
+    number: u32,
+    chain: usize,
+    subgoal: usize,
+    onset: u64,
+    grasp: Option<u64>,
+    expectation: Option<Expectation>,
+    /// The state at grasp completion was looked at, and nothing was decided then.
+    late: bool,
+}
+
+impl Anticipation {
+    /// For a task; `intentions` serves the actions to which the task names no complementary one.
+    pub fn new(task: &Task, intentions: Intentions) -> Self {
+        Self { task: task.clone(), intentions, seen: 0, open: None }
+    }
+
+    /// Goes on after a restart: actions up to number `seen` are in the report already.
+    pub fn resume(&mut self, seen: u32) {
+        self.seen = self.seen.max(seen);
+    }
+
+    /// Both at once, as lockstep has them; see [`truth`](Self::truth) and [`frame`](Self::frame).
+    pub fn observe(&mut self, truth: &Truth, frame: &FieldFrame, events: &mut Vec<Event>) {
+        self.truth(truth, events);
+        self.frame(frame, events);
+    }
+
+    /// Takes notice of what the partner does; an action that ends unanswered is appended to `events`.
+    pub fn truth(&mut self, truth: &Truth, events: &mut Vec<Event>) {
+        let ended = self.open.filter(|open| {
+            let rests = open.late && truth.phase == PartnerPhase::Idle as u32;
+            truth.actions != open.number || rests
+        });
+        if let Some(open) = ended {
+            self.close(open, None, events);
+        }
+        if truth.actions > self.seen {
+            self.begin(truth);
+        }
+        if let Some(open) = self.open.as_mut().filter(|open| open.number == truth.actions) {
+            open.grasp = open.grasp.or(Some(truth.grasp_cycle).filter(|&cycle| cycle != 0));
+        }
+    }
+
+    /// Looks at the fields; an action that is answered is appended to `events`.
+    pub fn frame(&mut self, frame: &FieldFrame, events: &mut Vec<Event>) {
+        let Some(open) = self.open else { return };
+        let Some(grasp) = open.grasp.filter(|&grasp| frame.header.cycle >= grasp) else { return };
+        let Some(expectation) = open.expectation else { return self.close(open, None, events) };
+        let right = expectation.since(frame).map(|since| (expectation, since));
+        let answer = match right {
+            Some((_, since)) if since <= grasp || open.late => right,
+            _ if open.late => None,
+            _ => expectation.rival(frame, open.onset, grasp),
+        };
+        match answer {
+            Some(_) => self.close(open, answer, events),
+            None => self.open = Some(OpenAction { late: true, ..open }),
+        }
+    }
+
+    /// Ends the run: an action that is still unanswered stays so.
+    pub fn finish(&mut self, events: &mut Vec<Event>) {
+        if let Some(open) = self.open {
+            self.close(open, None, events);
+        }
+    }
+
+    fn begin(&mut self, truth: &Truth) {
+        self.seen = truth.actions;
+        let (chain, subgoal) = (truth.chain as usize, truth.subgoal as usize);
+        let expectation = Expectation::new(&self.task, &self.intentions, chain, subgoal);
+        let (number, onset) = (truth.actions, truth.onset_cycle);
+        self.open = Some(OpenAction { number, chain, subgoal, onset, grasp: None, expectation, late: false });
+    }
+
+    /// Forgets the open action; an action without grasp completion has no lead and gives no event.
+    fn close(&mut self, open: OpenAction, answer: Option<(Expectation, u64)>, events: &mut Vec<Event>) {
+        self.open = None;
+        if let Some(grasp) = open.grasp {
+            events.push(Event::Action(self.describe(open, grasp, answer)));
+        }
+    }
+
+    fn describe(&self, open: OpenAction, grasp: u64, answer: Option<(Expectation, u64)>) -> ActionEvent {
+        let Self { task, intentions, .. } = self;
+        let name = |peak: Expectation| peak.name(task, intentions);
+        let chain = task.chains.get(open.chain);
+        ActionEvent {
+            action: open.number,
+            chain: chain.map(|chain| chain.name.clone()).unwrap_or_default(),
+            kind: chain.map(|chain| task.kinds[chain.kind].name.clone()).unwrap_or_default(),
+            subgoal: task.subgoals.get(open.subgoal).map(|goal| goal.name.clone()).unwrap_or_default(),
+            onset_ms: open.onset,
+            grasp_ms: grasp,
+            decided_ms: answer.map(|(_, since)| since),
+            lead_ms: answer.map(|(_, since)| grasp as i64 - since as i64),
+            decided: answer.map(|(peak, _)| name(peak)),
+            expected: open.expectation.map(name),
+            correct: answer.is_some_and(|(peak, _)| Some(peak) == open.expectation),
+        }
+    }
+}

@@ -1,0 +1,25 @@
+use std::collections::BTreeMap;
+
+/// A fault of one process, and how the set came over it.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct FaultEvent {
+    /// Name of the process.
+    pub process: String,
+    /// The injected fault's name; of a death that nobody asked for: how it died.
+    pub fault: String,
+    /// Instant of the fault, ns of `CLOCK_MONOTONIC`.
+    pub at_ns: u64,
+    /// From the fault until the supervisor saw it; none when it saw nothing.
+    pub detected_ms: Option<f64>,
+    /// From the fault until the first good output (of the replacement); none when there was none.
+    pub recovered_ms: Option<f64>,
+    /// Deadline misses of each other process between fault and recovery.
+    pub survivors_missed: BTreeMap<String, u64>,
+}
+
+impl FaultEvent {
+    /// Instant of the recovery, or of the fault when there was none; ns of `CLOCK_MONOTONIC`.
+    pub(crate) fn settled_ns(&self) -> u64 {
+        self.at_ns + (self.recovered_ms.unwrap_or(0.0) * 1e6) as u64
+    }
+}

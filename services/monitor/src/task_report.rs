@@ -1,0 +1,69 @@
+use crate::Event;
+use coact_joint_task::Task;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// What was done and said in a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TaskReport {
+    /// How many subgoals the plan has.
+    pub subgoals: usize,
+    /// How many of them were achieved in the assembly that came furthest.
+    pub achieved: usize,
+    /// Their names, in the order in which that assembly achieved them.
+    pub order: Vec<String>,
+    /// How long the first complete assembly took; without one, how long the run lasted.
+    pub duration_s: f64,
+    /// Assemblies that were completed.
+    pub assemblies: u64,
+    /// What the robot decided, in order.
+    pub decisions: Vec<Told>,
+    /// What the robot said, in order.
+    pub utterances: Vec<Told>,
+}
+
+/// Something at a time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Told {
+    /// When, s from the start of the run.
+    pub at_s: f64,
+    /// What: the action's name, or the sentence.
+    pub what: String,
+}
+
+impl TaskReport {
+    /// From the events of a run that lasted `run_s` seconds.
+    pub fn new(task: &Task, events: &[Event], run_s: f64) -> Self {
+        let mut assemblies: BTreeMap<u64, Vec<String>> = BTreeMap::new();
+        let mut report = Self {
+            subgoals: task.subgoals.len(),
+            achieved: 0,
+            order: Vec::new(),
+            duration_s: run_s,
+            assemblies: 0,
+            decisions: Vec::new(),
+            utterances: Vec::new(),
+        };
+        let told = |at_ms: u64, what: &String| Told { at_s: at_ms as f64 / 1e3, what: what.clone() };
+        for event in events {
+            match event {
+                Event::Subgoal { assembly, name, .. } => {
+                    assemblies.entry(*assembly).or_default().push(name.clone());
+                }
+                Event::Assembly { at_ms, completed } => {
+                    if report.assemblies == 0 {
+                        report.duration_s = *at_ms as f64 / 1e3;
+                    }
+                    report.assemblies = *completed;
+                }
+                Event::Decision { at_ms, action } => report.decisions.push(told(*at_ms, action)),
+                Event::Utterance { at_ms, text } => report.utterances.push(told(*at_ms, text)),
+                Event::Forgotten { .. } | Event::Action(_) | Event::Fault(_) => {}
+            }
+        }
+        let furthest = assemblies.into_values().rev().max_by_key(Vec::len);
+        report.order = furthest.unwrap_or_default();
+        report.achieved = report.order.len();
+        report
+    }
+}

@@ -1,0 +1,97 @@
+use crate::Event;
+use coact_joint_task::Task;
+use coact_messages::{Decision, FieldFrame, LayerKind, NONE, Speech, Truth};
+
+/// Sees the task advance: subgoals, assemblies, decisions, utterances, and memories that got lost.
+#[derive(Debug)]
+pub struct TaskWatch {
+    task: Task,
+    /// Subgoals of the present assembly that are in their place (truth), bit for bit.
+    achieved: u64,
+    /// Subgoals that the fields remember as achieved, bit for bit.
+    remembered: u64,
+    /// Assemblies completed.
+    completed: u64,
+    decision: Decision,
+}
+
+impl TaskWatch {
+    /// For a task.
+    pub fn new(task: &Task) -> Self {
+        let decision = Decision { action: NONE, reserved: 0, since: 0 };
+        Self { task: task.clone(), achieved: 0, remembered: 0, completed: 0, decision }
+    }
+
+    /// Goes on after a restart from the events that were written before.
+    pub fn resume(&mut self, events: &[Event]) {
+        for event in events {
+            match event {
+                Event::Subgoal { subgoal, assembly, .. } if *assembly == self.completed => {
+                    self.achieved |= 1 << subgoal;
+                }
+                Event::Assembly { completed, .. } => (self.completed, self.achieved) = (*completed, 0),
+                Event::Decision { at_ms, action } => {
+                    let index = self.task.actions.iter().position(|own| own.name == *action);
+                    self.decision.action = index.map_or(NONE, |index| index as u32);
+                    self.decision.since = *at_ms;
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// What has really come about; events are appended to `events`.
+    pub fn truth(&mut self, truth: &Truth, events: &mut Vec<Event>) {
+        let at_ms = truth.header.cycle;
+        if truth.assemblies > self.completed {
+            self.complete(truth.assemblies, at_ms, events);
+        }
+        if truth.assemblies < self.completed {
+            return; // complete, and not yet laid out again
+        }
+        for (subgoal, goal) in self.task.subgoals.iter().enumerate() {
+            let bit = 1 << subgoal;
+            if truth.achieved & bit != 0 && self.achieved & bit == 0 {
+                self.achieved |= bit;
+                let (assembly, name) = (truth.assemblies, goal.name.clone());
+                events.push(Event::Subgoal { at_ms, assembly, subgoal, name });
+            }
+        }
+        if self.achieved.count_ones() as usize == self.task.subgoals.len() {
+            self.complete(truth.assemblies + 1, at_ms, events);
+        }
+    }
+
+    /// What the robot makes of it; `truth` tells a lost memory from one that is rightly given up.
+    pub fn frame(&mut self, frame: &FieldFrame, truth: &Truth, events: &mut Vec<Event>) {
+        if frame.decision != self.decision {
+            self.decision = frame.decision;
+            if let Some(action) = self.task.actions.get(frame.decision.action as usize) {
+                events.push(Event::Decision { at_ms: frame.decision.since, action: action.name.clone() });
+            }
+        }
+        let mut remembered = 0;
+        for (subgoal, population) in frame.populations(LayerKind::SubgoalsAchieved).enumerate().take(64) {
+            remembered |= u64::from(frame.since[population] != 0) << subgoal;
+        }
+        let lost = self.remembered & !remembered & truth.achieved;
+        self.remembered = remembered;
+        for (subgoal, goal) in self.task.subgoals.iter().enumerate() {
+            if lost & (1 << subgoal) != 0 {
+                events.push(Event::Forgotten { at_ms: frame.header.cycle, name: goal.name.clone() });
+            }
+        }
+    }
+
+    /// What the robot said.
+    pub fn speech(&mut self, speech: &Speech, events: &mut Vec<Event>) {
+        let length = (speech.length as usize).min(speech.text.len());
+        let text = String::from_utf8_lossy(&speech.text[..length]).into_owned();
+        events.push(Event::Utterance { at_ms: speech.header.cycle, text });
+    }
+
+    fn complete(&mut self, completed: u64, at_ms: u64, events: &mut Vec<Event>) {
+        (self.completed, self.achieved) = (completed, 0);
+        events.push(Event::Assembly { at_ms, completed });
+    }
+}

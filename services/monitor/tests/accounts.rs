@@ -1,0 +1,52 @@
+//! Deadline accounts from pulses.
+
+mod support;
+
+use coact_messages::Pulse;
+use coact_monitor::{Account, Lapse};
+use support::pulse;
+
+fn counted(sequence: u64, generation: u32, missed: u64, skipped: u64) -> Pulse {
+    let mut pulse = pulse(sequence, 0);
+    pulse.header.generation = generation;
+    (pulse.missed, pulse.skipped) = (missed, skipped);
+    pulse
+}
+
+fn account(pulses: &[Pulse]) -> Account {
+    let mut account = Account::default();
+    for pulse in pulses {
+        account.add(pulse);
+    }
+    account
+}
+
+#[test]
+fn the_longest_run_is_that_of_consecutive_misses() {
+    let missed = [0, 1, 2, 2, 3, 4, 5, 5, 6];
+    let pulses: Vec<Pulse> = (0..).zip(missed).map(|(cycle, missed)| counted(cycle, 0, missed, 0)).collect();
+    let account = account(&pulses);
+    assert_eq!((account.cycles, account.missed, account.longest_miss_run), (9, 6, 3));
+}
+
+#[test]
+fn a_restart_begins_its_counters_anew_and_loses_nothing() {
+    let pulses = [counted(0, 0, 0, 0), counted(1, 0, 1, 2), counted(2, 1, 0, 0), counted(3, 1, 1, 1)];
+    let account = account(&pulses);
+    assert_eq!((account.cycles, account.missed, account.skipped, account.restarts), (4, 2, 3, 1));
+    assert_eq!(account.longest_miss_run, 1);
+}
+
+#[test]
+fn pulses_that_were_lost_are_made_up_for() {
+    let account = account(&[counted(0, 0, 0, 0), counted(10, 0, 4, 0)]);
+    assert_eq!((account.cycles, account.missed, account.longest_miss_run), (11, 4, 4));
+}
+
+#[test]
+fn each_cycle_tells_what_it_added() {
+    let mut account = Account::default();
+    account.add(&counted(0, 0, 2, 1));
+    assert_eq!(account.add(&counted(1, 0, 3, 5)), Lapse { missed: 1, skipped: 4 });
+    assert_eq!(account.add(&counted(2, 0, 3, 5)), Lapse::default());
+}

@@ -1,0 +1,167 @@
+//! A whole report from hand-made messages: events, restart, summary, verdict, pictures.
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use coact_messages::{LayerKind, Speech};
+use coact_monitor::{Environment, Event, Link, Monitor, Rules, Summary, Watched};
+use std::path::Path;
+use std::time::SystemTime;
+use support::*;
+
+fn rules() -> Rules {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/verdict.toml");
+    Rules::load(Path::new(path)).unwrap()
+}
+
+fn open(report: &Path) -> Monitor {
+    let links = vec![Link { process: "control".into(), input_from: Some("fields".into()), last: true }];
+    let (task, intentions) = (task(), intentions());
+    let started = SystemTime::now();
+    let report = report.to_owned();
+    Monitor::open(Watched { report, task, intentions, links, rules: rules(), start_ns: 0, started }).unwrap()
+}
+
+fn speech(cycle: u64, text: &str) -> Speech {
+    let mut speech: Speech = bytemuck::Zeroable::zeroed();
+    speech.header.cycle = cycle;
+    speech.length = text.len() as u64;
+    speech.text[..text.len()].copy_from_slice(text.as_bytes());
+    speech
+}
+
+/// Two subgoals, one action with the right decision, one sentence: cycles of a complete assembly.
+fn play(monitor: &mut Monitor, cycles: std::ops::Range<u64>) {
+    let mut events = Vec::new();
+    for cycle in cycles {
+        let mut truth = acting(cycle, 1, MOUNT, LID, 100, if cycle >= 800 { 800 } else { 0 });
+        truth.achieved = u64::from(cycle >= 900) | u64::from(cycle >= 1200) << 1;
+        monitor.truth(&truth, &mut events);
+        let mut frame = if cycle >= 600 { decided(cycle, HOLD_LID, 600) } else { frame(cycle) };
+        let memory = frame.populations(LayerKind::SubgoalsAchieved).start;
+        frame.since[memory] = if cycle >= 950 { 950 } else { 0 };
+        monitor.frame(&frame, &mut events);
+        monitor.pulse("control", &pulse(cycle, 20_000));
+        if cycle == 650 {
+            monitor.speech(&speech(cycle, "I will hold it."), &mut events);
+        }
+        monitor.keep(pulse(cycle, 0).released_ns, std::mem::take(&mut events)).unwrap();
+    }
+}
+
+fn finish(monitor: Monitor) -> Summary {
+    let environment = Environment {
+        kernel: "Linux 6.1".into(),
+        preemption: "PREEMPT_DYNAMIC".into(),
+        governor: "none".into(),
+        cores: 2,
+        memory_locked: true,
+        schedulers: [("control".into(), "SCHED_FIFO 80 on core 1".into())].into(),
+    };
+    monitor.finish(environment, 2_000_000_000).unwrap()
+}
+
+const INJECTED: &str =
+    r#"{"at_ns":700000000,"event":"injected","process":"control","generation":0,"pid":7,"fault":"slow"}"#;
+
+#[test]
+fn summary_has_the_documented_keys_and_figures() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("supervisor.jsonl"), format!("{INJECTED}\n")).unwrap();
+    let mut monitor = open(folder.path());
+    play(&mut monitor, 0..2000);
+    finish(monitor);
+    insta::assert_snapshot!(std::fs::read_to_string(folder.path().join("summary.json")).unwrap());
+}
+
+#[test]
+fn pictures_are_drawn_for_every_histogram_and_the_anticipation() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut monitor = open(folder.path());
+    play(&mut monitor, 0..2000);
+    finish(monitor);
+    for name in ["wakeup.control", "execution.control", "hop.fields.control", "end-to-end", "anticipation"] {
+        let picture = std::fs::read_to_string(folder.path().join(format!("plots/{name}.svg"))).unwrap();
+        assert!(picture.trim_end().ends_with("</svg>"), "{name}");
+        assert!(picture.contains("percentile") || picture.contains("mount: lid"), "{name}");
+    }
+}
+
+#[test]
+fn a_killed_monitor_goes_on_and_tells_the_same_story() {
+    let (whole, parts) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let mut monitor = open(whole.path());
+    play(&mut monitor, 0..2000);
+    let expected = finish(monitor);
+
+    for (start, kill) in [(0, 700), (700, 1000), (1000, 1300)] {
+        let mut monitor = open(parts.path());
+        play(&mut monitor, start..kill);
+        monitor.write().unwrap();
+    }
+    let mut monitor = open(parts.path());
+    play(&mut monitor, 1300..2000);
+    let found = finish(monitor);
+    assert_eq!(found.task, expected.task);
+    assert_eq!(found.anticipation, expected.anticipation);
+    assert_eq!(found.processes, expected.processes);
+    assert_eq!((found.verdict, found.reasons), ("pass", vec![]));
+}
+
+#[test]
+fn a_memory_that_is_lost_while_the_subgoal_is_achieved_fails_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut monitor = open(folder.path());
+    play(&mut monitor, 0..1100);
+    let mut events = Vec::new();
+    let mut truth = acting(1100, 1, MOUNT, LID, 100, 800);
+    truth.achieved = 1;
+    monitor.truth(&truth, &mut events);
+    monitor.frame(&frame(1100), &mut events); // no peak of the memory any more
+    assert_eq!(events, [Event::Forgotten { at_ms: 1100, name: "lid".into() }]);
+    monitor.keep(1, events).unwrap();
+    let summary = finish(monitor);
+    assert_eq!(summary.verdict, "fail");
+    assert_eq!(summary.reasons, ["at 1.1 s the fields lost the achieved subgoal \"lid\""]);
+}
+
+#[test]
+fn each_rule_that_is_broken_is_one_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let supervisor = INJECTED.replace("injected", "died").replace("slow", "kill");
+    let given_up = supervisor.replace("died", "gave_up");
+    std::fs::write(folder.path().join("supervisor.jsonl"), format!("{supervisor}\n{given_up}\n")).unwrap();
+    let mut monitor = open(folder.path());
+    let mut events = Vec::new();
+    for cycle in 0..1000 {
+        // The wrong action is decided on, and half of the deadlines are missed.
+        monitor.truth(&acting(cycle, 1, MOUNT, LID, 100, if cycle >= 800 { 800 } else { 0 }), &mut events);
+        let frame = if cycle >= 600 { decided(cycle, TAKE_HINGE, 600) } else { frame(cycle) };
+        monitor.frame(&frame, &mut events);
+        let mut late = pulse(cycle, 0);
+        late.missed = cycle.div_ceil(2);
+        monitor.pulse("control", &late);
+    }
+    monitor.keep(1, events).unwrap();
+    let summary = monitor.finish(Environment::default(), 200_000_000_000).unwrap();
+    insta::assert_snapshot!(summary.reasons.join("\n"));
+}
+
+#[test]
+fn frames_of_another_task_are_not_judged() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut monitor = open(folder.path());
+    let mut foreign = decided(1, HOLD_LID, 1);
+    foreign.task = 43;
+    let mut events = Vec::new();
+    monitor.frame(&foreign, &mut events);
+    assert_eq!(events, []);
+}
+
+#[test]
+fn a_foreign_journal_is_refused_with_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("events.jsonl"), "{\"event\":\"dance\"}\n").unwrap();
+    let error = coact_monitor::Journal::open(folder.path()).unwrap_err().to_string();
+    assert!(error.contains("events.jsonl:1: not an event"), "{error}");
+}
