@@ -14,7 +14,8 @@ fn step(criterion: &mut Criterion) {
     let mut percept: Box<Percept> = bytemuck::zeroed_box();
     percept.workspace[1].seen[..4].fill(1.0);
     percept.act[0] = 1.0;
-    let (mut now, mut next): (Box<FieldFrame>, Box<FieldFrame>) = (bytemuck::zeroed_box(), bytemuck::zeroed_box());
+    let (mut now, mut next): (Box<FieldFrame>, Box<FieldFrame>) =
+        (bytemuck::zeroed_box(), bytemuck::zeroed_box());
     network.rest(&mut now);
     let mut tick = 0;
     criterion.bench_function("network step", |bencher| {

@@ -71,7 +71,13 @@ impl Network {
     /// Integrates one period of 1 ms from `previous` into `out`.
     ///
     /// Costs about 14 multiplications per site, one exponential per site and one multiplication per synapse.
-    pub fn step(&mut self, tick: u64, percept: Option<&Percept>, previous: &FieldFrame, out: &mut FieldFrame) {
+    pub fn step(
+        &mut self,
+        tick: u64,
+        percept: Option<&Percept>,
+        previous: &FieldFrame,
+        out: &mut FieldFrame,
+    ) {
         self.describe(out);
         self.collect(tick, percept, previous);
         self.transmit(tick);
@@ -112,7 +118,8 @@ impl Network {
         self.sources[..populations].copy_from_slice(&previous.signal[..populations]);
         let fresh = percept.filter(|percept| tick.saturating_sub(percept.header.cycle) <= PERCEPT_LIFETIME);
         for (source, plan) in self.sources[populations..].iter_mut().zip(&self.plan.channels) {
-            let value = fresh.map_or(f64::from(plan.channel == Channel::Always), |percept| read(percept, plan.channel));
+            let value = fresh
+                .map_or(f64::from(plan.channel == Channel::Always), |percept| read(percept, plan.channel));
             // A broken sensor may deliver anything; evidence is a number between 0 and 1.
             *source = if value.is_finite() { value.clamp(0.0, 1.0) } else { 0.0 };
         }

@@ -48,8 +48,10 @@ impl Source {
     pub(crate) fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, TaskError> {
         toml::from_str(&self.text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
-            let key = key_at(&self.text, span.start);
-            self.error(span, key, error.message().trim().to_string())
+            let problem = error.message().trim().to_string();
+            let missing = problem.strip_prefix("missing field `").and_then(|rest| rest.split('`').next());
+            let key = missing.map_or_else(|| key_at(&self.text, span.start), str::to_string);
+            self.error(span, key, problem)
         })
     }
 }

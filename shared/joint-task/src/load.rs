@@ -53,39 +53,58 @@ impl Reader<'_> {
     fn kinds(&self) -> Result<Vec<Kind>, TaskError> {
         self.within("kind", self.file.kind.len(), MAX_KINDS, "kinds of part")?;
         self.distinct("kind", self.file.kind.iter().map(|kind| &kind.name))?;
-        self.file.kind.iter().enumerate().map(|(index, entry)| {
-            for (key, value) in [("width", &entry.width), ("mass", &entry.mass)] {
-                if !(*value.get_ref() > 0.0 && value.get_ref().is_finite()) {
-                    let key = format!("kind[{index}].{key}");
-                    return Err(self.source.error(value.span(), key, "expected a number above 0"));
+        self.file
+            .kind
+            .iter()
+            .enumerate()
+            .map(|(index, entry)| {
+                for (key, value) in [("width", &entry.width), ("mass", &entry.mass)] {
+                    if !(*value.get_ref() > 0.0 && value.get_ref().is_finite()) {
+                        let key = format!("kind[{index}].{key}");
+                        return Err(self.source.error(value.span(), key, "expected a number above 0"));
+                    }
                 }
-            }
-            Ok(Kind {
-                name: entry.name.get_ref().clone(),
-                width: *entry.width.get_ref(),
-                shape: entry.shape,
-                mass: *entry.mass.get_ref(),
+                Ok(Kind {
+                    name: entry.name.get_ref().clone(),
+                    width: *entry.width.get_ref(),
+                    shape: entry.shape,
+                    mass: *entry.mass.get_ref(),
+                })
             })
-        }).collect()
+            .collect()
     }
 
     fn parts(&self) -> Result<Vec<Part>, TaskError> {
         self.within("part", self.file.part.len(), MAX_PARTS, "parts")?;
-        self.file.part.iter().enumerate().map(|(index, entry)| {
-            let at = *entry.at.get_ref();
-            let RectangleBounds { min, max } = bounds(&self.file.scene, entry.workspace);
-            if !(0..2).all(|axis| (min[axis]..=max[axis]).contains(&at[axis])) {
-                let problem = format!("{at:?} lies outside its workspace; expected between {min:?} and {max:?}");
-                return Err(self.source.error(entry.at.span(), format!("part[{index}].at"), problem));
-            }
-            Ok(Part { kind: self.kind(&format!("part[{index}].kind"), &entry.kind)?, workspace: entry.workspace, at })
-        }).collect()
+        self.file
+            .part
+            .iter()
+            .enumerate()
+            .map(|(index, entry)| {
+                let at = *entry.at.get_ref();
+                let RectangleBounds { min, max } = bounds(&self.file.scene, entry.workspace);
+                if !(0..2).all(|axis| (min[axis]..=max[axis]).contains(&at[axis])) {
+                    let problem =
+                        format!("{at:?} lies outside its workspace; expected between {min:?} and {max:?}");
+                    return Err(self.source.error(entry.at.span(), format!("part[{index}].at"), problem));
+                }
+                Ok(Part {
+                    kind: self.kind(&format!("part[{index}].kind"), &entry.kind)?,
+                    workspace: entry.workspace,
+                    at,
+                })
+            })
+            .collect()
     }
 
     fn subgoals(&self) -> Result<Vec<Subgoal>, TaskError> {
         self.within("subgoal", self.file.subgoal.len(), MAX_SUBGOALS, "subgoals")?;
         self.distinct("subgoal", self.file.subgoal.iter().map(|subgoal| &subgoal.name))?;
-        let subgoals = self.file.subgoal.iter().enumerate()
+        let subgoals = self
+            .file
+            .subgoal
+            .iter()
+            .enumerate()
             .map(|(index, entry)| self.subgoal(index, entry))
             .collect::<Result<Vec<_>, _>>()?;
         self.acyclic(&subgoals)?;
@@ -94,13 +113,19 @@ impl Reader<'_> {
 
     fn subgoal(&self, index: usize, entry: &SubgoalEntry) -> Result<Subgoal, TaskError> {
         let names = self.file.subgoal.iter().map(|subgoal| &subgoal.name);
-        let after = entry.after.iter()
+        let after = entry
+            .after
+            .iter()
             .map(|name| self.find(&format!("subgoal[{index}].after"), name, names.clone()))
             .collect::<Result<Vec<_>, _>>()?;
         let length = entry.socket.axis.iter().map(|x| x * x).sum::<f64>().sqrt();
         if length < 1e-6 || !length.is_finite() {
             let key = format!("subgoal[{index}].socket.axis");
-            return Err(self.source.error(entry.socket.at.span(), key, "expected a direction, e.g. [0, 0, 1]"));
+            return Err(self.source.error(
+                entry.socket.at.span(),
+                key,
+                "expected a direction, e.g. [0, 0, 1]",
+            ));
         }
         Ok(Subgoal {
             name: entry.name.get_ref().clone(),
@@ -133,15 +158,24 @@ impl Reader<'_> {
 
     fn grips(&self) -> Result<Vec<Grip>, TaskError> {
         self.distinct("grip", self.file.grip.iter().map(|grip| &grip.name))?;
-        Ok(self.file.grip.iter()
+        Ok(self
+            .file
+            .grip
+            .iter()
             .map(|grip| Grip { name: grip.name.get_ref().clone(), pitch: grip.pitch.to_radians() })
             .collect())
     }
 
     fn gestures(&self) -> Result<Vec<Gesture>, TaskError> {
         self.distinct("gesture", self.file.gesture.iter().map(|gesture| &gesture.name))?;
-        Ok(self.file.gesture.iter()
-            .map(|gesture| Gesture { name: gesture.name.get_ref().clone(), pitch: gesture.pitch.to_radians() })
+        Ok(self
+            .file
+            .gesture
+            .iter()
+            .map(|gesture| Gesture {
+                name: gesture.name.get_ref().clone(),
+                pitch: gesture.pitch.to_radians(),
+            })
             .collect())
     }
 
@@ -204,7 +238,8 @@ impl Reader<'_> {
     ) -> Result<usize, TaskError> {
         known.clone().position(|candidate| candidate.get_ref() == name.get_ref()).ok_or_else(|| {
             let known: Vec<_> = known.map(|name| format!("{:?}", name.get_ref())).collect();
-            let problem = format!("{:?} is not defined; expected one of {}", name.get_ref(), known.join(", "));
+            let problem =
+                format!("{:?} is not defined; expected one of {}", name.get_ref(), known.join(", "));
             self.source.error(name.span(), key, problem)
         })
     }
@@ -231,7 +266,11 @@ impl Reader<'_> {
 
 fn acts(grips: usize, gestures: usize, kinds: usize) -> Vec<Act> {
     let grasps = (0..grips).flat_map(|grip| (0..kinds).map(move |kind| Act::Grasp { grip, kind }));
-    [Act::Rest, Act::Idle, Act::Reach].into_iter().chain((0..gestures).map(Act::Gesture)).chain(grasps).collect()
+    [Act::Rest, Act::Idle, Act::Reach]
+        .into_iter()
+        .chain((0..gestures).map(Act::Gesture))
+        .chain(grasps)
+        .collect()
 }
 
 fn expand(entry: &ActionEntry, kinds: &[Kind], subgoals: &[Subgoal]) -> Vec<Action> {
@@ -251,9 +290,7 @@ fn expand(entry: &ActionEntry, kinds: &[Kind], subgoals: &[Subgoal]) -> Vec<Acti
             kind: None,
             subgoal: None,
         }],
-        Each::Kind => {
-            kinds.iter().enumerate().map(|(index, kind)| named(&kind.name, index, None)).collect()
-        }
+        Each::Kind => kinds.iter().enumerate().map(|(index, kind)| named(&kind.name, index, None)).collect(),
         Each::Subgoal => subgoals
             .iter()
             .enumerate()

@@ -59,7 +59,15 @@ pub(crate) fn acts(task: &Task) -> Vec<Population> {
             Act::Gesture(gesture) => ("gesture", None, Some(gesture), None),
             Act::Grasp { grip, kind } => ("grasp", Some(grip), None, Some(kind)),
         };
-        Population { label: task.act_name(index), role, act: Some(index), grip, gesture, kind, ..Population::default() }
+        Population {
+            label: task.act_name(index),
+            role,
+            act: Some(index),
+            grip,
+            gesture,
+            kind,
+            ..Population::default()
+        }
     };
     task.acts.iter().enumerate().map(act).collect()
 }

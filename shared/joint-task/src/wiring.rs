@@ -11,19 +11,6 @@ use std::hash::{DefaultHasher, Hasher};
 use std::ops::Range;
 use std::path::Path;
 
-/// Names of the layers in the network file, in the order of [`LayerKind`].
-pub(crate) const LAYERS: [(&str, LayerKind); 9] = [
-    ("AOL", LayerKind::ActionObservation),
-    ("OML robot", LayerKind::ObjectMemoryRobot),
-    ("OML person", LayerKind::ObjectMemoryPerson),
-    ("CSGL achieved", LayerKind::SubgoalsAchieved),
-    ("CSGL available", LayerKind::SubgoalsAvailable),
-    ("ASL", LayerKind::ActionSimulation),
-    ("IL", LayerKind::Intention),
-    ("EML", LayerKind::ErrorMonitoring),
-    ("AEL", LayerKind::ActionExecution),
-];
-
 /// The network of `task` by the rules at `path`, and the fingerprint of those rules.
 pub(crate) fn wire(task: &Task, path: &Path) -> Result<(NetworkPlan, u64), TaskError> {
     let source = Source::read(path)?;
@@ -51,10 +38,16 @@ impl Wiring<'_> {
         let (layers, populations) = self.layers()?;
         let (channels, channel_names) = channels(self.task, populations.len());
         let row = Row {
-            names: layers.iter().map(|layer| (name_of(layer.kind).into(), layer.populations.clone()))
+            names: layers
+                .iter()
+                .map(|layer| (layer.kind.name().into(), layer.populations.clone()))
                 .chain(channel_names)
                 .collect(),
-            meanings: populations.iter().chain(channels.iter().map(|channel| &channel.meaning)).cloned().collect(),
+            meanings: populations
+                .iter()
+                .chain(channels.iter().map(|channel| &channel.meaning))
+                .cloned()
+                .collect(),
         };
         let mut synapses = self.connect("synapse", &self.file.synapse, &row)?;
         synapses.sort_by_key(|synapse| (synapse.to, synapse.from));
@@ -72,7 +65,8 @@ impl Wiring<'_> {
     fn layers(&self) -> Result<(Vec<LayerPlan>, Vec<Population>), TaskError> {
         let mut layers = Vec::new();
         let mut row = Vec::new();
-        for (name, kind) in LAYERS {
+        for kind in LayerKind::ALL {
+            let name = kind.name();
             let position = self.file.layer.iter().position(|entry| entry.name.get_ref() == name);
             let index = position.ok_or_else(|| {
                 self.source.error(0..0, "layer", format!("no layer is named {name:?}; expected all nine"))
@@ -83,8 +77,9 @@ impl Wiring<'_> {
             row.extend(own);
         }
         for (index, entry) in self.file.layer.iter().enumerate() {
-            if !LAYERS.iter().any(|(name, _)| name == entry.name.get_ref()) {
-                let problem = format!("{:?} is no layer; expected one of {}", entry.name.get_ref(), layer_names());
+            if !LayerKind::ALL.iter().any(|kind| kind.name() == entry.name.get_ref()) {
+                let names = LayerKind::ALL.map(|kind| format!("{:?}", kind.name())).join(", ");
+                let problem = format!("{:?} is no layer; expected one of {names}", entry.name.get_ref());
                 return Err(self.source.error(entry.name.span(), format!("layer[{index}].name"), problem));
             }
         }
@@ -102,8 +97,14 @@ impl Wiring<'_> {
         Ok((layers, row))
     }
 
-    fn layer(&self, index: usize, kind: LayerKind, populations: Range<usize>) -> Result<LayerPlan, TaskError> {
-        let LayerEntry { name, tau, h, slope, threshold, gain, noise, kernel, forgets } = &self.file.layer[index];
+    fn layer(
+        &self,
+        index: usize,
+        kind: LayerKind,
+        populations: Range<usize>,
+    ) -> Result<LayerPlan, TaskError> {
+        let LayerEntry { name, tau, h, slope, threshold, gain, noise, kernel, forgets } =
+            &self.file.layer[index];
         let parameters = Parameters {
             tau: *tau,
             slope: *slope,
@@ -118,9 +119,12 @@ impl Wiring<'_> {
             },
         };
         let key = |key: &str| format!("layer[{index}].{key} ({})", name.get_ref());
-        parameters.check().map_err(|error| self.source.error(name.span(), key(error.name), error.to_string()))?;
+        parameters
+            .check()
+            .map_err(|error| self.source.error(name.span(), key(error.name), error.to_string()))?;
         if *tau < 20.0 {
-            let problem = format!("tau is {tau}; expected at least 20 ms: Euler steps of 1 ms need dt/tau <= 0.05");
+            let problem =
+                format!("tau is {tau}; expected at least 20 ms: Euler steps of 1 ms need dt/tau <= 0.05");
             return Err(self.source.error(name.span(), key("tau"), problem));
         }
         if *h.get_ref() >= 0.0 {
@@ -132,7 +136,15 @@ impl Wiring<'_> {
             r_min: forgets.r_min,
             r_max: forgets.r_max,
         });
-        Ok(LayerPlan { kind, parameters, resting: *h.get_ref(), gain: *gain, noise: *noise, forgetting, populations })
+        Ok(LayerPlan {
+            kind,
+            parameters,
+            resting: *h.get_ref(),
+            gain: *gain,
+            noise: *noise,
+            forgetting,
+            populations,
+        })
     }
 
     fn connect(&self, table: &str, rules: &[RuleEntry], row: &Row) -> Result<Vec<Synapse>, TaskError> {
@@ -151,7 +163,13 @@ impl Wiring<'_> {
         Ok(synapses)
     }
 
-    fn select(&self, key: &str, selector: &Selector, row: &Row, source: bool) -> Result<Vec<usize>, TaskError> {
+    fn select(
+        &self,
+        key: &str,
+        selector: &Selector,
+        row: &Row,
+        source: bool,
+    ) -> Result<Vec<usize>, TaskError> {
         let Selector { layer, role, side, workspace, held, first } = selector;
         let names = || row.names.iter().filter(|(_, range)| source || range.start < self.layer_end(row));
         let range = names().find(|(name, _)| name == layer.get_ref()).map(|(_, range)| range.clone());
@@ -163,24 +181,26 @@ impl Wiring<'_> {
         if let Some(role) = role {
             self.known_role(key, role)?;
         }
-        Ok(range.filter(|&index| {
-            let meaning = &row.meanings[index];
-            role.as_ref().is_none_or(|role| meaning.role == role.get_ref())
-                && side.is_none_or(|side| meaning.side == Some(side))
-                && workspace.is_none_or(|workspace| meaning.workspace == Some(workspace))
-                && held.is_none_or(|held| meaning.held == held)
-                && first.is_none_or(|first| meaning.first == first)
-        }).collect())
+        Ok(range
+            .filter(|&index| {
+                let meaning = &row.meanings[index];
+                role.as_ref().is_none_or(|role| meaning.role == role.get_ref())
+                    && side.is_none_or(|side| meaning.side == Some(side))
+                    && workspace.is_none_or(|workspace| meaning.workspace == Some(workspace))
+                    && held.is_none_or(|held| meaning.held == held)
+                    && first.is_none_or(|first| meaning.first == first)
+            })
+            .collect())
     }
 
     fn layer_end(&self, row: &Row) -> usize {
-        row.names[LAYERS.len() - 1].1.end
+        row.names[LayerKind::ALL.len() - 1].1.end
     }
 
     fn known_role(&self, key: &str, role: &crate::file::Name) -> Result<(), TaskError> {
         const ROLES: [&str; 14] = [
-            "rest", "idle", "reach", "gesture", "grasp", "grip", "insert", "request", "receive", "give", "hold",
-            "point", "speak", "subgoal",
+            "rest", "idle", "reach", "gesture", "grasp", "grip", "insert", "request", "receive", "give",
+            "hold", "point", "speak", "subgoal",
         ];
         if ROLES.contains(&role.get_ref().as_str()) {
             return Ok(());
@@ -218,14 +238,6 @@ impl Wiring<'_> {
 
 fn alike<T: PartialEq>(from: &Option<T>, to: &Option<T>) -> bool {
     from.is_some() && from == to
-}
-
-fn name_of(kind: LayerKind) -> &'static str {
-    LAYERS[kind as usize].0
-}
-
-fn layer_names() -> String {
-    LAYERS.map(|(name, _)| format!("{name:?}")).join(", ")
 }
 
 /// All channels of the percept, and their names with their places behind `first`.

@@ -13,5 +13,10 @@ fn toy_vehicle_has_every_layer_and_every_population() {
     assert_eq!(count(LayerKind::ActionObservation), task.acts.len());
     assert_eq!(count(LayerKind::ActionSimulation), task.chains.len());
     assert_eq!(count(LayerKind::ActionExecution), task.actions.len());
-    println!("{} populations, {} channels, {} synapses", plan.populations.len(), plan.channels.len(), plan.synapses.len());
+    println!(
+        "{} populations, {} channels, {} synapses",
+        plan.populations.len(),
+        plan.channels.len(),
+        plan.synapses.len()
+    );
 }

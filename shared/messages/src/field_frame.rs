@@ -100,3 +100,33 @@ pub enum LayerKind {
     /// AEL: the robot's own actions.
     ActionExecution = 8,
 }
+
+impl LayerKind {
+    /// All layers, in the order in which they stand in a frame.
+    pub const ALL: [Self; 9] = [
+        Self::ActionObservation,
+        Self::ObjectMemoryRobot,
+        Self::ObjectMemoryPerson,
+        Self::SubgoalsAchieved,
+        Self::SubgoalsAvailable,
+        Self::ActionSimulation,
+        Self::Intention,
+        Self::ErrorMonitoring,
+        Self::ActionExecution,
+    ];
+
+    /// The chapter's name of the layer, as network files write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ActionObservation => "AOL",
+            Self::ObjectMemoryRobot => "OML robot",
+            Self::ObjectMemoryPerson => "OML person",
+            Self::SubgoalsAchieved => "CSGL achieved",
+            Self::SubgoalsAvailable => "CSGL available",
+            Self::ActionSimulation => "ASL",
+            Self::Intention => "IL",
+            Self::ErrorMonitoring => "EML",
+            Self::ActionExecution => "AEL",
+        }
+    }
+}

@@ -54,7 +54,11 @@ impl Parameters {
             }
         }
         if !self.threshold.is_finite() {
-            return Err(ParameterError { name: "threshold", value: self.threshold, expected: "a finite number" });
+            return Err(ParameterError {
+                name: "threshold",
+                value: self.threshold,
+                expected: "a finite number",
+            });
         }
         Ok(())
     }

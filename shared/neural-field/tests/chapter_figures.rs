@@ -81,7 +81,11 @@ fn figure_4_the_population_with_the_strongest_input_wins_and_suppresses_the_othe
     let signal = bench.drive(1000, &[1.5, 3.0, 1.2, 1.8]);
     assert!(signal[1] > 0.99);
     assert_eq!([signal[0], signal[2], signal[3]], [0.0; 3]);
-    assert!(bench.highest(3) < before && bench.highest(3) < -3.0, "suppressed below rest: {}", bench.highest(3));
+    assert!(
+        bench.highest(3) < before && bench.highest(3) < -3.0,
+        "suppressed below rest: {}",
+        bench.highest(3)
+    );
 }
 
 /// Whether a peak that strong input made at a high resting level survives at `h` without input.

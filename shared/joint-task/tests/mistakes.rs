@@ -1,0 +1,109 @@
+//! A mistake in a task or network file gets one error: file, line, key and what was expected.
+#![allow(clippy::unwrap_used)]
+
+use coact_joint_task::NetworkPlan;
+use std::path::{Path, PathBuf};
+
+fn shipped(file: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config").join(file);
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// Loads the shipped task with `from` replaced by `to` in `file`; the error with the folder cut off.
+fn error_after(file: &str, from: &str, to: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("tasks")).unwrap();
+    for name in ["tasks/toy-vehicle.toml", "joint-action.toml"] {
+        let mut text = shipped(name);
+        if name == file {
+            assert!(text.contains(from), "{from:?} does not stand in {name}");
+            text = text.replacen(from, to, 1);
+        }
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let task: PathBuf = folder.path().join("tasks/toy-vehicle.toml");
+    let error = NetworkPlan::load(&task).unwrap_err().to_string();
+    error.replace(&format!("{}/", folder.path().display()), "")
+}
+
+/// Line, counted from 1, on which `text` first stands in the shipped `file` .
+fn line_of(file: &str, text: &str) -> usize {
+    shipped(file).lines().position(|line| line.contains(text)).unwrap() + 1
+}
+
+const TASK: &str = "tasks/toy-vehicle.toml";
+const NETWORK: &str = "joint-action.toml";
+
+#[test]
+fn unknown_kind_is_named_with_the_known_ones() {
+    let error = error_after(TASK, "[[part]]\nkind = \"wheel\"", "[[part]]\nkind = \"wheal\"");
+    let line = line_of(TASK, "[[part]]") + 1;
+    assert!(error.starts_with(&format!("{TASK}:{line}: part[0].kind: \"wheal\" is not defined")), "{error}");
+    assert!(error.contains("expected one of \"wheel\", \"nut\""), "{error}");
+}
+
+#[test]
+fn plan_that_runs_in_a_circle_is_refused() {
+    let error = error_after(
+        TASK,
+        "after = [\"wheel on the robot's side\"]",
+        "after = [\"top floor on the columns\"]",
+    );
+    assert!(error.contains("the plan runs in a circle"), "{error}");
+}
+
+#[test]
+fn missing_key_is_named() {
+    let error = error_after(TASK, "name = \"toy vehicle\"", "");
+    assert!(error.contains(": name: missing field `name`"), "{error}");
+}
+
+#[test]
+fn misspelt_key_is_named_with_its_line() {
+    let error = error_after(TASK, "mass = 0.06", "masse = 0.06");
+    let line = line_of(TASK, "mass = 0.06");
+    assert!(error.starts_with(&format!("{TASK}:{line}: masse: unknown field `masse`")), "{error}");
+}
+
+#[test]
+fn number_where_a_name_belongs_is_refused() {
+    let error = error_after(TASK, "side = \"person\"", "side = 3");
+    let line = line_of(TASK, "side = \"person\"");
+    assert!(error.starts_with(&format!("{TASK}:{line}: side:")), "{error}");
+}
+
+#[test]
+fn negative_width_is_refused() {
+    let error = error_after(TASK, "width = 0.075", "width = -0.075");
+    assert!(error.ends_with("kind[0].width: expected a number above 0"), "{error}");
+}
+
+#[test]
+fn part_outside_its_workspace_is_refused() {
+    let error = error_after(TASK, "workspace = \"person\"", "workspace = \"robot\"");
+    assert!(error.contains("part[0].at") && error.contains("outside its workspace"), "{error}");
+}
+
+#[test]
+fn missing_network_file_is_named() {
+    let error = error_after(TASK, "../joint-action.toml", "../nothing.toml");
+    assert!(error.contains(": network: no file") && error.contains("nothing.toml"), "{error}");
+}
+
+#[test]
+fn unknown_layer_of_a_rule_is_named_with_the_known_ones() {
+    let error = error_after(NETWORK, "to = { layer = \"AOL\" }", "to = { layer = \"AOLL\" }");
+    assert!(error.contains("synapse[0].to.layer: \"AOLL\" is unknown; expected one of \"AOL\""), "{error}");
+}
+
+#[test]
+fn time_scale_too_short_for_the_step_is_refused() {
+    let error = error_after(NETWORK, "tau = 20", "tau = 5");
+    assert!(error.contains("layer[0].tau (AOL): tau is 5; expected at least 20 ms"), "{error}");
+}
+
+#[test]
+fn missing_file_is_one_clear_error() {
+    let error = NetworkPlan::load(Path::new("no/such/task.toml")).unwrap_err().to_string();
+    assert!(error.starts_with("no/such/task.toml:0: file: "), "{error}");
+}
