@@ -1,0 +1,194 @@
+use crate::JointLimits;
+
+/// The last stage before a joint's servo: lets a setpoint pass only if the joint can still be stopped from there
+/// within all limits, and brakes otherwise.
+///
+/// Velocity and acceleration are the first and second differences of the setpoints themselves, so that the limits hold
+/// for what is sent, tick by tick. Invariant: from the present state, braking ([`Limiter::brake`]) comes to rest
+/// within position, velocity, acceleration and jerk limits. A candidate is accepted only if the state after it has
+/// that property; braking keeps it. So, from a start at rest within the limits, no input can break them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limiter {
+    /// Setpoint, rad.
+    pub position: f64,
+    /// First difference of the setpoints, rad/s.
+    pub velocity: f64,
+    /// Second difference, rad/s².
+    pub acceleration: f64,
+}
+
+/// Slower than this (rad/s, rad/s²) is standing.
+const STILL: (f64, f64) = (1e-9, 1e-6);
+/// Share of the acceleration and jerk limits that braking uses: the rest is room for rounding.
+const ROOM: f64 = 1.0 - 1e-9;
+
+impl Limiter {
+    /// At rest at `position` rad.
+    pub fn at_rest(position: f64) -> Self {
+        Self { position, velocity: 0.0, acceleration: 0.0 }
+    }
+
+    /// Whether the setpoint stands still.
+    pub fn is_at_rest(&self) -> bool {
+        self.velocity == 0.0 && self.acceleration == 0.0
+    }
+
+    /// The state after moving to `setpoint` within one tick of `dt` s, if that is allowed.
+    pub fn accept(&self, setpoint: f64, limits: &JointLimits, dt: f64) -> Option<Self> {
+        let velocity = (setpoint - self.position) / dt;
+        let acceleration = (velocity - self.velocity) / dt;
+        let jerk = (acceleration - self.acceleration) / dt;
+        let next = Self { position: setpoint, velocity, acceleration };
+        let allowed = jerk.abs() <= limits.jerk && next.can_stop(limits, dt);
+        allowed.then_some(next)
+    }
+
+    /// The state after one tick of braking: the discrete time-optimal way (Han's fhan, with the acceleration limited)
+    /// to velocity and acceleration zero.
+    pub fn brake(&self, limits: &JointLimits, dt: f64) -> Self {
+        let jerk =
+            time_optimal(self.velocity - dt * self.acceleration, self.acceleration, ROOM * limits.jerk, dt);
+        let bound = ROOM * limits.acceleration;
+        let acceleration = (self.acceleration + dt * jerk).clamp(-bound, bound);
+        let velocity = self.velocity + dt * acceleration;
+        if velocity.abs() < STILL.0 && acceleration.abs() < STILL.1 {
+            return Self::at_rest(self.position);
+        }
+        Self { position: self.position + dt * velocity, velocity, acceleration }
+    }
+
+    /// Whether this state keeps the limits and braking from here does, until rest. Settled by a bound on the way to
+    /// rest where that suffices, else by carrying the braking out.
+    fn can_stop(&self, limits: &JointLimits, dt: f64) -> bool {
+        if !self.keeps(limits) {
+            return false;
+        }
+        let (speed, pull) = (self.velocity.abs(), self.acceleration.abs());
+        let peak = speed + pull * (pull / (2.0 * limits.jerk) + 2.0 * dt);
+        let settling = limits.acceleration / limits.jerk;
+        let way = peak * (peak / limits.acceleration + 3.0 * settling + 4.0 * dt);
+        let clear = self.position - way >= limits.lower && self.position + way <= limits.upper;
+        (clear && peak <= limits.velocity) || self.stops_within(limits, dt)
+    }
+
+    fn stops_within(&self, limits: &JointLimits, dt: f64) -> bool {
+        let mut state = *self;
+        let longest = limits.velocity / limits.acceleration + 4.0 * limits.acceleration / limits.jerk;
+        for _ in 0..(2.0 * longest / dt) as usize + 8 {
+            if state.is_at_rest() {
+                return true;
+            }
+            state = state.brake(limits, dt);
+            if !state.keeps(limits) {
+                return false;
+            }
+        }
+        state.is_at_rest()
+    }
+
+    fn keeps(&self, limits: &JointLimits) -> bool {
+        limits.contain(self.position, 0.0)
+            && self.velocity.abs() <= limits.velocity
+            && self.acceleration.abs() <= limits.acceleration
+    }
+}
+
+/// Han's discrete time-optimal feedback (fhan): the input u, |u| <= r, that takes x1' = x2, x2' = u to the origin in the
+/// fewest steps of h s, without chatter.
+fn time_optimal(x1: f64, x2: f64, r: f64, h: f64) -> f64 {
+    let d = r * h * h;
+    let a0 = h * x2;
+    let y = x1 + a0;
+    let a1 = (d * (d + 8.0 * y.abs())).sqrt();
+    let a2 = a0 + y.signum() * (a1 - d) / 2.0;
+    let a = if y.abs() <= d { a0 + y } else { a2 };
+    if a.abs() <= d { -r * a / d } else { -r * a.signum() }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use proptest::prelude::*;
+
+    const DT: f64 = 1e-3;
+
+    fn limits() -> impl Strategy<Value = JointLimits> {
+        (0.2..3.0f64, 0.5..4.0, 2.0..20.0, 30.0..500.0).prop_map(|(half, velocity, acceleration, jerk)| {
+            JointLimits { lower: -half, upper: half, velocity, effort: 1.0, acceleration, jerk }
+        })
+    }
+
+    /// What a careless sender asks for: jumps, ramps, beyond the limits, nothing, not a number.
+    fn wish(kind: u8, value: f64, tick: usize, state: &Limiter) -> f64 {
+        match kind % 6 {
+            0 => 4.0 * value,
+            1 => state.position + 0.002 * value,
+            2 => state.position + DT * (state.velocity + DT * (state.acceleration + DT * 400.0 * value)),
+            3 => (tick as f64 * 0.01 * value).sin() * 3.0,
+            4 => f64::NAN,
+            _ => state.position + DT * (state.velocity + DT * (state.acceleration + 0.49)),
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(200))]
+
+        #[test]
+        fn no_wish_breaks_the_limits(limits in limits(), wishes in prop::collection::vec((any::<u8>(), -1.0..1.0), 60)) {
+            let mut state = Limiter::at_rest(0.0);
+            for tick in 0..3000 {
+                let (kind, value) = wishes[tick / 50];
+                let before = state;
+                let wish = wish(kind, value, tick, &state);
+                state = state.accept(wish, &limits, DT).unwrap_or_else(|| state.brake(&limits, DT));
+                let velocity = (state.position - before.position) / DT;
+                let jerk = (state.acceleration - before.acceleration) / DT;
+                prop_assert!((velocity - state.velocity).abs() < 1e-9);
+                prop_assert!(limits.contain(state.position, 0.0), "position {}", state.position);
+                prop_assert!(state.velocity.abs() <= limits.velocity);
+                prop_assert!(state.acceleration.abs() <= limits.acceleration);
+                prop_assert!(jerk.abs() <= limits.jerk * (1.0 + 1e-6), "jerk {jerk} of {}", limits.jerk);
+            }
+        }
+
+        #[test]
+        fn braking_ends_at_rest(limits in limits(), velocity in -1.0..1.0, acceleration in -1.0..1.0) {
+            let acceleration = acceleration * limits.acceleration;
+            let start = Limiter { position: 0.0, velocity: velocity * limits.velocity, acceleration };
+            let mut state = start;
+            let mut ticks = 0;
+            while !state.is_at_rest() {
+                state = state.brake(&limits, DT);
+                ticks += 1;
+                prop_assert!(ticks < 10_000, "still {state:?}");
+            }
+            // The time-optimal way takes at most v/A + 2 A/J, after undoing the acceleration it starts with.
+            let worst = start.velocity.abs() / limits.acceleration + 4.0 * limits.acceleration / limits.jerk;
+            prop_assert!(f64::from(ticks) * DT < 1.5 * worst + 0.02, "{ticks} ticks, {worst} s");
+        }
+    }
+
+    #[test]
+    fn a_movement_within_the_limits_passes_unchanged() {
+        let limits = JointLimits {
+            lower: -1.0,
+            upper: 1.0,
+            velocity: 2.0,
+            effort: 1.0,
+            acceleration: 10.0,
+            jerk: 200.0,
+        };
+        let start = [crate::MotionState::at_rest(-0.9)];
+        let movement = crate::Movement::plan(start, [0.97], &[limits]).unwrap();
+        let mut state = Limiter::at_rest(-0.9);
+        let mut tick = 0;
+        while tick as f64 * DT < movement.duration {
+            tick += 1;
+            let [wish] = movement.at(tick as f64 * DT);
+            state = state.accept(wish.position, &limits, DT).unwrap();
+        }
+        assert!((state.position - 0.97).abs() < 1e-12);
+        assert!(state.velocity.abs() < 1e-2);
+    }
+}

@@ -1,0 +1,133 @@
+use crate::{JointLimits, MotionState, Quintic};
+
+/// A minimum-jerk movement of several joints that start and end together, and end at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Movement<const N: usize> {
+    /// State of each joint at the start.
+    pub start: [MotionState; N],
+    /// Where each joint comes to rest, rad.
+    pub target: [f64; N],
+    /// Duration, s.
+    pub duration: f64,
+}
+
+/// Share of each limit that a planned movement uses.
+const USE: f64 = 0.95;
+/// Shortest movement, s.
+const SHORTEST: f64 = 0.1;
+/// Points at which a movement that does not start at rest is held against the limits.
+const CHECKED: usize = 24;
+
+impl<const N: usize> Movement<N> {
+    /// The shortest movement, to about 8 %, from `start` to rest at `target` within the limits; `None` when there is
+    /// none that keeps them, as when a joint is so fast that it must overshoot a position limit. From rest there
+    /// always is one, if `start` and `target` lie within the position limits.
+    pub fn plan(start: [MotionState; N], target: [f64; N], limits: &[JointLimits; N]) -> Option<Self> {
+        let shortest = (0..N).map(|joint| {
+            let distance = (target[joint] - start[joint].position).abs();
+            rest_to_rest_duration(distance, &limits[joint])
+        });
+        let mut duration = shortest.fold(SHORTEST, f64::max);
+        if start.iter().all(MotionState::is_at_rest) {
+            return Some(Self { start, target, duration });
+        }
+        for _ in 0..40 {
+            let movement = Self { start, target, duration };
+            if movement.keeps(limits) {
+                return Some(movement);
+            }
+            duration *= 1.08;
+        }
+        None
+    }
+
+    /// The same movement, slower by `factor` (at least 1); only for one that starts at rest.
+    pub fn slower(mut self, factor: f64) -> Self {
+        if self.start.iter().all(MotionState::is_at_rest) {
+            self.duration *= factor.max(1.0);
+        }
+        self
+    }
+
+    /// State of all joints `t` s after the start.
+    pub fn at(&self, t: f64) -> [MotionState; N] {
+        std::array::from_fn(|joint| self.joint(joint).at(t))
+    }
+
+    fn joint(&self, joint: usize) -> Quintic {
+        Quintic::new(self.start[joint], MotionState::at_rest(self.target[joint]), self.duration)
+    }
+
+    fn keeps(&self, limits: &[JointLimits; N]) -> bool {
+        (0..N).all(|joint| {
+            let (path, limit) = (self.joint(joint), &limits[joint]);
+            (0..=CHECKED).all(|point| {
+                let t = self.duration * point as f64 / CHECKED as f64;
+                let state = path.at(t);
+                limit.contain(state.position, 0.0)
+                    && state.velocity.abs() <= USE * limit.velocity
+                    && state.acceleration.abs() <= USE * limit.acceleration
+                    && path.jerk(t).abs() <= USE * limit.jerk
+            })
+        })
+    }
+}
+
+/// Duration, s, of a minimum-jerk movement over `distance` rad from rest to rest. Its peaks are 15/8 D/T (velocity),
+/// 10/√3 D/T² (acceleration) and 60 D/T³ (jerk).
+fn rest_to_rest_duration(distance: f64, limits: &JointLimits) -> f64 {
+    let by_velocity = 1.875 * distance / (USE * limits.velocity);
+    let by_acceleration = (10.0 / 3f64.sqrt() * distance / (USE * limits.acceleration)).sqrt();
+    let by_jerk = (60.0 * distance / (USE * limits.jerk)).cbrt();
+    by_velocity.max(by_acceleration).max(by_jerk)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use proptest::prelude::*;
+
+    const LIMITS: JointLimits =
+        JointLimits { lower: -2.0, upper: 2.0, velocity: 2.0, effort: 1.0, acceleration: 10.0, jerk: 200.0 };
+
+    fn peaks(movement: &Movement<2>) -> (f64, f64, f64) {
+        let mut peak = (0.0f64, 0.0f64, 0.0f64);
+        for joint in 0..2 {
+            let path = movement.joint(joint);
+            for step in 0..=500 {
+                let t = movement.duration * f64::from(step) / 500.0;
+                let state = path.at(t);
+                peak.0 = peak.0.max(state.velocity.abs());
+                peak.1 = peak.1.max(state.acceleration.abs());
+                peak.2 = peak.2.max(path.jerk(t).abs());
+            }
+        }
+        peak
+    }
+
+    proptest! {
+        #[test]
+        fn movements_from_rest_keep_the_limits_and_use_one_of_them(
+            from in -1.9..1.9, to in -1.9..1.9, other in -1.9..1.9,
+        ) {
+            let start = [MotionState::at_rest(from), MotionState::at_rest(0.0)];
+            let movement = Movement::plan(start, [to, other], &[LIMITS; 2]).unwrap();
+            let (velocity, acceleration, jerk) = peaks(&movement);
+            prop_assert!(velocity <= 2.0 && acceleration <= 10.0 && jerk <= 200.0);
+            let used = (velocity / 2.0).max(acceleration / 10.0).max(jerk / 200.0);
+            prop_assert!(used > 0.9 || movement.duration == SHORTEST, "slow: {used}");
+        }
+
+        #[test]
+        fn movements_under_way_keep_the_limits_when_planned(
+            from in -1.0..1.0, velocity in -1.5..1.5, acceleration in -6.0..6.0, to in -1.5..1.5,
+        ) {
+            let start = [MotionState { position: from, velocity, acceleration }, MotionState::at_rest(0.0)];
+            if let Some(movement) = Movement::plan(start, [to, 0.5], &[LIMITS; 2]) {
+                let (velocity, acceleration, jerk) = peaks(&movement);
+                prop_assert!(velocity <= 2.0 && acceleration <= 10.0 && jerk <= 200.0);
+            }
+        }
+    }
+}

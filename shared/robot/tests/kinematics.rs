@@ -1,0 +1,136 @@
+//! Forward and inverse kinematics agree on the robot of `rt-config/robots`.
+#![allow(clippy::unwrap_used)]
+
+use coact_robot::{HandGoal, Posture, PostureSearch, Robot};
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use proptest::prelude::*;
+use std::path::Path;
+use std::sync::LazyLock;
+
+static ROBOT: LazyLock<Robot> = LazyLock::new(|| {
+    Robot::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/robots/aros.toml")).unwrap()
+});
+
+/// A posture anywhere within the limits.
+fn posture() -> impl Strategy<Value = Posture> {
+    prop::array::uniform7(0.0..1.0f64).prop_map(|share| {
+        std::array::from_fn(|joint| {
+            let limits = ROBOT.arm().joints[joint].limits;
+            limits.lower + share[joint] * (limits.upper - limits.lower)
+        })
+    })
+}
+
+fn distance(a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
+    let turn = a.rotation.to_rotation_matrix().matrix() - b.rotation.to_rotation_matrix().matrix();
+    (a.translation.vector - b.translation.vector).norm().max(turn.norm())
+}
+
+proptest! {
+    #[test]
+    fn every_solution_reaches_the_pose_within_the_limits(posture in posture(), swivel in -3.2..3.2) {
+        let palm = ROBOT.palm(&posture);
+        for solution in ROBOT.kinematics.solve(&palm, swivel, 0.0).as_slice() {
+            prop_assert!(distance(&ROBOT.palm(solution), &palm) < 1e-9);
+            prop_assert!(ROBOT.arm().within_limits(solution, 0.0));
+        }
+    }
+
+    #[test]
+    fn a_reachable_pose_is_found_for_some_swivel(posture in posture()) {
+        let palm = ROBOT.palm(&posture);
+        let nearest = (0..720)
+            .flat_map(|step| {
+                let found = ROBOT.kinematics.solve(&palm, f64::from(step) * 0.5f64.to_radians(), -0.02);
+                found.as_slice().to_vec()
+            })
+            .map(|found| (0..7).map(|joint| (found[joint] - posture[joint]).abs()).fold(0.0, f64::max))
+            .fold(f64::INFINITY, f64::min);
+        // Near the straight arm and the aligned wrist single joints turn fast with the swivel.
+        let elbow_and_wrist = posture[1].abs().min(posture[3].abs()).min(posture[5].abs());
+        prop_assert!(nearest < 0.01 / elbow_and_wrist.max(1e-3), "nearest {nearest}");
+    }
+}
+
+#[test]
+fn the_straight_arm_points_along_its_base_axis() {
+    let palm = ROBOT.palm(&[0.0; 7]);
+    let expected = Vector3::new(0.0, 0.045 + 0.340 + 0.395 + 0.369 + 0.246, 1.5);
+    assert!((palm.translation.vector - expected).norm() < 1e-9, "{palm}");
+    assert!((palm.rotation * Vector3::z() - Vector3::y()).norm() < 1e-9);
+}
+
+#[test]
+fn the_singular_postures_are_solved_too() {
+    for posture in [[0.0; 7], [0.3, 0.0, 0.2, -0.5, 0.4, 0.0, 0.1], [0.3, -0.4, 0.2, 0.0, 0.4, 0.6, 0.1]] {
+        let palm = ROBOT.palm(&posture);
+        let found: usize = (0..72)
+            .map(|step| {
+                let found = ROBOT.kinematics.solve(&palm, f64::from(step) * 5f64.to_radians(), 0.0);
+                assert!(
+                    found.as_slice().iter().all(|solution| distance(&ROBOT.palm(solution), &palm) < 1e-7)
+                );
+                found.as_slice().len()
+            })
+            .sum();
+        // The straight arm's distance may round to just beyond reach.
+        assert!(found > 0 || posture[3] == 0.0, "{posture:?}");
+    }
+}
+
+#[test]
+fn beyond_reach_there_is_no_solution() {
+    let far = Isometry3::translation(-2.0, 0.3, 1.0);
+    assert!(
+        (0..72).all(|step| ROBOT.kinematics.solve(&far, f64::from(step) * 0.1, 0.0).as_slice().is_empty())
+    );
+}
+
+#[test]
+fn the_hand_closes_on_a_width() {
+    for width in [0.02, 0.025, 0.055, 0.075, 0.11] {
+        let base = ROBOT.hand.base_for_width(width);
+        assert!((ROBOT.hand.width(base) - width).abs() < 1e-9);
+        let ends = ROBOT.hand.ends(&ROBOT.hand.posture(base));
+        for end in ends {
+            assert!(
+                (end.z - ROBOT.hand.grasp_distance).abs() < 0.015,
+                "the ends meet near the grasp point: {end}"
+            );
+        }
+    }
+    assert!(ROBOT.hand.width(0.5) > ROBOT.hand.width(1.0), "larger angles close");
+}
+
+#[test]
+fn the_search_finds_a_comfortable_straight_approach_from_above() {
+    let frame = Isometry3::from_parts(Point3::new(-0.4, 0.55, 0.8).coords.into(), UnitQuaternion::identity());
+    let goal = HandGoal::grip(&frame, 0.025, 0, 0.15, 0.8);
+    let reach = PostureSearch::complete(&ROBOT, &goal, &ROBOT.park).unwrap();
+    assert!((ROBOT.grasp_point(&reach.at) - goal.point).norm() < 1e-9);
+    assert!((ROBOT.palm(&reach.at).rotation * Vector3::z() + Vector3::z()).norm() < 1e-9);
+    for step in 0..=20 {
+        let share = f64::from(step) / 20.0;
+        let between: Posture =
+            std::array::from_fn(|j| reach.before[j] + share * (reach.at[j] - reach.before[j]));
+        let point = ROBOT.grasp_point(&between);
+        assert!((point.xy() - goal.point.xy()).norm() < 0.02, "strays from the line: {point}");
+    }
+}
+
+#[test]
+fn the_search_spread_over_ticks_finds_the_same() {
+    let frame = Isometry3::translation(-0.36, 0.6, 0.8);
+    let goal = HandGoal::grip(&frame, 0.12, 2, 0.15, 0.8);
+    let whole = PostureSearch::complete(&ROBOT, &goal, &ROBOT.park).unwrap();
+    let mut search = PostureSearch::default();
+    let mut ticks = 0;
+    let spread = loop {
+        ticks += 1;
+        if let Some(done) = search.advance(&ROBOT, &goal, &ROBOT.park, 7) {
+            break done.unwrap();
+        }
+    };
+    assert_eq!(whole, spread);
+    assert!(ticks > 10);
+}
