@@ -9,15 +9,14 @@ pub struct Field {
     parameters: Parameters,
     populations: usize,
     width: usize,
-    /// Excitation at distances 1, 2, .. sites, times dx; the sites' own at `centre`.
+    /// Interaction at distances 1, 2, .. sites, times dx; the sites' own at `centre`. Inhibition that reaches
+    /// everywhere is not in it.
     taps: Vec<f64>,
     centre: f64,
     /// Gaussian input of strength 1 across one population.
     bump: Vec<f64>,
     /// f(u) of all sites, with a border of zeros on both sides as wide as the taps.
     output: Vec<f64>,
-    /// Running sum of `output`, for inhibition of limited range.
-    sum: Vec<f64>,
 }
 
 impl Field {
@@ -29,20 +28,24 @@ impl Field {
         parameters.check()?;
         let Parameters { spacing, input_sigma, kernel, .. } = parameters;
         let gauss = |d: f64, sigma: f64| (-d * d / (2.0 * sigma * sigma)).exp();
-        let reach = (5.0 * kernel.sigma / spacing).ceil() as usize;
+        // A layer without interaction has no taps to pay for.
+        let excited = if kernel.amplitude > 0.0 { 5.0 * kernel.sigma } else { 0.0 };
+        let reach = (excited.max(kernel.range.unwrap_or(0.0)) / spacing).ceil() as usize;
+        let interaction = |site: usize| {
+            let d = site as f64 * spacing;
+            let inhibition = if kernel.range.is_some_and(|range| d <= range) { kernel.inhibition } else { 0.0 };
+            (kernel.amplitude * gauss(d, kernel.sigma) - inhibition) * spacing
+        };
         let sites = populations * width;
         let middle = (width - 1) as f64 / 2.0;
         Ok(Self {
             parameters,
             populations,
             width,
-            taps: (1..=reach)
-                .map(|d| kernel.amplitude * spacing * gauss(d as f64 * spacing, kernel.sigma))
-                .collect(),
-            centre: kernel.amplitude * spacing,
+            taps: (1..=reach).map(interaction).collect(),
+            centre: interaction(0),
             bump: (0..width).map(|site| gauss((site as f64 - middle) * spacing, input_sigma)).collect(),
             output: vec![0.0; sites + 2 * reach],
-            sum: vec![0.0; sites + 1],
         })
     }
 
@@ -73,19 +76,26 @@ impl Field {
 
     /// One explicit Euler step of `dt` (chapter, eq. 1): reads `now`, writes `next`.
     ///
-    /// `resting[m]` is h of population m. Costs one convolution of 10 sigma / dx taps and one exponential per site.
+    /// `resting[m]` is h of population m. Costs 5 sigma / dx multiplications and one exponential per site.
     pub fn step(&mut self, dt: f64, now: &[f64], input: &[f64], resting: &[f64], next: &mut [f64]) {
         let sites = self.sites();
         assert_eq!((now.len(), input.len(), next.len()), (sites, sites, sites));
         assert_eq!(resting.len(), self.populations);
-        self.excite(now, next);
-        self.inhibit(next);
+        let Parameters { slope, threshold, spacing, kernel, .. } = self.parameters;
+        let reach = self.taps.len();
+        fire(&mut self.output[reach..][..sites], now, slope, threshold);
+        excite(&self.output, self.centre, &self.taps, next);
+        // Inhibition without a range is the same everywhere: one sum serves all sites.
+        let everywhere = match kernel.range {
+            None => kernel.inhibition * spacing * sum(&self.output[reach..][..sites]),
+            Some(_) => 0.0,
+        };
         let rate = dt / self.parameters.tau;
         let tiles = next.chunks_exact_mut(self.width).zip(now.chunks_exact(self.width));
         for ((tile, &h), input) in tiles.zip(resting).zip(input.chunks_exact(self.width)) {
             let (next, now) = tile;
             for ((next, &u), &s) in next.iter_mut().zip(now).zip(input) {
-                *next = u + rate * (h - u + s + *next);
+                *next = u + rate * (h - u + s + *next - everywhere);
             }
         }
     }
@@ -101,47 +111,44 @@ impl Field {
             *signal = (2.0 * sigmoid(centre, slope, threshold) - 1.0).max(0.0);
         }
     }
+}
 
-    /// Writes the Gaussian part of the interaction integral.
-    fn excite(&mut self, now: &[f64], interaction: &mut [f64]) {
-        let Parameters { slope, threshold, .. } = self.parameters;
-        let (reach, sites) = (self.taps.len(), now.len());
-        for (output, &u) in self.output[reach..].iter_mut().zip(now) {
-            *output = sigmoid(u, slope, threshold);
-        }
-        let output = &self.output;
-        for (interaction, &own) in interaction.iter_mut().zip(&output[reach..]) {
-            *interaction = self.centre * own;
-        }
-        for (index, &weight) in self.taps.iter().enumerate() {
-            let left = &output[reach - index - 1..][..sites];
-            let right = &output[reach + index + 1..][..sites];
-            for ((interaction, &left), &right) in interaction.iter_mut().zip(left).zip(right) {
-                *interaction += weight * (left + right);
-            }
+/// Writes f(u) of all sites.
+///
+/// The two hot loops are compiled for wider registers as well, and chosen at run time: neither fuses nor reorders
+/// operations, so that every machine computes the same bits.
+#[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx512f"))]
+fn fire(output: &mut [f64], now: &[f64], slope: f64, threshold: f64) {
+    for (output, &u) in output.iter_mut().zip(now) {
+        *output = sigmoid(u, slope, threshold);
+    }
+}
+
+/// Sum of all outputs, in eight partial sums: one alone would wait for each addition.
+fn sum(output: &[f64]) -> f64 {
+    let mut partial = [0.0; 8];
+    let chunks = output.chunks_exact(8);
+    let rest: f64 = chunks.remainder().iter().sum();
+    for chunk in chunks {
+        for (partial, output) in partial.iter_mut().zip(chunk) {
+            *partial += output;
         }
     }
+    rest + partial.iter().sum::<f64>()
+}
 
-    /// Subtracts the constant part of the interaction integral.
-    fn inhibit(&mut self, interaction: &mut [f64]) {
-        let Parameters { spacing, kernel, .. } = self.parameters;
-        let reach = self.taps.len();
-        let sites = interaction.len();
-        let mut running = 0.0;
-        for (sum, &output) in self.sum[1..].iter_mut().zip(&self.output[reach..]) {
-            running += output;
-            *sum = running;
-        }
-        let per_output = kernel.inhibition * spacing;
-        match kernel.range {
-            None => interaction.iter_mut().for_each(|interaction| *interaction -= per_output * running),
-            Some(range) => {
-                let range = (range / spacing) as usize;
-                for (site, interaction) in interaction.iter_mut().enumerate() {
-                    let (first, last) = (site.saturating_sub(range), (site + range + 1).min(sites));
-                    *interaction -= per_output * (self.sum[last] - self.sum[first]);
-                }
-            }
+/// Writes the interaction integral, but for inhibition that reaches everywhere; `output` has a border of zeros as wide as the taps.
+#[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx512f"))]
+fn excite(output: &[f64], centre: f64, taps: &[f64], interaction: &mut [f64]) {
+    let (reach, sites) = (taps.len(), interaction.len());
+    for (interaction, &own) in interaction.iter_mut().zip(&output[reach..]) {
+        *interaction = centre * own;
+    }
+    for (index, &weight) in taps.iter().enumerate() {
+        let left = &output[reach - index - 1..][..sites];
+        let right = &output[reach + index + 1..][..sites];
+        for ((interaction, &left), &right) in interaction.iter_mut().zip(left).zip(right) {
+            *interaction += weight * (left + right);
         }
     }
 }
