@@ -7,7 +7,7 @@ use std::path::PathBuf;
 pub struct RunSettings {
     /// The task file.
     pub task: PathBuf,
-    /// The robot's URDF.
+    /// The robot file; it names the URDF.
     pub robot: PathBuf,
     /// The perception model.
     pub model: PathBuf,
