@@ -1,1 +1,21 @@
-//! (in construction)
+//! Stands in for the hardware: table, parts, the robot's body, a human partner, and the sensors that see them.
+//!
+//! The stage is [`World`]. It sees [`Command`](coact_messages::Command)s as the servos do, never a decision, and tells
+//! the truth about the person to [`Truth`](coact_messages::Truth) alone.
+
+mod body;
+mod error;
+mod memory;
+mod noise;
+mod parts;
+mod person;
+mod robot_hand;
+mod sensors;
+mod settings;
+mod slot;
+mod world;
+
+pub use error::WorldError;
+pub use person::Script;
+pub use settings::{BodyKind, Partner, Settings};
+pub use world::World;

@@ -1,0 +1,52 @@
+use crate::person::PersonMemory;
+use crate::robot_hand::RobotHandMemory;
+use crate::sensors::TrackerMemory;
+use bytemuck::{Pod, Zeroable};
+use coact_messages::{SceneView, WorldState};
+
+/// Everything that a world remembers beside joints and parts: the opaque words of [`WorldState`].
+///
+/// Random generators need none: their numbers depend on seed and tick alone.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub(crate) struct Memory {
+    /// Tick of the last step.
+    pub tick: u64,
+    /// 1 once a step was made.
+    pub started: u64,
+    /// Tick since which the assembly has been complete; 0 while it is not.
+    pub complete_since: u64,
+    /// Completed assemblies before the present one.
+    pub assemblies: u64,
+    pub person: PersonMemory,
+    pub robot: RobotHandMemory,
+    pub tracker: TrackerMemory,
+    pub scene: SceneFrame,
+}
+
+/// The recogniser's newest frame.
+#[repr(transparent)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct SceneFrame(pub SceneView);
+
+impl PartialEq for SceneFrame {
+    fn eq(&self, other: &Self) -> bool {
+        bytemuck::bytes_of(self) == bytemuck::bytes_of(other)
+    }
+}
+
+const WORDS: usize = size_of::<Memory>() / 8;
+const _: () = assert!(size_of::<Memory>().is_multiple_of(8) && WORDS <= 768, "memory outgrew WorldState::memory");
+
+impl Memory {
+    pub fn save(&self, state: &mut WorldState) {
+        state.memory[..WORDS].copy_from_slice(bytemuck::cast_slice(std::slice::from_ref(self)));
+        state.memory[WORDS..].fill(0.0);
+    }
+
+    pub fn load(state: &WorldState) -> Self {
+        let mut memory = Self::zeroed();
+        bytemuck::cast_slice_mut(std::slice::from_mut(&mut memory)).copy_from_slice(&state.memory[..WORDS]);
+        memory
+    }
+}

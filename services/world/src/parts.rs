@@ -1,0 +1,185 @@
+use coact_joint_task::{Agent, Shape, Task};
+use coact_messages::{MAX_PARTS, NONE, PartState};
+use glam::{DQuat, DVec3};
+
+/// How near a part must be to a socket to snap into it when it is let go, m.
+const SNAP: f64 = 0.03;
+
+/// Who has a part: [`PartState::state`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+pub(crate) enum Holder {
+    Nobody = 0,
+    Robot = 1,
+    Person = 2,
+    Socket = 3,
+}
+
+/// All parts of the scene, and what becomes of a part that is let go.
+#[derive(Debug, Clone)]
+pub(crate) struct Parts {
+    state: [PartState; MAX_PARTS],
+    count: usize,
+}
+
+impl Parts {
+    /// Parts where the task file lays them out.
+    pub fn new(task: &Task) -> Self {
+        let mut parts = Self { state: [PartState::default(); MAX_PARTS], count: task.parts.len() };
+        parts.lay_out(task);
+        parts
+    }
+
+    /// Puts every part back to where the task file lays it out.
+    pub fn lay_out(&mut self, task: &Task) {
+        for (state, part) in self.state.iter_mut().zip(&task.parts) {
+            *state = PartState {
+                position: [part.at[0], part.at[1], task.scene.table_height],
+                orientation: DQuat::IDENTITY.into(),
+                velocity: [0.0; 3],
+                kind: part.kind as u32,
+                state: Holder::Nobody as u32,
+                subgoal: NONE,
+                reserved: 0,
+            };
+        }
+    }
+
+    pub fn restore(&mut self, state: &[PartState; MAX_PARTS]) {
+        self.state = *state;
+    }
+
+    pub fn all(&self) -> &[PartState] {
+        &self.state[..self.count]
+    }
+
+    pub fn row(&self) -> &[PartState; MAX_PARTS] {
+        &self.state
+    }
+
+    pub fn kind(&self, part: usize) -> usize {
+        self.state[part].kind as usize
+    }
+
+    pub fn is(&self, part: usize, holder: Holder) -> bool {
+        self.state[part].state == holder as u32
+    }
+
+    pub fn give_to(&mut self, part: usize, holder: Holder) {
+        self.state[part].state = holder as u32;
+    }
+
+    pub fn position(&self, part: usize) -> DVec3 {
+        self.state[part].position.into()
+    }
+
+    pub fn orientation(&self, part: usize) -> DQuat {
+        DQuat::from_array(self.state[part].orientation)
+    }
+
+    pub fn place(&mut self, part: usize, position: DVec3, orientation: DQuat) {
+        self.state[part].position = position.into();
+        self.state[part].orientation = orientation.into();
+    }
+
+    /// Centre of the part's body, m: where the person's fingers close.
+    pub fn centre(&self, part: usize, task: &Task) -> DVec3 {
+        self.position(part) + self.orientation(part) * (0.5 * height(task.kinds[self.kind(part)].shape) * DVec3::Z)
+    }
+
+    /// Distance of `point` from the part's own axis, between its underside and its top, m.
+    pub fn distance_to_axis(&self, part: usize, point: DVec3, task: &Task) -> f64 {
+        let foot = self.position(part);
+        let axis = self.orientation(part) * (height(task.kinds[self.kind(part)].shape) * DVec3::Z);
+        let along = ((point - foot).dot(axis) / axis.length_squared().max(1e-12)).clamp(0.0, 1.0);
+        point.distance(foot + along * axis)
+    }
+
+    /// Bit i is set when subgoal i's part is in its place.
+    pub fn achieved(&self) -> u64 {
+        let mounted = self.all().iter().filter(|part| part.state == Holder::Socket as u32);
+        mounted.fold(0, |mask, part| mask | (1 << part.subgoal))
+    }
+
+    /// Whether a subgoal is not achieved yet, but everything that must come before it is.
+    pub fn is_available(&self, subgoal: usize, task: &Task) -> bool {
+        let achieved = self.achieved();
+        achieved & (1 << subgoal) == 0
+            && task.subgoals[subgoal].after.iter().all(|before| achieved & (1 << before) != 0)
+    }
+
+    /// The free part of `kind` in the workspace of `owner` that lies nearest to `point`.
+    pub fn nearest_free(&self, kind: usize, owner: Agent, point: DVec3, task: &Task) -> Option<usize> {
+        let [low, high] = task.scene.workspace[owner.index()];
+        let lies_there = |part: &usize| {
+            let at = self.state[*part].position;
+            let inside = (0..2).all(|axis| at[axis] >= low[axis] && at[axis] <= high[axis]);
+            inside && self.kind(*part) == kind && self.is(*part, Holder::Nobody)
+        };
+        let distance = |part: &usize| self.position(*part).distance_squared(point);
+        (0..self.count).filter(lies_there).min_by(|one, other| distance(one).total_cmp(&distance(other)))
+    }
+
+    /// A part that nobody holds any more snaps into a free socket of its kind nearby, or drops.
+    pub fn let_go(&mut self, part: usize, task: &Task) {
+        match self.socket_near(part, task) {
+            Some(subgoal) => self.mount(part, subgoal, task),
+            None => self.drop(part, task),
+        }
+    }
+
+    fn socket_near(&self, part: usize, task: &Task) -> Option<usize> {
+        let (achieved, kind, at) = (self.achieved(), self.kind(part), self.position(part));
+        let distance = |index: &usize| at.distance(task.subgoals[*index].socket.into());
+        (0..task.subgoals.len())
+            .filter(|index| task.subgoals[*index].kind == kind && achieved & (1 << index) == 0)
+            .filter(|index| distance(index) <= SNAP)
+            .min_by(|one, other| distance(one).total_cmp(&distance(other)))
+    }
+
+    fn mount(&mut self, part: usize, subgoal: usize, task: &Task) {
+        let goal = &task.subgoals[subgoal];
+        self.place(part, goal.socket.into(), upright_along(goal.axis.into()));
+        self.state[part].state = Holder::Socket as u32;
+        self.state[part].subgoal = subgoal as u32;
+    }
+
+    /// Leaves the part where it is, free: a body without dynamics lets it rest upright on what is below.
+    fn drop(&mut self, part: usize, task: &Task) {
+        self.state[part].state = Holder::Nobody as u32;
+        self.state[part].subgoal = NONE;
+        let at = self.position(part);
+        debug_assert!(at.is_finite(), "part {part} of {} is nowhere", task.name);
+    }
+
+    /// Rests all free parts upright on what is below them (for a body without dynamics).
+    pub fn rest_free(&mut self, task: &Task) {
+        for part in 0..self.count {
+            if self.is(part, Holder::Nobody) {
+                self.rest(part, task);
+            }
+        }
+    }
+
+    fn rest(&mut self, part: usize, task: &Task) {
+        let scene = &task.scene;
+        let at = self.position(part);
+        let base = DVec3::from(scene.platform);
+        let on_base = (at - base).truncate().length() < scene.platform_radius;
+        let height = if on_base { base.z + scene.platform_height } else { scene.table_height };
+        self.place(part, DVec3::new(at.x, at.y, height), DQuat::IDENTITY);
+    }
+}
+
+/// Height of a part above its frame, m.
+pub(crate) fn height(shape: Shape) -> f64 {
+    match shape {
+        Shape::Cylinder { height, .. } => height,
+        Shape::Box { size } => size[2],
+    }
+}
+
+/// The shortest turn that brings a part's own z axis onto `axis`.
+pub(crate) fn upright_along(axis: DVec3) -> DQuat {
+    DQuat::from_rotation_arc(DVec3::Z, axis.normalize_or(DVec3::Z))
+}

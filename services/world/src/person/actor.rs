@@ -1,0 +1,242 @@
+use super::intention::{Choice, Intention, View};
+use super::plan::Plan;
+use super::{Errand, HandModel, PersonMemory, Stage};
+use crate::noise::{Noise, Stream};
+use crate::parts::{Holder, Parts};
+use crate::robot_hand::RobotHandMemory;
+use crate::slot::Slot;
+use coact_joint_task::Task;
+use rand::RngExt;
+
+/// How far a part may lie from the closing fingers and still be grasped, m.
+const WITHIN_FINGERS: f64 = 0.05;
+/// How long the person waits for the robot's hand at the base, ms.
+const HOLD_MS: u64 = 3000;
+/// How long a part is held out to the robot, ms.
+const OFFER_MS: u64 = 15_000;
+/// How long a gesture is shown, ms.
+const SHOW_MS: u64 = 12_000;
+/// How long the person waits for the robot to let go, ms.
+const RELEASE_MS: u64 = 10_000;
+/// How long it takes to feel that the robot has gripped, or let go, ms.
+const FELT_MS: u64 = 200;
+
+/// The human partner: carries out one intention after the other, stage by stage.
+#[derive(Debug, Clone)]
+pub(crate) struct Person {
+    pub model: HandModel,
+    pub plan: Plan,
+    pub noise: Noise,
+}
+
+/// What the person acts upon in one tick.
+pub(crate) struct Surroundings<'a> {
+    pub tick: u64,
+    pub task: &'a Task,
+    pub parts: &'a mut Parts,
+    pub robot: &'a RobotHandMemory,
+}
+
+impl Surroundings<'_> {
+    pub fn view(&self) -> View<'_> {
+        View { tick: self.tick, task: self.task, parts: self.parts, robot: self.robot }
+    }
+}
+
+impl Person {
+    /// The person at the start of a run: hand at rest.
+    pub fn start(&self, tick: u64, memory: &mut PersonMemory) {
+        memory.hand = self.model.rest();
+        memory.enter(Stage::Rest, tick + self.plan.pause_ms(&self.noise, tick));
+        memory.ended = tick;
+    }
+
+    /// One tick: moves the hand, and what it holds, and goes on to the next stage when the present one is over.
+    pub fn advance(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        let over = around.tick >= memory.until;
+        match memory.stage() {
+            Stage::Rest if over => self.decide(memory, around),
+            Stage::Rest => {}
+            Stage::Prepare if over => self.set_out(memory, around),
+            Stage::Prepare => {}
+            Stage::Reach => self.reach(memory, around),
+            Stage::Dwell if over => self.lift(memory, around),
+            Stage::Dwell => {}
+            Stage::Carry | Stage::Return => self.carry_on(memory, around),
+            Stage::AwaitHold if over || around.robot.holding_since > 0 => self.begin_mounting(memory, around.tick),
+            Stage::AwaitHold => {}
+            Stage::Mount if over => self.put_down(memory, around),
+            Stage::Mount => {}
+            Stage::Offer => self.offer(memory, around),
+            Stage::Show => self.show(memory, around),
+            Stage::AwaitRelease => self.await_release(memory, around),
+            Stage::Withdraw => self.withdrawing(memory, around),
+        }
+    }
+
+    fn decide(&self, memory: &mut PersonMemory, around: &Surroundings) {
+        let mut rng = self.noise.at(Stream::Choice, around.tick);
+        match self.plan.next(&around.view(), memory, &mut rng) {
+            Choice::Rest(pause) => memory.until = around.tick + pause.max(1),
+            Choice::Begin(intention) => self.take_up(intention, memory, around),
+        }
+    }
+
+    /// Makes an intention the present action.
+    fn take_up(&self, intention: Intention, memory: &mut PersonMemory, around: &Surroundings) {
+        memory.chain = Slot::of(intention.chain);
+        memory.subgoal = intention.subgoal.map_or(Slot::EMPTY, Slot::of);
+        memory.part = intention.part.map_or(Slot::EMPTY, Slot::of);
+        memory.set_errand(intention.errand);
+        memory.recording = Slot::EMPTY;
+        self.set_out(memory, around);
+    }
+
+    /// Reach onset.
+    fn set_out(&self, memory: &mut PersonMemory, around: &Surroundings) {
+        memory.actions += 1;
+        memory.onset = around.tick;
+        memory.grasped = 0;
+        let movement = self.reach_movement(memory, around);
+        memory.movement = movement;
+        memory.enter(Stage::Reach, movement.end);
+    }
+
+    fn reach(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        if let Some(part) = memory.part.get() {
+            if !can_grasp(memory.errand(), part, around) {
+                return self.withdraw(memory, around);
+            }
+            self.aim(memory, around.parts.centre(part, around.task));
+        }
+        memory.hand = memory.movement.pose(around.tick);
+        if memory.movement.is_over(around.tick) {
+            self.arrive(memory, around);
+        }
+    }
+
+    /// The fingers close on the part, or the gesture is fully shown.
+    fn arrive(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        let tick = around.tick;
+        let Some(part) = memory.part.get() else {
+            memory.grasped = tick;
+            return memory.enter(Stage::Show, tick + SHOW_MS);
+        };
+        let missed = around.parts.centre(part, around.task).distance(self.model.centre(&memory.hand));
+        if missed > WITHIN_FINGERS {
+            return self.withdraw(memory, around);
+        }
+        memory.grasped = tick;
+        memory.grip = Slot::of(part);
+        if around.parts.is(part, Holder::Robot) {
+            return memory.enter(Stage::AwaitRelease, tick + RELEASE_MS);
+        }
+        around.parts.give_to(part, Holder::Person);
+        memory.home = around.parts.position(part).into();
+        let pause = self.noise.at(Stream::Movement, tick).random_range(80..140);
+        memory.enter(Stage::Dwell, tick + pause);
+    }
+
+    /// Sets off with the grasped part to where it is wanted.
+    fn lift(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        let scene = &around.task.scene;
+        match (memory.errand(), memory.subgoal.get()) {
+            (Errand::Mount | Errand::Take, Some(subgoal)) => {
+                let goal = &around.task.subgoals[subgoal];
+                self.carry_to(memory, around, goal.socket.into(), goal.axis.into());
+            }
+            _ => self.carry_to(memory, around, scene.handover.into(), glam::DVec3::Z),
+        }
+        memory.enter(Stage::Carry, memory.movement.end);
+    }
+
+    fn carry_on(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        self.carry(memory, around);
+        if !memory.movement.is_over(around.tick) {
+            return;
+        }
+        let waits = memory.subgoal.get().is_some_and(|subgoal| around.task.subgoals[subgoal].held);
+        match (memory.stage(), memory.errand()) {
+            (Stage::Return, _) => self.put_down(memory, around),
+            (_, Errand::HandOver | Errand::Request) => memory.enter(Stage::Offer, around.tick + OFFER_MS),
+            _ if waits => memory.enter(Stage::AwaitHold, around.tick + HOLD_MS),
+            _ => self.begin_mounting(memory, around.tick),
+        }
+    }
+
+    fn begin_mounting(&self, memory: &mut PersonMemory, tick: u64) {
+        let time = self.noise.at(Stream::Movement, tick).random_range(400..700);
+        memory.enter(Stage::Mount, tick + time);
+    }
+
+    /// The fingers open: the part snaps into its socket, or stays where it was put.
+    fn put_down(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        if let Some(part) = memory.grip.get() {
+            memory.grip = Slot::EMPTY;
+            match around.robot.held.get() {
+                Some(held) if held == part => around.parts.give_to(part, Holder::Robot),
+                _ => around.parts.let_go(part, around.task),
+            }
+        }
+        self.withdraw(memory, around);
+    }
+
+    fn offer(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        let gripped = memory.grip.get().is_some() && around.robot.held == memory.grip;
+        if self.felt(gripped, memory, around.tick) {
+            self.put_down(memory, around);
+        } else if !gripped && around.tick >= memory.until {
+            self.carry_to(memory, around, memory.home.into(), glam::DVec3::Z);
+            memory.enter(Stage::Return, memory.movement.end);
+        }
+    }
+
+    fn show(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        if let Some(taking) = around.view().take_offered() {
+            self.take_up(taking, memory, around);
+        } else if around.tick >= memory.until {
+            self.withdraw(memory, around);
+        }
+    }
+
+    fn await_release(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        let released = around.robot.held != memory.grip;
+        if released && let Some(part) = memory.grip.get() {
+            around.parts.give_to(part, Holder::Person);
+            memory.home = around.parts.position(part).into();
+        }
+        if self.felt(released, memory, around.tick) {
+            self.lift(memory, around);
+        } else if !released && around.tick >= memory.until {
+            memory.grip = Slot::EMPTY;
+            self.withdraw(memory, around);
+        }
+    }
+
+    /// Whether `happening` has gone on long enough to be felt.
+    fn felt(&self, happening: bool, memory: &mut PersonMemory, tick: u64) -> bool {
+        memory.felt = match (happening, memory.felt) {
+            (false, _) => 0,
+            (true, 0) => tick.max(1),
+            (true, since) => since,
+        };
+        memory.felt > 0 && tick >= memory.felt + FELT_MS
+    }
+
+    fn withdrawing(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        memory.hand = memory.movement.pose(around.tick);
+        if memory.movement.is_over(around.tick) {
+            memory.ended = around.tick;
+            let pause = self.plan.pause_ms(&self.noise, around.tick);
+            memory.enter(Stage::Rest, around.tick + pause);
+        }
+    }
+}
+
+/// Whether the part is still where the action needs it: free to be taken, or in the robot's hand to be handed over.
+fn can_grasp(errand: Errand, part: usize, around: &Surroundings) -> bool {
+    match errand {
+        Errand::Take => around.robot.held.get() == Some(part),
+        _ => around.parts.is(part, Holder::Nobody),
+    }
+}

@@ -1,0 +1,35 @@
+use super::intention::{Choice, View};
+use super::script::Script;
+use super::{PersonMemory, synthetic};
+use crate::noise::{Noise, Stream};
+use rand::{Rng, RngExt};
+
+/// Pause between two actions of a person who chooses, ms.
+const PAUSE_MS: std::ops::Range<u64> = 500..2000;
+
+/// Where the person's intentions come from.
+#[derive(Debug, Clone)]
+pub(crate) enum Plan {
+    /// Chosen at random among the plan's valid actions.
+    Synthetic,
+    /// Read from a file.
+    Script(Script),
+}
+
+impl Plan {
+    /// What comes next for a person at rest.
+    pub fn next<R: Rng>(&self, view: &View, memory: &mut PersonMemory, rng: &mut R) -> Choice {
+        match self {
+            Self::Synthetic => synthetic::choose(view, rng),
+            Self::Script(script) => script.next(view, memory),
+        }
+    }
+
+    /// Rest before the next thought, ms.
+    pub fn pause_ms(&self, noise: &Noise, tick: u64) -> u64 {
+        match self {
+            Self::Synthetic => noise.at(Stream::Choice, tick).random_range(PAUSE_MS),
+            Self::Script(_) => 1,
+        }
+    }
+}

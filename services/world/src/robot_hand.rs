@@ -1,0 +1,192 @@
+use crate::parts::{Holder, Parts};
+use crate::slot::Slot;
+use bytemuck::{Pod, Zeroable};
+use coact_joint_task::Task;
+use coact_messages::{ARM_JOINTS, JOINTS};
+use coact_robot::Robot;
+use glam::{DQuat, DVec3};
+
+/// How near a part's axis must be to the grasp point for the fingers to get hold of it, m.
+const REACH: f64 = 0.03;
+/// The fingers touch a part when their clear width exceeds the part's by no more than this, m.
+const TOUCHING: f64 = 0.002;
+/// They have let go when it exceeds it by this, m.
+const RELEASED: f64 = 0.008;
+/// Clear width from which a hand without a part looks open, m.
+const LOOKS_OPEN: f64 = 0.06;
+/// Distance of the grasp point from a place within which the hand is seen as being there, m.
+const AT_PLACE: f64 = 0.12;
+/// Grip force when the fingers just touch, N, and its growth with the finger angle that the servo is held back, N/rad.
+const GRIP_FORCE: (f64, f64) = (2.0, 40.0);
+
+/// The robot's hand as anybody can see it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Palm {
+    /// Where the finger ends meet, m.
+    pub grasp_point: DVec3,
+    pub orientation: DQuat,
+    /// Mean angle of the finger bases, rad; growing angles close.
+    pub closing: f64,
+}
+
+/// What the robot's hand remembers, and since when it has stood where the person pays attention to it (ticks, 0: not).
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub(crate) struct RobotHandMemory {
+    pub held: Slot,
+    /// Pose of the held part in the palm frame.
+    offset: [f64; 3],
+    turn: [f64; 4],
+    closing: f64,
+    /// Open and empty at the place where parts change hands.
+    pub asking_since: u64,
+    /// With a part that was brought to that place.
+    pub offering_since: u64,
+    /// At the place where the base is steadied.
+    pub holding_since: u64,
+    /// 1 once the held part has been away from the place where parts change hands: not received there just now.
+    brought: u64,
+}
+
+/// Finger angles at which a kind of part is touched, gripped and let go, rad.
+#[derive(Debug, Clone, Copy)]
+struct FingerAngles {
+    touch: f64,
+    grip: f64,
+    release: f64,
+}
+
+/// Grasps and releases parts as the robot's fingers close and open.
+#[derive(Debug, Clone)]
+pub(crate) struct RobotHand {
+    robot: Robot,
+    angles: Vec<FingerAngles>,
+    open: f64,
+    handover: DVec3,
+    hold: DVec3,
+}
+
+impl RobotHand {
+    pub fn new(robot: &Robot, task: &Task) -> Self {
+        let angle = |width: f64| robot.hand.base_for_width(width);
+        let angles = task.kinds.iter().map(|kind| FingerAngles {
+            touch: angle(kind.width + TOUCHING),
+            grip: angle(kind.width),
+            release: angle(kind.width + RELEASED),
+        });
+        Self {
+            angles: angles.collect(),
+            open: angle(LOOKS_OPEN),
+            handover: task.scene.handover.into(),
+            hold: task.scene.hold.into(),
+            robot: robot.clone(),
+        }
+    }
+
+    /// The palm for joint positions in message order, rad.
+    pub fn palm(&self, position: &[f64; JOINTS]) -> Palm {
+        let pose = self.robot.palm(&position[..ARM_JOINTS]);
+        let point = pose * self.robot.hand.grasp_point();
+        let turn = pose.rotation.coords;
+        Palm {
+            grasp_point: DVec3::new(point.x, point.y, point.z),
+            orientation: DQuat::from_xyzw(turn.x, turn.y, turn.z, turn.w),
+            closing: closing(position),
+        }
+    }
+
+    /// Base angle at which the held part stops the fingers, rad; none when the hand is empty.
+    pub fn stop(&self, memory: &RobotHandMemory, parts: &Parts) -> Option<f64> {
+        memory.held.get().map(|part| self.angles[parts.kind(part)].grip)
+    }
+
+    /// Force on the held part, N, when the servo would close the fingers to `closing` rad.
+    pub fn touch(&self, memory: &RobotHandMemory, parts: &Parts, wanted: f64) -> f64 {
+        let squeeze = |stop: f64| GRIP_FORCE.0 + GRIP_FORCE.1 * (wanted - stop).max(0.0);
+        self.stop(memory, parts).map_or(0.0, squeeze)
+    }
+
+    /// Grasps, carries and releases, as the palm moved and the fingers closed or opened since the last step.
+    ///
+    /// A part that the fingers of the person (`person_grip`) are on becomes the person's when the robot lets go.
+    pub fn advance(
+        &self,
+        palm: &Palm,
+        memory: &mut RobotHandMemory,
+        person_grip: Slot,
+        parts: &mut Parts,
+        task: &Task,
+    ) {
+        match memory.held.get() {
+            Some(part) if palm.closing < self.angles[parts.kind(part)].release => {
+                memory.held = Slot::EMPTY;
+                if person_grip.get() == Some(part) {
+                    parts.give_to(part, Holder::Person);
+                } else {
+                    parts.let_go(part, task);
+                }
+            }
+            None => self.grasp(palm, memory, parts, task),
+            Some(_) => {}
+        }
+        memory.closing = palm.closing;
+        carry(palm, memory, parts);
+    }
+
+    fn grasp(&self, palm: &Palm, memory: &mut RobotHandMemory, parts: &mut Parts, task: &Task) {
+        let within = |part: &usize| {
+            let angles = self.angles[parts.kind(*part)];
+            let closes_now = memory.closing < angles.touch && palm.closing >= angles.touch;
+            closes_now
+                && !parts.is(*part, Holder::Socket)
+                && parts.distance_to_axis(*part, palm.grasp_point, task) <= REACH
+        };
+        let distance = |part: &usize| parts.distance_to_axis(*part, palm.grasp_point, task);
+        let nearest = (0..parts.all().len())
+            .filter(within)
+            .min_by(|one, other| distance(one).total_cmp(&distance(other)));
+        let Some(part) = nearest else { return };
+        memory.held = Slot::of(part);
+        if parts.is(part, Holder::Nobody) {
+            parts.give_to(part, Holder::Robot);
+        }
+        attach(palm, memory, parts, part);
+    }
+
+    /// Notes since when the hand has stood where the person pays attention to it.
+    pub fn notice(&self, tick: u64, palm: &Palm, memory: &mut RobotHandMemory) {
+        let at_handover = palm.grasp_point.distance(self.handover) < AT_PLACE;
+        let at_base = palm.grasp_point.distance(self.hold) < AT_PLACE;
+        let empty = memory.held.get().is_none();
+        let since = |yes: bool, since: u64| match (yes, since) {
+            (false, _) => 0,
+            (true, 0) => tick.max(1),
+            (true, since) => since,
+        };
+        memory.brought = u64::from(!empty && (memory.brought == 1 || !at_handover));
+        memory.asking_since = since(at_handover && empty && palm.closing < self.open, memory.asking_since);
+        memory.offering_since = since(at_handover && memory.brought == 1, memory.offering_since);
+        memory.holding_since = since(at_base && empty, memory.holding_since);
+    }
+}
+
+/// Mean angle of the three finger bases, rad.
+pub(crate) fn closing(position: &[f64; JOINTS]) -> f64 {
+    position[8..11].iter().sum::<f64>() / 3.0
+}
+
+fn attach(palm: &Palm, memory: &mut RobotHandMemory, parts: &Parts, part: usize) {
+    let back = palm.orientation.inverse();
+    memory.offset = (back * (parts.position(part) - palm.grasp_point)).into();
+    memory.turn = (back * parts.orientation(part)).normalize().into();
+}
+
+/// A part in the robot's hand follows the palm; one that the person holds as well stays in the person's hand.
+fn carry(palm: &Palm, memory: &mut RobotHandMemory, parts: &mut Parts) {
+    let Some(part) = memory.held.get() else { return };
+    if !parts.is(part, Holder::Robot) {
+        return attach(palm, memory, parts, part);
+    }
+    let position = palm.grasp_point + palm.orientation * DVec3::from(memory.offset);
+    parts.place(part, position, (palm.orientation * DQuat::from_array(memory.turn)).normalize());
+}

@@ -1,0 +1,47 @@
+use super::is_frame_due;
+use crate::noise::{Noise, Stream};
+use crate::parts::Parts;
+use coact_messages::{SceneView, Sighting};
+use glam::{DQuat, DVec3};
+use rand::RngExt;
+use rand_distr::{Distribution, StandardNormal};
+
+/// Frames per second.
+const RATE: u64 = 30;
+/// Scatter of a sighting's position, m.
+const POSITION: f64 = 0.002;
+/// Scatter of its orientation, rad.
+const ORIENTATION: f64 = 0.015;
+/// Share of sightings that the recogniser misses.
+const MISSED: f64 = 0.02;
+
+/// Takes a frame of all parts when one is due; parts in hands and mounted parts are seen where they are.
+pub(crate) fn recognise(tick: u64, last: Option<u64>, noise: &Noise, parts: &Parts, view: &mut SceneView) {
+    if !is_frame_due(RATE, last, tick) {
+        return;
+    }
+    let mut rng = noise.at(Stream::Recogniser, tick);
+    view.frame += u64::from(last.is_some());
+    view.captured_cycle = tick;
+    view.sighting = [Sighting::default(); _];
+    let mut seen = 0;
+    for part in 0..parts.all().len() {
+        let missed = rng.random_bool(MISSED);
+        let confidence = rng.random_range(0.85..0.99);
+        let mut deviates = || DVec3::from_array(std::array::from_fn(|_| StandardNormal.sample(&mut rng)));
+        let position = parts.position(part) + POSITION * deviates();
+        let turn = DQuat::from_scaled_axis(ORIENTATION * deviates()) * parts.orientation(part);
+        if missed {
+            continue;
+        }
+        view.sighting[seen] = Sighting {
+            kind: parts.kind(part) as u32,
+            reserved: 0,
+            confidence,
+            position: position.into(),
+            orientation: turn.normalize().into(),
+        };
+        seen += 1;
+    }
+    view.sightings = seen as u32;
+}

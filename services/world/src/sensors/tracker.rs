@@ -1,0 +1,77 @@
+use super::is_frame_due;
+use crate::noise::{Noise, Stream};
+use bytemuck::{Pod, Zeroable};
+use coact_messages::{HandView, Keypoint};
+use glam::DVec3;
+use rand::RngExt;
+use rand_distr::{Distribution, StandardNormal};
+
+/// Frames per second.
+const RATE: u64 = 60;
+/// Scatter of a keypoint, m.
+const POSITION: f64 = 0.002;
+/// Share of frames that are lost.
+const LOST_FRAMES: f64 = 0.01;
+/// Share of keypoints that are lost in a frame.
+const LOST_KEYPOINTS: f64 = 0.005;
+
+/// The frame that was delivered last, and the one that is still being processed.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct TrackerMemory {
+    pub delivered: HandView,
+    pending: HandView,
+    /// 1 if the pending frame will be delivered.
+    is_pending: u64,
+    /// 1 once a frame was delivered.
+    has_delivered: u64,
+}
+
+impl PartialEq for TrackerMemory {
+    fn eq(&self, other: &Self) -> bool {
+        bytemuck::bytes_of(self) == bytemuck::bytes_of(other)
+    }
+}
+
+/// When a frame is due: delivers the one before, and captures a new one. So a frame is one frame time old when it
+/// comes. `capture` gives keypoints, and their own confidences when they come from a recorded person: then nothing
+/// is added to what the recording's detector missed or misplaced.
+pub(crate) fn track(
+    tick: u64,
+    last: Option<u64>,
+    noise: &Noise,
+    memory: &mut TrackerMemory,
+    capture: impl FnOnce() -> (Option<[Keypoint; 9]>, [DVec3; 9]),
+) {
+    if !is_frame_due(RATE, last, tick) {
+        return;
+    }
+    if memory.is_pending == 1 {
+        memory.pending.frame = memory.delivered.frame + memory.has_delivered;
+        memory.delivered = memory.pending;
+        memory.has_delivered = 1;
+    }
+    let (recorded, points) = capture();
+    let (seen, keypoints) = match recorded {
+        Some(keypoints) => (keypoints.iter().any(|point| point.confidence > 0.0), keypoints),
+        None => blur(tick, noise, &points),
+    };
+    memory.is_pending = u64::from(seen);
+    memory.pending.captured_cycle = tick;
+    memory.pending.keypoints = keypoints;
+}
+
+/// The tracker's own noise and gaps. The flag says whether the frame came through.
+fn blur(tick: u64, noise: &Noise, points: &[DVec3; 9]) -> (bool, [Keypoint; 9]) {
+    let mut rng = noise.at(Stream::Tracker, tick);
+    let seen = !rng.random_bool(LOST_FRAMES);
+    let keypoints = points.map(|point| {
+        let scatter = DVec3::from_array(std::array::from_fn(|_| StandardNormal.sample(&mut rng)));
+        let confidence = rng.random_range(0.7..0.95);
+        if rng.random_bool(LOST_KEYPOINTS) {
+            return Keypoint::default();
+        }
+        Keypoint { position: (point + POSITION * scatter).into(), confidence }
+    });
+    (seen, keypoints)
+}

@@ -1,0 +1,177 @@
+use crate::body::{Body, Joints, Kinematic};
+use crate::memory::Memory;
+use crate::noise::Noise;
+use crate::parts::Parts;
+use crate::person::{HandModel, Person, Plan, Surroundings};
+use crate::robot_hand::{Palm, RobotHand};
+use crate::sensors::{read_joints, recognise, track};
+use crate::{BodyKind, Partner, Settings, WorldError};
+use bytemuck::Zeroable;
+use coact_joint_task::Task;
+use coact_messages::{ARM_JOINTS, Command, JOINTS, SensorSample, Truth, WorldState};
+use coact_robot::Robot;
+use glam::DVec3;
+
+/// How long a finished assembly stands before the scene is laid out again, ticks.
+const ADMIRED: u64 = 3000;
+/// How far the robot's hand must be from where a part will lie, m.
+const CLEARANCE: f64 = 0.15;
+
+/// The stage that stands in for the hardware: advances table, parts, robot, person and sensors by one tick.
+pub struct World {
+    task: Task,
+    noise: Noise,
+    hand: RobotHand,
+    person: Person,
+    body: Body,
+    joints: Joints,
+    parts: Parts,
+    memory: Memory,
+}
+
+impl World {
+    /// A world at its start: parts laid out as the task says, robot at its park posture with the hand open, the
+    /// person's hand at rest.
+    ///
+    /// # Errors
+    /// [`WorldError::Scene`] when the scene cannot be simulated as it is laid out.
+    pub fn new(task: &Task, robot: &Robot, settings: Settings) -> Result<Self, WorldError> {
+        let noise = Noise::new(settings.seed);
+        let plan = match settings.partner {
+            Partner::Synthetic => Plan::Synthetic,
+            Partner::Script(script) => Plan::Script(script),
+        };
+        let parts = Parts::new(task);
+        let joints = parked(robot);
+        let body = match settings.body {
+            BodyKind::Kinematic => Body::Kinematic(Kinematic::new(task, robot)),
+            BodyKind::Physics => Body::Kinematic(Kinematic::new(task, robot)),
+        };
+        Ok(Self {
+            noise,
+            hand: RobotHand::new(robot, task),
+            person: Person { model: HandModel::new(&task.scene), plan, noise },
+            body,
+            joints,
+            parts,
+            memory: Memory::zeroed(),
+            task: task.clone(),
+        })
+    }
+
+    /// Advances the world to `tick`. Without a command the joints stay where they are.
+    pub fn step(
+        &mut self,
+        tick: u64,
+        command: Option<&Command>,
+        out: &mut SensorSample,
+        truth: &mut Truth,
+        state: &mut WorldState,
+    ) {
+        let elapsed = self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, 1000));
+        let stop = self.hand.stop(&self.memory.robot, &self.parts);
+        self.body.advance(elapsed, command, stop, &mut self.joints, &mut self.parts);
+        let palm = self.hand.palm(&self.joints.position);
+        self.live(tick, &palm);
+        self.sense(tick, command, out);
+        self.memory.tick = tick;
+        self.memory.started = 1;
+        self.tell(truth);
+        self.remember(state);
+    }
+
+    fn last_tick(&self) -> Option<u64> {
+        (self.memory.started == 1).then_some(self.memory.tick)
+    }
+
+    /// Goes on from the newest message of a world that was killed: parts stay where they are, held ones stay held,
+    /// and the person carries on. A state of another task is not resumed from.
+    pub fn resume(&mut self, last: &WorldState) {
+        if last.task != self.task.fingerprint || last.parts != self.task.parts.len() as u64 {
+            return;
+        }
+        self.joints = Joints { position: last.position, velocity: last.velocity };
+        self.parts.restore(&last.part);
+        self.memory = Memory::load(last);
+        self.body.resume(&self.joints, &self.parts);
+    }
+
+    /// Hands and parts: who grasps, carries and lets go of what.
+    fn live(&mut self, tick: u64, palm: &Palm) {
+        let Self { task, hand, person, parts, memory, .. } = self;
+        if memory.started == 0 {
+            person.start(tick, &mut memory.person);
+        }
+        hand.advance(palm, &mut memory.robot, memory.person.grip, parts, task);
+        hand.notice(tick, palm, &mut memory.robot);
+        let mut around = Surroundings { tick, task, parts, robot: &memory.robot };
+        person.advance(&mut memory.person, &mut around);
+        self.begin_again(tick, palm);
+    }
+
+    /// Lays the scene out again some time after the assembly was completed, once the robot's hand is out of the way.
+    fn begin_again(&mut self, tick: u64, palm: &Palm) {
+        let Self { task, parts, memory, .. } = self;
+        if parts.achieved().count_ones() as usize != task.subgoals.len() || task.subgoals.is_empty() {
+            memory.complete_since = 0;
+            return;
+        }
+        if memory.complete_since == 0 {
+            memory.complete_since = tick.max(1);
+        }
+        let clear = |at: &[f64; 2]| {
+            DVec3::new(at[0], at[1], task.scene.table_height).distance(palm.grasp_point) > CLEARANCE
+        };
+        let empty = memory.robot.held.get().is_none() && memory.person.grip.get().is_none();
+        let admired = tick >= memory.complete_since + ADMIRED;
+        if admired && empty && task.parts.iter().all(|part| clear(&part.at)) {
+            parts.lay_out(task);
+            memory.assemblies += 1;
+            memory.complete_since = 0;
+        }
+    }
+
+    fn sense(&mut self, tick: u64, command: Option<&Command>, out: &mut SensorSample) {
+        let last = self.last_tick();
+        let Self { noise, hand, person, joints, parts, memory, .. } = self;
+        let wanted = command.map_or(0.0, |command| crate::robot_hand::closing(&command.position));
+        let touch = hand.touch(&memory.robot, parts, wanted);
+        read_joints(tick, noise, (&joints.position, &joints.velocity), touch, &mut out.joints);
+        let pose = memory.person.hand;
+        track(tick, last, noise, &mut memory.tracker, || (None, person.model.keypoints(&pose)));
+        out.hand = memory.tracker.delivered;
+        recognise(tick, last, noise, parts, &mut memory.scene.0);
+        out.scene = memory.scene.0;
+    }
+
+    fn tell(&self, truth: &mut Truth) {
+        let person = &self.memory.person;
+        truth.actions = person.actions as u32;
+        truth.phase = person.phase() as u32;
+        truth.chain = person.chain.message();
+        truth.subgoal = person.subgoal.message();
+        truth.onset_cycle = person.onset;
+        truth.grasp_cycle = person.grasped;
+        truth.achieved = self.parts.achieved();
+        truth.assemblies = self.memory.assemblies;
+    }
+
+    fn remember(&self, state: &mut WorldState) {
+        state.task = self.task.fingerprint;
+        state.position = self.joints.position;
+        state.velocity = self.joints.velocity;
+        state.parts = self.parts.all().len() as u64;
+        state.part = *self.parts.row();
+        self.memory.save(state);
+    }
+}
+
+/// Joints at the park posture, hand open.
+fn parked(robot: &Robot) -> Joints {
+    let mut position = [0.0; JOINTS];
+    position[..ARM_JOINTS].copy_from_slice(&robot.park);
+    Joints { position, velocity: [0.0; JOINTS] }
+}
+
+#[cfg(test)]
+mod tests;

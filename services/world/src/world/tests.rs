@@ -1,0 +1,80 @@
+#![allow(clippy::unwrap_used)]
+
+mod fake_robot;
+mod partner;
+mod profiles;
+mod resume;
+
+use super::World;
+use crate::parts::Holder;
+use crate::{BodyKind, Partner, Settings};
+use bytemuck::zeroed_box;
+use coact_joint_task::{Agent, Task};
+use coact_messages::{Command, SensorSample, Truth, WorldState};
+use coact_robot::Robot;
+use std::path::{Path, PathBuf};
+
+/// Messages of one step.
+pub(super) struct Out {
+    pub sample: Box<SensorSample>,
+    pub truth: Box<Truth>,
+    pub state: Box<WorldState>,
+}
+
+impl Out {
+    pub fn new() -> Self {
+        Self { sample: zeroed_box(), truth: zeroed_box(), state: zeroed_box() }
+    }
+}
+
+pub(super) fn config(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config").join(file)
+}
+
+/// The toy vehicle on a table of the test's own, whatever the file's scene is.
+pub(super) fn task() -> Task {
+    let mut task = Task::load(&config("tasks/toy-vehicle.toml")).unwrap();
+    let scene = &mut task.scene;
+    scene.table_height = 0.9;
+    scene.table_centre = [-0.6, 0.0];
+    scene.table_size = [0.8, 1.2];
+    scene.platform = [-0.6, 0.0, 0.9];
+    scene.hold = [-0.5, 0.0, 1.0];
+    scene.handover = [-0.6, 0.3, 1.1];
+    scene.person_rest = [-1.0, 0.2, 0.93];
+    scene.person_shoulder = [-1.15, 0.15, 1.25];
+    scene.workspace = [[[-0.45, -0.6], [-0.2, 0.6]], [[-1.0, -0.6], [-0.75, 0.6]]];
+    let mut placed = [0, 0];
+    for part in &mut task.parts {
+        let side = part.workspace.index();
+        part.at = [if part.workspace == Agent::Robot { -0.3 } else { -0.85 }, -0.3 + 0.15 * placed[side] as f64];
+        placed[side] += 1;
+    }
+    for (index, goal) in task.subgoals.iter_mut().enumerate() {
+        let x = if goal.side == Agent::Robot { -0.55 } else { -0.65 };
+        goal.socket = [x, 0.08 * index as f64 - 0.3, 0.95];
+    }
+    task
+}
+
+pub(super) fn robot() -> Robot {
+    Robot::load(&config("robots/aros.toml")).unwrap()
+}
+
+pub(super) fn world(seed: u64) -> World {
+    let settings = Settings { seed, partner: Partner::Synthetic, body: BodyKind::Kinematic };
+    World::new(&task(), &robot(), settings).unwrap()
+}
+
+/// A command that holds the park posture and sways the wrist, so that joints move.
+pub(super) fn swaying(tick: u64, robot: &Robot) -> Box<Command> {
+    let mut command: Box<Command> = zeroed_box();
+    command.position[..7].copy_from_slice(&robot.park);
+    command.position[5] += 0.2 * (tick as f64 * 2e-3).sin();
+    command
+}
+
+/// The parts that someone has.
+pub(super) fn held_by(world: &World, holder: Holder) -> Vec<usize> {
+    (0..world.parts.all().len()).filter(|part| world.parts.is(*part, holder)).collect()
+}

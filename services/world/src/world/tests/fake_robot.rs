@@ -1,0 +1,127 @@
+use super::super::World;
+use super::Out;
+use crate::parts::Holder;
+use crate::robot_hand::Palm;
+use coact_joint_task::{Agent, Task};
+use glam::{DQuat, DVec3};
+
+/// A robot hand without an arm: it is where it wants to be at once, and obeys the world's rules of grasping.
+pub(in super::super) struct FakeRobot {
+    at: DVec3,
+    closing: f64,
+    /// Tick until which it stays as it is.
+    busy_until: u64,
+    errand: Errand,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Errand {
+    None,
+    /// Grasp the part, then go on with `Insert` or `Give`.
+    Insert(usize, usize),
+    Give(usize),
+    Receive(usize),
+}
+
+impl FakeRobot {
+    pub fn new() -> Self {
+        Self { at: DVec3::new(0.0, 0.0, 2.0), closing: 0.0, busy_until: 0, errand: Errand::None }
+    }
+
+    /// One tick of the world with this robot in it.
+    pub fn step(&mut self, tick: u64, world: &mut World, out: &mut Out) {
+        if tick >= self.busy_until {
+            self.busy_until = tick + 60;
+            self.act(world);
+        }
+        let palm = Palm { grasp_point: self.at, orientation: DQuat::IDENTITY, closing: self.closing };
+        let World { parts, task, .. } = world;
+        parts.rest_free(task);
+        world.live(tick, &palm);
+        world.sense(tick, None, &mut out.sample);
+        world.memory.tick = tick;
+        world.memory.started = 1;
+        world.tell(&mut out.truth);
+        world.remember(&mut out.state);
+    }
+
+    fn act(&mut self, world: &World) {
+        let held = world.memory.robot.held.get();
+        match (self.errand, held) {
+            (Errand::None, _) => self.errand = self.choose(world),
+            (Errand::Receive(part), None) if !world.parts.is(part, Holder::Person) => self.abandon(),
+            (Errand::Insert(part, _) | Errand::Give(part) | Errand::Receive(part), None) => self.grasp(part, world),
+            (Errand::Receive(part), Some(_)) if world.parts.is(part, Holder::Robot) => {
+                let goal = goal(world, world.parts.kind(part), Agent::Robot);
+                self.errand = goal.map_or(Errand::None, |goal| Errand::Insert(part, goal));
+            }
+            (Errand::Receive(_), Some(_)) => {}
+            (Errand::Insert(part, goal), Some(_)) => self.insert(part, goal, world),
+            (Errand::Give(part), Some(_)) => self.give(part, world),
+        }
+    }
+
+    fn choose(&mut self, world: &World) -> Errand {
+        let task = &world.task;
+        let held_out = super::held_by(world, Holder::Person)
+            .into_iter()
+            .find(|part| world.parts.position(*part).distance(task.scene.handover.into()) < 0.01);
+        if let Some(part) = held_out {
+            return Errand::Receive(part);
+        }
+        for goal in open_goals(world, Agent::Robot) {
+            if let Some(part) = lying(world, task.subgoals[goal].kind) {
+                return Errand::Insert(part, goal);
+            }
+        }
+        for goal in open_goals(world, Agent::Person) {
+            if let Some(part) = lying(world, task.subgoals[goal].kind) {
+                return Errand::Give(part);
+            }
+        }
+        let asks = !open_goals(world, Agent::Robot).is_empty();
+        self.at = if asks { task.scene.handover.into() } else { DVec3::new(0.0, 0.0, 2.0) };
+        self.closing = 0.0;
+        Errand::None
+    }
+
+    fn grasp(&mut self, part: usize, world: &World) {
+        let there = world.parts.position(part);
+        self.closing = if self.at == there && self.closing == 0.0 { 2.0 } else { 0.0 };
+        self.at = there;
+    }
+
+    fn insert(&mut self, _part: usize, goal: usize, world: &World) {
+        let place = DVec3::from(world.task.subgoals[goal].socket);
+        if self.at == place {
+            self.abandon();
+        }
+        self.at = place;
+    }
+
+    fn give(&mut self, part: usize, world: &World) {
+        self.at = world.task.scene.handover.into();
+        if world.memory.person.grip.get() == Some(part) {
+            self.abandon();
+        }
+    }
+
+    fn abandon(&mut self) {
+        self.closing = 0.0;
+        self.errand = Errand::None;
+    }
+}
+
+fn open_goals(world: &World, side: Agent) -> Vec<usize> {
+    let task: &Task = &world.task;
+    let open = |goal: &usize| task.subgoals[*goal].side == side && world.parts.is_available(*goal, task);
+    (0..task.subgoals.len()).filter(open).collect()
+}
+
+fn goal(world: &World, kind: usize, side: Agent) -> Option<usize> {
+    open_goals(world, side).into_iter().find(|goal| world.task.subgoals[*goal].kind == kind)
+}
+
+fn lying(world: &World, kind: usize) -> Option<usize> {
+    world.parts.nearest_free(kind, Agent::Robot, DVec3::ZERO, &world.task)
+}
