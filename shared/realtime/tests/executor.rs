@@ -1,0 +1,199 @@
+//! Cycles of real processes' shells: two stages in threads of one program, observed through their pulses.
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use coact_messages::{FieldFrame, Header, Percept, Pulse, topic};
+use coact_realtime::{Bus, Cycle, Input, Message, Output, PortError, Process, Schedule, Tick, now};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+use support::TestRun;
+
+const LATEST_START_US: u64 = 700;
+const PERIOD_NS: u64 = 1_000_000;
+const TABLE: &str = r#"
+[[process]]
+name = "perception"
+program = "none"
+order = 1
+trigger = "timer"
+[[process]]
+name = "fields"
+program = "none"
+order = 1
+trigger = "coact/percept"
+latest_start_us = 700
+"#;
+
+/// Signals reach every shell of the program: one test at a time.
+fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Publishes a message per cycle, up to a last cycle after which it only goes through the motions.
+struct Relay<In: Message, Out: Message> {
+    input: Input<In>,
+    output: Output<Out>,
+    last: u64,
+}
+
+impl<In: Message, Out: Message> Cycle for Relay<In, Out> {
+    type Trigger = In;
+
+    fn trigger(&mut self) -> &mut Input<In> {
+        &mut self.input
+    }
+
+    fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
+        if tick.cycle > self.last {
+            return Ok(Header { cycle: tick.cycle, published_ns: now(), ..Header::default() });
+        }
+        let sensor_ns = self.input.header().map_or(tick.cycle, |header| header.cycle);
+        self.output.loan()?.send(tick.cycle, sensor_ns)
+    }
+}
+
+fn start<In: Message, Out: Message>(
+    name: &'static str,
+    run: &Path,
+    topics: [&'static str; 2],
+    last: u64,
+) -> JoinHandle<()> {
+    let run: PathBuf = run.to_owned();
+    std::thread::spawn(move || {
+        let process = Process::open(name, &run, 0).unwrap();
+        let [from, to] = topics;
+        let input = process.bus().trigger(from).unwrap();
+        let cycle = Relay::<In, Out> { input, output: process.bus().output(to).unwrap(), last };
+        process.run_cycles(cycle).unwrap();
+    })
+}
+
+/// Both stages, the first of which falls silent after `last`; and a monitor's view of the second.
+fn chain(run: &TestRun, last: u64) -> ([JoinHandle<()>; 2], Input<Pulse>) {
+    let directory = run.0.directory();
+    let stages = [
+        // The first stage has no input: nobody sends commands as percepts' cause here.
+        start::<FieldFrame, Percept>("perception", directory, ["coact/none", topic::PERCEPT], last),
+        start::<Percept, FieldFrame>("fields", directory, [topic::PERCEPT, topic::FIELDS], u64::MAX),
+    ];
+    let monitor = Bus::open(&run.0, "monitor", 0).unwrap();
+    let pulses = monitor.input(&topic::pulse("fields")).unwrap();
+    for name in ["perception", "fields"] {
+        while run.0.ready(name, 0).unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+    run.0.start(now() + 5_000_000).unwrap();
+    (stages, pulses)
+}
+
+fn watch(pulses: &mut Input<Pulse>, seen: &mut Vec<Pulse>, enough: impl Fn(&[Pulse]) -> bool) {
+    while !enough(seen) {
+        pulses.each(|pulse| seen.push(*pulse)).unwrap();
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn stop(stages: [JoinHandle<()>; 2]) {
+    // SAFETY: the shells of this program handle the signal as a request to stop.
+    unsafe { libc::raise(libc::SIGTERM) };
+    for stage in stages {
+        stage.join().unwrap();
+    }
+}
+
+#[test]
+fn later_stage_runs_on_each_message_and_at_its_latest_start_once_they_stop() {
+    let _alone = alone();
+    let run = TestRun::new(TABLE);
+    let last = 100;
+    let (stages, mut pulses) = chain(&run, last);
+    let mut seen = Vec::new();
+    watch(&mut pulses, &mut seen, |seen| seen.last().is_some_and(|pulse| pulse.header.cycle > last + 50));
+    let start_ns = run.0.start_ns().unwrap().unwrap();
+    stop(stages);
+    let schedule = Schedule { start_ns, period_ns: PERIOD_NS };
+    for pulse in &seen {
+        assert_eq!(pulse.released_ns, schedule.release(pulse.header.cycle));
+        assert!(pulse.started_ns >= pulse.released_ns && pulse.header.published_ns >= pulse.started_ns);
+    }
+    for pair in seen.windows(2) {
+        let gap = pair[1].header.cycle - pair[0].header.cycle;
+        assert_eq!(
+            gap,
+            1 + pair[1].skipped - pair[0].skipped,
+            "a period has one cycle or is booked as skipped"
+        );
+    }
+    let fresh: Vec<_> = seen.iter().filter(|pulse| pulse.input_received_ns > 0).collect();
+    assert!(fresh.len() > 50, "{} of {last} cycles ran on a message of their own", fresh.len());
+    let is_silent = |pulse: &&Pulse| pulse.header.cycle > last && pulse.input_received_ns == 0;
+    let silent: Vec<_> = seen.iter().skip_while(|pulse| !is_silent(pulse)).collect();
+    assert!(silent.len() > 10);
+    for pulse in &silent {
+        assert_eq!(pulse.input_received_ns, 0);
+        assert!(pulse.started_ns >= pulse.released_ns + LATEST_START_US * 1000);
+        assert_eq!(pulse.scheduled_ns, pulse.released_ns + LATEST_START_US * 1000);
+    }
+    let stale = silent.last().unwrap().stale - silent.first().unwrap().stale;
+    assert_eq!(stale, silent.len() as u64 - 1, "each cycle without a new message is booked as stale");
+}
+
+#[test]
+fn injected_slowness_lasts_fifty_cycles_and_skips_periods() {
+    let _alone = alone();
+    let run = TestRun::new(TABLE);
+    let (stages, mut pulses) = chain(&run, u64::MAX);
+    let mut seen = Vec::new();
+    watch(&mut pulses, &mut seen, |seen| seen.len() > 20);
+    // SAFETY: the shells of this program handle the signal as a request to be slow.
+    unsafe { libc::raise(libc::SIGUSR1) };
+    let slow = |pulse: &&Pulse| pulse.header.published_ns - pulse.started_ns >= 2_000_000;
+    watch(&mut pulses, &mut seen, |seen| seen.iter().filter(slow).count() >= 50);
+    stop(stages);
+    let last = seen.last().unwrap();
+    assert!(
+        last.skipped >= 50,
+        "50 cycles of more than two periods each skip a period each: {}",
+        last.skipped
+    );
+    assert!(last.missed >= 50, "and miss their deadline: {}", last.missed);
+}
+
+#[test]
+fn readiness_tells_what_was_obtained_and_why_not_more() {
+    let _alone = alone();
+    let table = "[[process]]\nname = \"world\"\nprogram = \"none\"\norder = 1\nrealtime = true\npriority = 7\n\
+                 core = 1000\ntrigger = \"timer\"\n";
+    let run = TestRun::new(table);
+    let directory = run.0.directory().to_owned();
+    std::thread::spawn(move || Process::open("world", &directory, 4).unwrap().report_ready().unwrap())
+        .join()
+        .unwrap();
+    let ready = run.0.ready("world", 4).unwrap().unwrap();
+    let refused = |what: &str| ready.why_not.iter().any(|reason| reason.starts_with(what));
+    assert!(refused("core 1000: "), "{:?}", ready.why_not);
+    assert_eq!(ready.memory_locked, !refused("memory lock: "));
+    let expected = if refused("SCHED_FIFO 7: ") { ("SCHED_OTHER", 0) } else { ("SCHED_FIFO", 7) };
+    assert_eq!((ready.scheduler.as_str(), ready.priority), expected);
+    assert_eq!((ready.pid, ready.resumed), (std::process::id(), false));
+}
+
+#[test]
+fn table_that_starts_a_process_by_something_else_than_its_input_is_refused() {
+    let _alone = alone();
+    let run = TestRun::new(&TABLE.replace("coact/percept", "coact/sensors"));
+    let process = Process::open("fields", run.0.directory(), 0).unwrap();
+    let input: Input<Percept> = process.bus().trigger(topic::PERCEPT).unwrap();
+    let output: Output<FieldFrame> = process.bus().output(topic::FIELDS).unwrap();
+    let error = process.run_cycles(Relay { input, output, last: 0 }).unwrap_err().to_string();
+    assert!(
+        error.contains("process fields: its trigger in the process table is \"coact/sensors\""),
+        "{error}"
+    );
+    assert!(error.contains("expected \"timer\" or \"coact/percept\""), "{error}");
+}
