@@ -1,1 +1,15 @@
-//! (in construction)
+//! Recordings of people's reaches: a folder of CSV files, one for each person.
+//!
+//! Columns: `participant`, `size` (S, M, L), `trial`, `t_rel_onset_s` (0 = reach onset), `mt_s` (onset to grasp end),
+//! `rtg` (1 within the reach), then `x`, `y` (pixels) and `p` (the detector's confidence, 0 = joint lost) of each of
+//! [`JOINTS`]. Rows of one reach stand together, in the order of time. Size, `mt_s` and `rtg` are labels: truth.
+//!
+//! A file is read whole or refused: every row ends up in a [`Reach`], or an error names file and line.
+
+mod error;
+mod reach;
+mod read;
+
+pub use error::RecordingError;
+pub use reach::{Frame, ImagePoint, Reach, Size};
+pub use read::{JOINTS, read_file, read_folder};

@@ -1,0 +1,146 @@
+use crate::evidence::smooth_step;
+use crate::grips::resemblance;
+use crate::memory::Memory;
+use crate::movement::Movement;
+use crate::objects::{PartTrack, Places};
+use crate::preshape::{Classifier, LAST_READ};
+use coact_joint_task::{Grip, Kind, Task};
+use coact_messages::{MAX_KINDS, PERSON, Percept};
+use nalgebra::Vector3;
+
+/// Phases of a reach (see [`crate::SNAPSHOTS`]) between which evidence for a grasp opens.
+const OPENS: (f64, f64) = (0.15, 0.35);
+/// Phases between which evidence is sharpened, as contact comes near, and the exponent that is reached.
+const SHARPENS: (f64, f64) = (0.40, 0.80);
+const SHARPNESS: f64 = 4.0;
+/// Phases between which the pitch of the hand becomes that of the grip.
+const TURNS: (f64, f64) = (0.20, 0.60);
+/// How well a movement must lead to a part: no, and full evidence that it is meant for one.
+const LEADS: (f64, f64) = (0.05, 0.35);
+/// Distance from its target at which a movement that did not begin at rest tells where it goes, m: no, full evidence.
+const ARRIVES: (f64, f64) = (0.15, 0.05);
+/// A part in the robot's hand is offered when it is this near to the handover place, m.
+pub(crate) const OFFERED: f64 = 0.25;
+
+/// Makes evidence for grasps: by the hand's way, its shape and its pitch; and by sight, once a part is in the hand.
+#[derive(Debug, Clone)]
+pub(crate) struct Grasps {
+    kinds: Vec<Kind>,
+    grips: Vec<Grip>,
+    handover: Vector3<f64>,
+}
+
+/// Evidence for each kind of part, and how far the grip shows.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Preparing {
+    kind: [f64; MAX_KINDS],
+    trust: f64,
+}
+
+impl Grasps {
+    pub fn new(task: &Task) -> Self {
+        Self { kinds: task.kinds.clone(), grips: task.grips.clone(), handover: task.scene.handover.into() }
+    }
+
+    /// Evidence in [0, 1] that the hand prepares for or holds a part of `kind` with `grip`.
+    pub fn evidence(
+        &self,
+        grip: usize,
+        kind: usize,
+        preparing: &Preparing,
+        memory: &Memory,
+        out: &Percept,
+    ) -> f64 {
+        let held = out.person_holds.iter().copied().fold(0.0, f64::max);
+        let shown = |pitch: Option<f64>, trust: f64| resemblance(&self.grips, grip, pitch, trust);
+        let holds = out.person_holds[kind] * shown(memory.grip_pitch(), 1.0);
+        let prepares = preparing.kind[kind] * shown(memory.hand.pitch_ahead(), preparing.trust);
+        holds + (1.0 - held) * prepares
+    }
+
+    /// What the present movement prepares for.
+    pub fn preparing(
+        &self,
+        movement: Option<&Movement>,
+        memory: &Memory,
+        classifier: &Classifier,
+        places: &Places,
+    ) -> Preparing {
+        let mut preparing = Preparing { kind: [0.0; MAX_KINDS], trust: 1.0 };
+        let Some(movement) = movement else { return preparing };
+        let mut way = [None; MAX_KINDS];
+        for (kind, slot) in way.iter_mut().enumerate().take(self.kinds.len()) {
+            *slot = self.best_way(kind, movement, memory, places);
+        }
+        let best = way.iter().flatten().fold(0.0, |best: f64, way: &Way| best.max(way.leads));
+        let (gate, sharpness, fit) = match movement.phase {
+            Some(phase) => {
+                preparing.trust = smooth_step(phase, TURNS.0, TURNS.1);
+                let sharp = 1.0 + (SHARPNESS - 1.0) * smooth_step(phase, SHARPENS.0, SHARPENS.1);
+                let gate = smooth_step(phase, OPENS.0, OPENS.1) * smooth_step(best, LEADS.0, LEADS.1);
+                (gate, sharp, size_fit(phase, memory, classifier))
+            }
+            None => (self.arrival(&way), SHARPNESS, [0.0; MAX_KINDS]),
+        };
+        preparing.kind = shares(&way, &fit, sharpness).map(|share| gate * share);
+        preparing
+    }
+
+    /// The part of `kind` that the movement leads to best, among those that the person could take.
+    fn best_way(&self, kind: usize, movement: &Movement, memory: &Memory, places: &Places) -> Option<Way> {
+        let takable = |part: &PartTrack| {
+            let offered = (Vector3::from(part.position) - self.handover).norm() < OFFERED;
+            places.is_free_at(PERSON, kind, part) || (part.is_with_the_robot() && offered)
+        };
+        let parts = memory.objects.parts().filter(|(own, part)| *own == kind && takable(part));
+        let ways = parts.map(|(_, part)| {
+            let centre = part.above_underside(0.5 * places.body(kind).height);
+            let heading = &movement.heading;
+            Way { leads: heading.leads_to(centre), distance: (centre - heading.centre).norm() }
+        });
+        ways.max_by(|a, b| a.leads.total_cmp(&b.leads))
+    }
+
+    /// How clearly a movement that did not begin at rest arrives at a part.
+    fn arrival(&self, way: &[Option<Way>; MAX_KINDS]) -> f64 {
+        let clear = |way: &Way| way.leads * smooth_step(way.distance, ARRIVES.0, ARRIVES.1);
+        way.iter().flatten().map(clear).fold(0.0, f64::max)
+    }
+}
+
+/// How a movement relates to one part.
+#[derive(Debug, Clone, Copy)]
+struct Way {
+    leads: f64,
+    /// m.
+    distance: f64,
+}
+
+/// Logarithm of how well the hand's shape fits each kind. Beyond the last phase that the model reads, what was seen
+/// then counts.
+fn size_fit(phase: f64, memory: &Memory, classifier: &Classifier) -> [f64; MAX_KINDS] {
+    let reach = &memory.preshape.reach;
+    let last = crate::SNAPSHOTS[LAST_READ];
+    if reach.passed as usize > LAST_READ {
+        return classifier.likelihoods(&reach.features[LAST_READ], last, &memory.preshape.person);
+    }
+    let age = memory.hand.captured.saturating_sub(reach.onset);
+    if age == 0 {
+        return [0.0; MAX_KINDS];
+    }
+    let seen = classifier.phase(&memory.preshape, memory.hand.captured).min(phase);
+    classifier.likelihoods(&classifier.features(&memory.hand, reach), seen, &memory.preshape.person)
+}
+
+/// Shares of the kinds in explaining movement and shape, sharpened.
+fn shares(way: &[Option<Way>; MAX_KINDS], fit: &[f64; MAX_KINDS], sharpness: f64) -> [f64; MAX_KINDS] {
+    let score =
+        |kind: usize| way[kind].map_or(f64::NEG_INFINITY, |way| fit[kind] + way.leads.max(1e-12).ln());
+    let best = (0..MAX_KINDS).map(score).fold(f64::NEG_INFINITY, f64::max);
+    if !best.is_finite() {
+        return [0.0; MAX_KINDS];
+    }
+    let weights: [f64; MAX_KINDS] = std::array::from_fn(|kind| (sharpness * (score(kind) - best)).exp());
+    let sum: f64 = weights.iter().sum();
+    weights.map(|weight| weight / sum)
+}

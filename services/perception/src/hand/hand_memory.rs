@@ -1,0 +1,229 @@
+use super::{Motion, ViewFrame};
+use bytemuck::{Pod, Zeroable};
+use coact_messages::{HandView, KeypointName};
+use nalgebra::Vector3;
+
+/// Frames kept: speed is taken over all of them, which halves the tracker's noise at the price of 40 ms.
+pub(crate) const FRAMES: usize = 6;
+/// Frames that are averaged for what the hand's shape is read from.
+const AVERAGED: usize = 3;
+/// How far a keypoint may lie from the origin, m: beyond it, the tracker talks nonsense.
+const FARTHEST: f64 = 10.0;
+/// A wrist that is this far from where it was a frame ago is another hand, or the same one after a long gap, m.
+const JUMP: f64 = 0.25;
+/// Longest gap in the stream of frames that is bridged, cycles.
+const LONGEST_GAP: u64 = 350;
+/// How far ahead of the newest frame the wrist is extrapolated, cycles.
+const EXTRAPOLATED: u64 = 50;
+/// Age beyond which the newest frame tells nothing of the hand now, cycles.
+const USABLE: u64 = 150;
+/// Gains of the wrist's alpha-beta filter (position, velocity).
+const GAINS: (f64, f64) = (0.7, 0.35);
+/// Share of a new frame in the rate at which the pitch changes, and how far ahead it is looked, s.
+const PITCH_GAIN: f64 = 0.4;
+const PITCH_AHEAD: f64 = 0.08;
+/// Keypoints that differ less in height than this are those of a flat image, m.
+const FLAT: f64 = 1e-6;
+
+/// The tracked hand.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct HandMemory {
+    /// Newest frame's number plus one; 0 before the first.
+    seen: u64,
+    /// Cycle at which it was captured.
+    pub captured: u64,
+    /// Bit i set: keypoint i has been found at least once.
+    known: u64,
+    /// Where each keypoint was found last, m.
+    keypoint: [[f64; 3]; 9],
+    /// Filtered wrist position, m, at the newest frame.
+    wrist: [f64; 3],
+    /// Filtered wrist velocity, m/s.
+    velocity: [f64; 3],
+    /// How fast the hand's pitch changes, rad/s, filtered.
+    pitch_rate: f64,
+    /// Pitch at the newest frame, rad.
+    pitch: f64,
+    /// Valid entries of `recent`.
+    frames: u64,
+    /// The newest frames, newest last.
+    recent: [ViewFrame; FRAMES],
+    /// The present movement.
+    pub motion: Motion,
+}
+
+impl HandMemory {
+    /// Takes in the tracker's newest frame. `None` if it is not a new and usable one; true if a movement has begun.
+    pub fn observe(&mut self, tick: u64, view: &HandView) -> Option<bool> {
+        let known = self.seen == view.frame.wrapping_add(1);
+        let late = self.seen > 0 && view.captured_cycle <= self.captured;
+        if known || late || view.captured_cycle > tick || !self.merge(view) {
+            return None;
+        }
+        let gap = view.captured_cycle.saturating_sub(self.captured);
+        let seconds = (gap as f64 * 1e-3).max(0.005);
+        let pitch = self.raw_pitch();
+        self.pitch_rate += PITCH_GAIN * ((pitch - self.pitch) / seconds - self.pitch_rate);
+        self.pitch = pitch;
+        self.seen = view.frame.wrapping_add(1);
+        self.captured = view.captured_cycle;
+        let found = self.point(KeypointName::Wrist);
+        let jumped = (found - Vector3::from(self.wrist)).norm() > JUMP;
+        if self.frames == 0 || gap > LONGEST_GAP || jumped {
+            self.start_over(found);
+        } else {
+            self.filter(found, gap);
+        }
+        self.remember();
+        let wrist = self.averaged(2).wrist.into();
+        Some(self.motion.advance(wrist, self.steady_speed(), self.captured))
+    }
+
+    /// Puts every keypoint that the frame has found in its place. False before wrist and finger tips are all known,
+    /// or when the frame holds none.
+    fn merge(&mut self, view: &HandView) -> bool {
+        let mut found = 0;
+        for (index, point) in view.keypoints.iter().enumerate() {
+            let plausible = point.position.iter().all(|value| value.abs() < FARTHEST);
+            if plausible && point.confidence > 0.0 {
+                self.keypoint[index] = point.position;
+                found |= 1 << index;
+            }
+        }
+        self.known |= found;
+        let needed =
+            [KeypointName::Wrist, KeypointName::ThumbTip, KeypointName::IndexTip, KeypointName::MiddleTip];
+        found != 0 && needed.iter().all(|name| self.known & (1 << *name as u64) != 0)
+    }
+
+    fn start_over(&mut self, found: Vector3<f64>) {
+        self.wrist = found.into();
+        self.velocity = [0.0; 3];
+        self.pitch_rate = 0.0;
+        self.frames = 0;
+        self.motion = Motion::still_at(found);
+    }
+
+    fn filter(&mut self, found: Vector3<f64>, gap: u64) {
+        let seconds = gap as f64 * 1e-3;
+        let predicted = Vector3::from(self.wrist) + Vector3::from(self.velocity) * seconds;
+        let miss = found - predicted;
+        self.wrist = (predicted + GAINS.0 * miss).into();
+        self.velocity = (Vector3::from(self.velocity) + miss * (GAINS.1 / seconds.max(0.005))).into();
+    }
+
+    fn remember(&mut self) {
+        if self.frames as usize == FRAMES {
+            self.recent.rotate_left(1);
+        } else {
+            self.frames += 1;
+        }
+        self.recent[self.frames as usize - 1] = ViewFrame {
+            cycle: self.captured,
+            wrist: self.point(KeypointName::Wrist).into(),
+            thumb: self.point(KeypointName::ThumbTip).into(),
+            index: self.point(KeypointName::IndexTip).into(),
+            middle: self.point(KeypointName::MiddleTip).into(),
+        };
+    }
+
+    /// Mean of the newest frames' points; `cycle` is the newest one's. Zeros before the first frame.
+    pub fn averaged(&self, frames: usize) -> ViewFrame {
+        let newest = &self.recent[..self.frames as usize];
+        let newest = &newest[newest.len().saturating_sub(frames)..];
+        let mean = |of: fn(&ViewFrame) -> [f64; 3]| -> [f64; 3] {
+            let sum: Vector3<f64> = newest.iter().map(|frame| Vector3::from(of(frame))).sum();
+            (sum / newest.len().max(1) as f64).into()
+        };
+        ViewFrame {
+            cycle: self.captured,
+            wrist: mean(|frame| frame.wrist),
+            thumb: mean(|frame| frame.thumb),
+            index: mean(|frame| frame.index),
+            middle: mean(|frame| frame.middle),
+        }
+    }
+
+    /// The hand's shape: the newest frames, averaged.
+    pub fn shape(&self) -> ViewFrame {
+        self.averaged(AVERAGED)
+    }
+
+    /// Wrist speed over all frames that are kept, m/s; `None` while they are too few.
+    pub fn steady_speed(&self) -> Option<f64> {
+        let (first, last) = (self.recent[0], self.recent[FRAMES - 1]);
+        let seconds = last.cycle.saturating_sub(first.cycle) as f64 * 1e-3;
+        let full = self.frames as usize == FRAMES && seconds > 0.0;
+        full.then(|| (Vector3::from(last.wrist) - Vector3::from(first.wrist)).norm() / seconds)
+    }
+
+    /// Velocity of the middle between thumb and index tip over the newest frames, m/s.
+    pub fn centre_velocity(&self) -> Vector3<f64> {
+        let frames = self.frames as usize;
+        if frames < AVERAGED {
+            return Vector3::zeros();
+        }
+        let middle = |frame: &ViewFrame| (Vector3::from(frame.thumb) + Vector3::from(frame.index)) * 0.5;
+        let (first, last) = (&self.recent[frames - AVERAGED], &self.recent[frames - 1]);
+        let seconds = last.cycle.saturating_sub(first.cycle) as f64 * 1e-3;
+        (middle(last) - middle(first)) / seconds.max(0.01)
+    }
+
+    /// Middle between thumb and index tip, m: what the hand grasps lies there.
+    pub fn centre(&self) -> Vector3<f64> {
+        (self.point(KeypointName::ThumbTip) + self.point(KeypointName::IndexTip)) * 0.5
+    }
+
+    /// Distance of thumb and index tip, m.
+    pub fn aperture(&self) -> f64 {
+        (self.point(KeypointName::ThumbTip) - self.point(KeypointName::IndexTip)).norm()
+    }
+
+    /// Direction from wrist to the knuckles' middle against the table plane, rad; `None` while it cannot be seen,
+    /// because knuckles were never found or because the keypoints are those of a flat image.
+    pub fn pitch(&self) -> Option<f64> {
+        let spread = self.keypoint.iter().fold(0.0, |spread: f64, point| {
+            spread.max((point[2] - self.keypoint[KeypointName::Wrist as usize][2]).abs())
+        });
+        let knuckles = [KeypointName::IndexKnuckle, KeypointName::LittleKnuckle];
+        let known = knuckles.iter().all(|name| self.known & (1 << *name as u64) != 0);
+        (known && spread > FLAT).then_some(self.pitch)
+    }
+
+    /// The pitch that the hand is turning to, rad.
+    pub fn pitch_ahead(&self) -> Option<f64> {
+        self.pitch().map(|pitch| pitch + (self.pitch_rate * PITCH_AHEAD).clamp(-0.5, 0.5))
+    }
+
+    fn raw_pitch(&self) -> f64 {
+        let middle = (self.point(KeypointName::IndexKnuckle) + self.point(KeypointName::LittleKnuckle)) * 0.5;
+        let line = middle - self.point(KeypointName::Wrist);
+        line.z.atan2(line.x.hypot(line.y))
+    }
+
+    /// Filtered wrist position, extrapolated to `tick`, m.
+    pub fn wrist_at(&self, tick: u64) -> Vector3<f64> {
+        let ahead = self.age(tick).min(EXTRAPOLATED) as f64 * 1e-3;
+        Vector3::from(self.wrist) + Vector3::from(self.velocity) * ahead
+    }
+
+    /// Filtered wrist velocity, m/s.
+    pub fn velocity(&self) -> Vector3<f64> {
+        self.velocity.into()
+    }
+
+    /// Age of the newest usable frame, cycles; `u64::MAX` before the first.
+    pub fn age(&self, tick: u64) -> u64 {
+        if self.seen == 0 { u64::MAX } else { tick.saturating_sub(self.captured) }
+    }
+
+    /// Whether the newest frame is young enough to tell where the hand is now.
+    pub fn is_tracked(&self, tick: u64) -> bool {
+        self.age(tick) <= USABLE
+    }
+
+    fn point(&self, name: KeypointName) -> Vector3<f64> {
+        self.keypoint[name as usize].into()
+    }
+}

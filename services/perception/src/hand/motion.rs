@@ -1,0 +1,85 @@
+use bytemuck::{Pod, Zeroable};
+use nalgebra::Vector3;
+
+/// Wrist speed below which the hand counts as still, m/s.
+const STILL: f64 = 0.12;
+/// Displacement from where the hand lay at which a movement has begun, m.
+pub(crate) const ONSET: f64 = 0.04;
+/// Frames of stillness that end a movement.
+const STILL_FRAMES: u64 = 4;
+/// Share of a new frame in the place where the hand lies still.
+const SETTLING: f64 = 0.25;
+/// Share of the peak speed below which the slow phase of a movement begins.
+const SLOW: f64 = 0.4;
+/// Peak speed that a movement must have had before its slow phase can begin, m/s.
+const BRISK: f64 = 0.35;
+
+/// The hand's movement from one stillness to the next.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct Motion {
+    /// Where the hand lay still last, m.
+    anchor: [f64; 3],
+    /// Where the present or last movement began, m.
+    pub departure: [f64; 3],
+    /// Frames of stillness up to now.
+    still: u64,
+    /// 1 while a movement is under way.
+    moving: u64,
+    /// Cycle at which the present or last movement began.
+    pub onset: u64,
+    /// Cycle at which its slow phase began; 0 before.
+    pub slowed: u64,
+    /// Its greatest speed so far, m/s.
+    peak: f64,
+    /// Newest speed, m/s.
+    pub speed: f64,
+}
+
+impl Motion {
+    /// A hand that lies still at `place`.
+    pub fn still_at(place: Vector3<f64>) -> Self {
+        Self { anchor: place.into(), departure: place.into(), ..Self::zeroed() }
+    }
+
+    /// One frame: wrist position (m), its speed over the last frames (m/s) and the cycle of capture. True at onset.
+    pub fn advance(&mut self, wrist: Vector3<f64>, speed: Option<f64>, captured: u64) -> bool {
+        let is_still = speed.is_none_or(|speed| speed < STILL);
+        self.still = if is_still { self.still + 1 } else { 0 };
+        self.speed = speed.unwrap_or(0.0);
+        if self.is_moving() {
+            self.go_on(wrist, captured);
+            return false;
+        }
+        let begun = self.displacement(wrist) > ONSET && speed.is_some();
+        if begun {
+            (self.moving, self.onset, self.slowed, self.peak) = (1, captured, 0, self.speed);
+            self.departure = self.anchor;
+        } else if is_still {
+            let anchor = Vector3::from(self.anchor);
+            self.anchor = (anchor + (wrist - anchor) * SETTLING).into();
+        }
+        begun
+    }
+
+    fn go_on(&mut self, wrist: Vector3<f64>, captured: u64) {
+        self.peak = self.peak.max(self.speed);
+        if self.slowed == 0 && self.peak > BRISK && self.speed < SLOW * self.peak {
+            self.slowed = captured;
+        }
+        if self.still >= STILL_FRAMES {
+            self.moving = 0;
+            self.anchor = wrist.into();
+        }
+    }
+
+    /// Distance of `wrist` from where the movement began, m.
+    pub fn displacement(&self, wrist: Vector3<f64>) -> f64 {
+        (wrist - Vector3::from(self.anchor)).norm()
+    }
+
+    /// Whether a movement is under way.
+    pub fn is_moving(&self) -> bool {
+        self.moving == 1
+    }
+}

@@ -1,0 +1,100 @@
+use super::part_track::PartTrack;
+use super::places::is_hidden;
+use super::{Places, Surroundings};
+use bytemuck::{Pod, Zeroable};
+use coact_messages::{MAX_PARTS, SceneView, Sighting};
+use nalgebra::Vector3;
+
+/// How far a part may have moved between two sightings, m.
+const GATE: f64 = 0.12;
+/// How long a place must be in view and empty before its part is taken to be gone, cycles.
+const ABSENT: u32 = 350;
+/// How far from the origin a part may be sighted, m: beyond it, the recogniser talks nonsense.
+const FARTHEST: f64 = 10.0;
+
+/// All parts that have been sighted.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct ObjectsMemory {
+    /// Newest frame's number plus one; 0 before the first.
+    seen: u64,
+    /// Cycle at which it was captured.
+    pub captured: u64,
+    tracks: [PartTrack; MAX_PARTS],
+}
+
+impl ObjectsMemory {
+    /// The parts that are followed now.
+    pub fn parts(&self) -> impl Iterator<Item = (usize, &PartTrack)> + Clone {
+        self.tracks.iter().filter_map(|track| Some((track.kind()?, track)))
+    }
+
+    /// Whether the newest frame is young enough to tell what lies where.
+    pub fn is_seeing(&self, tick: u64) -> bool {
+        self.seen > 0 && tick.saturating_sub(self.captured) < 2 * u64::from(ABSENT)
+    }
+
+    /// Takes in the recogniser's newest frame, if it is new.
+    pub fn observe(&mut self, tick: u64, view: &SceneView, around: &Surroundings, places: &Places) {
+        let late = self.seen > 0 && view.captured_cycle <= self.captured;
+        if self.seen == view.frame.wrapping_add(1) || late || view.captured_cycle > tick {
+            return;
+        }
+        let cycles = view.captured_cycle - self.captured;
+        self.seen = view.frame.wrapping_add(1);
+        self.captured = view.captured_cycle;
+        self.associate(view, cycles, places);
+        self.miss(view, cycles);
+        for track in &mut self.tracks {
+            let Some(kind) = track.kind() else { continue };
+            let airborne = places.is_airborne(kind, track.position);
+            track.find_holder(places.body(kind), around, airborne);
+        }
+    }
+
+    /// Gives every sighting to the nearest track of its kind, or to a new one.
+    fn associate(&mut self, view: &SceneView, cycles: u64, places: &Places) {
+        let count = (view.sightings as usize).min(MAX_PARTS);
+        for sighting in view.sighting[..count].iter().filter(|sighting| is_plausible(sighting, places)) {
+            match self.nearest(sighting) {
+                Some(index) => self.tracks[index].follow(sighting, self.captured, cycles),
+                None => {
+                    if let Some(unused) = self.tracks.iter_mut().find(|track| track.kind().is_none()) {
+                        *unused = PartTrack::new(sighting, self.captured);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The track of the sighting's kind that lies nearest to it and has no sighting in this frame yet.
+    fn nearest(&self, sighting: &Sighting) -> Option<usize> {
+        let away =
+            |track: &PartTrack| (Vector3::from(track.position) - Vector3::from(sighting.position)).norm();
+        let waiting = |track: &PartTrack| {
+            track.kind() == Some(sighting.kind as usize) && track.seen < self.captured && away(track) < GATE
+        };
+        let all = self.tracks.iter().enumerate().filter(|(_, track)| waiting(track));
+        all.min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b))).map(|(index, _)| index)
+    }
+
+    /// Gives up parts whose place has been in view and empty for long enough.
+    fn miss(&mut self, view: &SceneView, cycles: u64) {
+        for track in &mut self.tracks {
+            if track.kind().is_none() || track.seen == self.captured || is_hidden(track.position, view) {
+                continue;
+            }
+            track.absent = track.absent.saturating_add(cycles as u32);
+            if track.absent > ABSENT {
+                *track = PartTrack::zeroed();
+            }
+        }
+    }
+}
+
+fn is_plausible(sighting: &Sighting, places: &Places) -> bool {
+    let near = sighting.position.iter().all(|value| value.abs() < FARTHEST);
+    let norm: f64 = sighting.orientation.iter().map(|value| value * value).sum();
+    let upright = (0.5..2.0).contains(&norm);
+    (sighting.kind as usize) < places.kinds() && near && upright && sighting.confidence > 0.0
+}

@@ -1,0 +1,84 @@
+use bytemuck::{Pod, Zeroable};
+use coact_messages::Sighting;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+/// Nobody has the part.
+pub(crate) const FREE: u32 = 0;
+/// Bit of `holder`: the part is in the robot's hand.
+pub(crate) const BY_ROBOT: u32 = 1;
+/// Bit of `holder`: the part is in the person's hand.
+pub(crate) const BY_PERSON: u32 = 2;
+/// A sighting this far from the track means that the part has moved; less is the recogniser's scatter, m.
+const MOVED: f64 = 0.012;
+/// Share of a new sighting in the position of a part that lies still.
+const SMOOTHING: f64 = 0.3;
+
+/// One part that has been sighted, followed from sighting to sighting.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct PartTrack {
+    /// Kind plus one; 0 = this track is not in use.
+    kind_plus_one: u32,
+    /// [`FREE`], or bits [`BY_ROBOT`] and [`BY_PERSON`].
+    pub holder: u32,
+    /// Cycles for which its place has been in view and empty.
+    pub absent: u32,
+    /// Cycles for which it has lain still.
+    pub still: u32,
+    /// Cycle of the newest sighting.
+    pub seen: u64,
+    /// Centre of the underside, m.
+    pub position: [f64; 3],
+    /// Quaternion x, y, z, w.
+    pub orientation: [f32; 4],
+}
+
+impl PartTrack {
+    /// A part that is sighted for the first time.
+    pub fn new(sighting: &Sighting, captured: u64) -> Self {
+        Self {
+            kind_plus_one: sighting.kind + 1,
+            seen: captured,
+            position: sighting.position,
+            orientation: sighting.orientation.map(|value| value as f32),
+            ..Self::zeroed()
+        }
+    }
+
+    /// The part's kind; `None` when the track is not in use.
+    pub fn kind(&self) -> Option<usize> {
+        (self.kind_plus_one > 0).then(|| self.kind_plus_one as usize - 1)
+    }
+
+    /// Takes in a new sighting, `cycles` after the last frame.
+    pub fn follow(&mut self, sighting: &Sighting, captured: u64, cycles: u64) {
+        let (old, new) = (Vector3::from(self.position), Vector3::from(sighting.position));
+        if (new - old).norm() > MOVED {
+            self.position = sighting.position;
+            self.still = 0;
+        } else {
+            self.position = (old + (new - old) * SMOOTHING).into();
+            self.still = self.still.saturating_add(cycles as u32);
+        }
+        self.orientation = sighting.orientation.map(|value| value as f32);
+        self.seen = captured;
+        self.absent = 0;
+    }
+
+    /// Point on the part's axis, `height` above its underside, m.
+    pub fn above_underside(&self, height: f64) -> Vector3<f64> {
+        let [x, y, z, w] = self.orientation.map(f64::from);
+        let turn = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+        Vector3::from(self.position) + turn * (Vector3::z() * height)
+    }
+
+    /// Whether the robot has it.
+    pub fn is_with_the_robot(&self) -> bool {
+        self.holder & BY_ROBOT != 0
+    }
+
+    /// Whether anybody has it.
+    pub fn is_held(&self) -> bool {
+        self.holder != FREE
+    }
+}

@@ -1,0 +1,158 @@
+use super::ObjectsMemory;
+use super::holders::Body;
+use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack};
+use crate::evidence::approach;
+use coact_joint_task::{Scene, Shape, Subgoal, Task};
+use coact_messages::{MAX_SUBGOALS, PERSON, Percept, ROBOT, SceneView, WORKSPACES};
+use nalgebra::Vector3;
+
+/// How near a part must be to its socket to be in it, m.
+const IN_PLACE: f64 = 0.025;
+/// A socket is empty when no part of its kind is nearer, m.
+const EMPTY: f64 = 0.05;
+/// How far beyond its rectangle a workspace still reaches, m.
+const MARGIN: f64 = 0.03;
+/// How high above the table top a part may be and still lie on it, m.
+const ON_TABLE: f64 = 0.05;
+/// How long a part must lie still in its socket to be mounted, cycles.
+const SETTLED: u32 = 60;
+/// Age beyond which a sighting of a part tells nothing of where it is now, cycles.
+const RECENT: u64 = 300;
+/// Time in which evidence about parts rises or falls from end to end, cycles.
+const RAMP: f64 = 60.0;
+
+/// The places of the task: workspaces, sockets, and what each kind of part is like.
+#[derive(Debug, Clone)]
+pub(crate) struct Places {
+    scene: Scene,
+    subgoals: Vec<Subgoal>,
+    bodies: Vec<Body>,
+}
+
+/// Whether `place` lies under or inside something opaque, seen from above.
+pub(crate) fn is_hidden(place: [f64; 3], view: &SceneView) -> bool {
+    let count = (view.occluders as usize).min(view.occluder.len());
+    view.occluder[..count].iter().any(|[x, y, z, half_x, half_y, half_z]| {
+        (place[0] - x).abs() <= *half_x && (place[1] - y).abs() <= *half_y && place[2] <= z + half_z
+    })
+}
+
+impl Places {
+    pub fn new(task: &Task) -> Self {
+        let body = |kind: &coact_joint_task::Kind| {
+            let height = match kind.shape {
+                Shape::Cylinder { height, .. } => height,
+                Shape::Box { size } => size[2],
+            };
+            Body { width: kind.width, height }
+        };
+        Self {
+            scene: task.scene.clone(),
+            subgoals: task.subgoals.clone(),
+            bodies: task.kinds.iter().map(body).collect(),
+        }
+    }
+
+    pub fn kinds(&self) -> usize {
+        self.bodies.len()
+    }
+
+    pub fn body(&self, kind: usize) -> Body {
+        self.bodies[kind]
+    }
+
+    /// Whether a part of `kind` at `position` lies neither on the table nor in a socket.
+    pub fn is_airborne(&self, kind: usize, position: [f64; 3]) -> bool {
+        position[2] > self.scene.table_height + ON_TABLE && self.socket_at(kind, position).is_none()
+    }
+
+    /// The subgoal of `kind` in whose socket `position` lies.
+    fn socket_at(&self, kind: usize, position: [f64; 3]) -> Option<usize> {
+        let away = |goal: &Subgoal| (Vector3::from(goal.socket) - Vector3::from(position)).norm();
+        let near = |goal: &Subgoal| goal.kind == kind && away(goal) < IN_PLACE;
+        self.subgoals.iter().position(near)
+    }
+
+    /// The workspace in which a part at `position` lies.
+    fn workspace_at(&self, position: [f64; 3]) -> Option<usize> {
+        (0..WORKSPACES).find(|&side| {
+            let [low, high] = self.scene.workspace[side];
+            let inside = (0..2)
+                .all(|axis| position[axis] >= low[axis] - MARGIN && position[axis] <= high[axis] + MARGIN);
+            inside && position[2] < self.scene.table_height + ON_TABLE
+        })
+    }
+
+    /// Whether a part lies free in the workspace of `side`: in nobody's hand, not mounted.
+    pub fn is_free_at(&self, side: usize, kind: usize, track: &PartTrack) -> bool {
+        let mounted = self.socket_at(kind, track.position).is_some();
+        !track.is_held() && !mounted && self.workspace_at(track.position) == Some(side)
+    }
+
+    /// Moves all evidence about parts and places one cycle on.
+    pub fn report(&self, tick: u64, objects: &ObjectsMemory, view: &SceneView, out: &mut Percept) {
+        if !objects.is_seeing(tick) {
+            return;
+        }
+        for kind in 0..self.kinds() {
+            (0..WORKSPACES).for_each(|side| self.report_workspace(tick, side, kind, objects, view, out));
+            let holds = |bit: u32| objects.parts().any(|(own, part)| own == kind && part.holder & bit != 0);
+            approach(&mut out.robot_holds[kind], holds(BY_ROBOT), RAMP);
+            approach(&mut out.person_holds[kind], holds(BY_PERSON), RAMP);
+        }
+        (0..self.subgoals.len().min(MAX_SUBGOALS))
+            .for_each(|goal| self.report_subgoal(goal, objects, view, out));
+    }
+
+    fn report_workspace(
+        &self,
+        tick: u64,
+        side: usize,
+        kind: usize,
+        objects: &ObjectsMemory,
+        view: &SceneView,
+        out: &mut Percept,
+    ) {
+        let here = |(own, part): &(usize, &PartTrack)| *own == kind && self.is_free_at(side, kind, part);
+        let away = |part: &PartTrack| (Vector3::from(part.position) - self.owner(side)).norm();
+        let nearest = objects.parts().filter(here).min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)));
+        let place = &mut out.workspace[side];
+        let seen = nearest.is_some_and(|(_, part)| tick.saturating_sub(part.seen) < RECENT);
+        if let Some((_, part)) = nearest {
+            place.position[kind] = part.position;
+            place.orientation[kind] = part.orientation.map(f64::from);
+        }
+        let gone = nearest.is_none() && !is_hidden(self.last_place(side, place.position[kind]), view);
+        approach(&mut place.seen[kind], seen, RAMP);
+        approach(&mut place.gone[kind], gone, RAMP);
+    }
+
+    /// Where a part was last known to lie; the middle of the workspace when it never was.
+    fn last_place(&self, side: usize, known: [f64; 3]) -> [f64; 3] {
+        if self.workspace_at(known) == Some(side) {
+            return known;
+        }
+        let [low, high] = self.scene.workspace[side];
+        [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), self.scene.table_height]
+    }
+
+    /// Where the owner of a workspace is: the person's hand at rest; the robot stands at the world's origin.
+    fn owner(&self, side: usize) -> Vector3<f64> {
+        match side {
+            PERSON => self.scene.person_rest.into(),
+            ROBOT => Vector3::new(0.0, 0.0, self.scene.table_height),
+            _ => Vector3::zeros(),
+        }
+    }
+
+    fn report_subgoal(&self, goal: usize, objects: &ObjectsMemory, view: &SceneView, out: &mut Percept) {
+        let Subgoal { kind, socket, .. } = self.subgoals[goal];
+        let away = |part: &PartTrack| (Vector3::from(socket) - Vector3::from(part.position)).norm();
+        let own = objects.parts().filter(|(own, _)| *own == kind);
+        let mounted = |part: &PartTrack| away(part) < IN_PLACE && !part.is_held() && part.still >= SETTLED;
+        let achieved = own.clone().any(|(_, part)| mounted(part));
+        let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !is_hidden(socket, view);
+        approach(&mut out.achieved[goal], achieved, RAMP);
+        approach(&mut out.open[goal], empty, RAMP);
+    }
+}

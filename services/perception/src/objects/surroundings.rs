@@ -1,0 +1,23 @@
+use nalgebra::Vector3;
+
+/// Who could have a part in his hand: what perception knows of both hands at this instant.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Surroundings {
+    /// The person's hand, while it is tracked.
+    pub person: Option<PersonHand>,
+    /// The robot's grasp point, m, when its kinematics are known.
+    pub grasp_point: Option<Vector3<f64>>,
+    /// Force at the robot's finger tips, N.
+    pub touch: f64,
+}
+
+/// The person's hand.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PersonHand {
+    /// Middle between thumb and index tip, m.
+    pub centre: Vector3<f64>,
+    /// Distance of thumb and index tip, m.
+    pub aperture: f64,
+    /// Wrist speed, m/s.
+    pub speed: f64,
+}

@@ -1,0 +1,131 @@
+use super::hierarchy::{Counts, Hierarchy, Pair, Stack};
+use super::model::{CLASSES, DIRECTIONS, READ};
+use super::person::{OwnLevel, Person};
+use bytemuck::{Pod, Zeroable};
+
+/// Sweeps of expectation maximisation from each start.
+const SWEEPS: u64 = 15;
+/// Starts: the people's means, and the same moved by the person's overall offset.
+const STARTS: u64 = 2;
+
+/// The mixture of size classes, being fitted to one person's reaches: one sweep in each cycle, so that no cycle
+/// carries the whole burden.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct Fitting {
+    /// Steps that remain; 0 = idle.
+    remaining: u64,
+    /// Class means of the present start.
+    means: [f64; CLASSES * DIRECTIONS],
+    /// The best start's means, and how well they fit.
+    best: [f64; CLASSES * DIRECTIONS],
+    score: f64,
+}
+
+impl Fitting {
+    /// Begins anew, with all reaches that are remembered now.
+    pub fn begin(&mut self) {
+        self.remaining = STARTS * SWEEPS + READ as u64;
+        self.score = f64::NEG_INFINITY;
+    }
+
+    /// One step. `whole` and `phases` are the priors; `possible` tells which classes the task has parts of.
+    pub fn step(
+        &mut self,
+        whole: &Hierarchy,
+        phases: &[Hierarchy],
+        possible: [bool; CLASSES],
+        person: &mut Person,
+    ) {
+        if self.remaining == 0 {
+            return;
+        }
+        self.remaining -= 1;
+        let levels = READ as u64;
+        if self.remaining >= levels {
+            let done = STARTS * SWEEPS - 1 - (self.remaining - levels);
+            self.sweep(done, whole, possible, person);
+        } else {
+            self.adapt(self.remaining as usize, whole, phases, possible, person);
+        }
+    }
+
+    fn sweep(&mut self, done: u64, whole: &Hierarchy, possible: [bool; CLASSES], person: &Person) {
+        if done.is_multiple_of(SWEEPS) {
+            self.means = start(done / SWEEPS, whole, person).into();
+        }
+        let means = Stack::from(self.means);
+        let mut counts = Counts::default();
+        let mut score = whole.prior(&means);
+        for reach in person.past() {
+            let at = Pair::from(reach.whole);
+            let (responsibility, evidence) = responsibilities(whole.fit(&at, &means), possible);
+            counts.add(&responsibility, &at);
+            score += evidence;
+        }
+        if done % SWEEPS == SWEEPS - 1 && score > self.score {
+            (self.best, self.score) = (self.means, score);
+        }
+        self.means = whole.posterior(&counts).0.into();
+    }
+
+    /// Takes the responsibilities of the best fit over to the phase `level`.
+    fn adapt(
+        &self,
+        level: usize,
+        whole: &Hierarchy,
+        phases: &[Hierarchy],
+        possible: [bool; CLASSES],
+        person: &mut Person,
+    ) {
+        let means = Stack::from(self.best);
+        let mut counts = Counts::default();
+        for reach in person.past() {
+            let (responsibility, _) = responsibilities(whole.fit(&Pair::from(reach.whole), &means), possible);
+            counts.add(&responsibility, &Pair::from(reach.phase[level]));
+        }
+        person.own[level] = OwnLevel::of(&phases[level], &counts);
+        person.adapted = 1;
+    }
+}
+
+impl OwnLevel {
+    /// The posterior of one person's class means.
+    pub fn of(prior: &Hierarchy, counts: &Counts) -> Self {
+        let (mean, covariance) = prior.posterior(counts);
+        let at = |class: usize| class * DIRECTIONS;
+        Self {
+            mean: std::array::from_fn(|class| [mean[at(class)], mean[at(class) + 1]]),
+            variance: std::array::from_fn(|class| {
+                let first = at(class);
+                [
+                    covariance[(first, first)],
+                    covariance[(first, first + 1)],
+                    covariance[(first + 1, first + 1)],
+                ]
+            }),
+        }
+    }
+}
+
+/// Where a fit starts.
+fn start(index: u64, whole: &Hierarchy, person: &Person) -> Stack {
+    let past = person.past();
+    if index == 0 || past.is_empty() {
+        return whole.mean;
+    }
+    let sum: Pair = past.iter().map(|reach| Pair::from(reach.whole)).sum();
+    let centre: Pair =
+        (0..CLASSES).map(|class| whole.mean.fixed_rows::<DIRECTIONS>(class * DIRECTIONS).into_owned()).sum();
+    let offset = sum / past.len() as f64 - centre / CLASSES as f64;
+    Stack::from_fn(|row, _| whole.mean[row] + offset[row % DIRECTIONS])
+}
+
+/// Shares of the possible classes in explaining one reach, and the logarithm of how well they explain it together.
+fn responsibilities(fit: [f64; CLASSES], possible: [bool; CLASSES]) -> ([f64; CLASSES], f64) {
+    let allowed = |class: usize| if possible[class] { fit[class] } else { f64::NEG_INFINITY };
+    let best = (0..CLASSES).map(allowed).fold(f64::NEG_INFINITY, f64::max);
+    let weights: [f64; CLASSES] = std::array::from_fn(|class| (allowed(class) - best).exp());
+    let sum: f64 = weights.iter().sum();
+    (weights.map(|weight| weight / sum), best + sum.ln())
+}

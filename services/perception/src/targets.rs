@@ -1,0 +1,32 @@
+use nalgebra::Vector3;
+
+/// Scatter of a reach's end point about the line of its present movement: at the target, and per metre of way left.
+const SCATTER: (f64, f64) = (0.03, 0.30);
+/// Speed below which a movement has no direction, m/s.
+const DIRECTED: f64 = 0.10;
+
+/// Where the hand is going, on the table plane.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Heading {
+    /// Middle between thumb and index tip, m.
+    pub centre: Vector3<f64>,
+    /// Its velocity, m/s.
+    pub velocity: Vector3<f64>,
+}
+
+impl Heading {
+    /// How well the movement leads to `target`, in (0, 1]: the nearer the hand, the sharper.
+    pub fn leads_to(&self, target: Vector3<f64>) -> f64 {
+        let way = (target - self.centre).xy();
+        let velocity = self.velocity.xy();
+        let distance = way.norm();
+        let miss = if velocity.norm() < DIRECTED {
+            distance
+        } else {
+            let ahead = way.dot(&velocity.normalize());
+            if ahead > 0.0 { (distance * distance - ahead * ahead).max(0.0).sqrt() } else { distance }
+        };
+        let scatter = SCATTER.0 + SCATTER.1 * distance;
+        (-0.5 * (miss / scatter).powi(2)).exp()
+    }
+}
