@@ -61,6 +61,7 @@ impl Launch {
         let report = self.settings.report.clone();
         let file_error = |path: &Path, source| LaunchError::File { path: path.to_owned(), source };
         std::fs::create_dir_all(&report).map_err(|error| file_error(&report, error))?;
+        forget_earlier_summary(&report).map_err(|error| file_error(&report, error))?;
         let log =
             EventLog::create(&report).map_err(|error| file_error(&report.join(EventLog::FILE), error))?;
         let terminal = Terminal::open();
@@ -106,6 +107,14 @@ impl Launch {
             notes.show(Note::new(Tone::Plain, format!("{process}: {line}")));
         });
         ProcessSet::new(specs, self.pipeline.restart, log, on_line)
+    }
+}
+
+/// What is read at the end must be of this run.
+fn forget_earlier_summary(report: &Path) -> std::io::Result<()> {
+    match std::fs::remove_file(report.join("summary.json")) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
     }
 }
 

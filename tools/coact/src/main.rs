@@ -1,2 +1,56 @@
-//! coact: the operator's command line.
-fn main() {}
+//! The operator's command line.
+
+mod closing;
+mod folder_name;
+mod inject;
+mod installation;
+mod launch;
+mod partner;
+mod task;
+
+use clap::{Parser, Subcommand};
+use owo_colors::{OwoColorize, Stream};
+use std::process::ExitCode;
+
+/// A robot that builds together with a person.
+#[derive(Parser)]
+#[command(name = "coact", version, max_term_width = 110)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Start the process set, watch it build, and report
+    Launch(launch::Args),
+    /// Inject a fault into a process of a running set
+    Inject(inject::Args),
+    /// Show what is made of a task file
+    Task(task::Args),
+}
+
+/// Bad usage, configuration or input.
+const REFUSED: u8 = 2;
+
+fn main() -> ExitCode {
+    tracing_subscriber::fmt()
+        .with_writer(std::io::stderr)
+        .with_env_filter(
+            tracing_subscriber::EnvFilter::builder()
+                .with_default_directive(tracing::Level::WARN.into())
+                .from_env_lossy(),
+        )
+        .without_time()
+        .with_target(false)
+        .init();
+    let outcome = match Cli::parse().command {
+        Command::Launch(args) => launch::run(args),
+        Command::Inject(args) => inject::run(args),
+        Command::Task(args) => task::run(args),
+    };
+    outcome.unwrap_or_else(|error| {
+        eprintln!("{} {error:#}", "error:".if_supports_color(Stream::Stderr, |text| text.red()));
+        ExitCode::from(REFUSED)
+    })
+}

@@ -1,0 +1,181 @@
+//! Whole runs, with shell scripts in place of services: what a run makes, and that nothing of it stays.
+#![allow(clippy::unwrap_used)]
+
+use coact_joint_task::Task;
+use coact_pipeline::{Pipeline, Run, RunSettings, WorldMode};
+use coact_supervisor::{Ending, Event, EventKind, EventLog, Launch, LaunchError, ask_for_fault};
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// Reports ready as a service does, then runs until it is asked to end.
+const SERVICE: &str = r#"#!/bin/sh
+name=${0##*/}
+cat > "$2/ready/$name.$COACT_GENERATION.json" <<END
+{"process": "$name", "generation": $COACT_GENERATION, "pid": $$, "scheduler": "SCHED_OTHER", "priority": 0,
+ "core": null, "memory_locked": false, "why_not": [], "resumed": false}
+END
+exec sleep 600
+"#;
+
+struct Place(tempfile::TempDir);
+
+impl Place {
+    fn new(scripts: &[(&str, &str)]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, script) in scripts {
+            let path = folder.path().join(name);
+            std::fs::write(&path, script).unwrap();
+            std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+        }
+        Self(folder)
+    }
+
+    fn launch(&self, names: &[&str], duration: Duration, injections: &[&str]) -> Launch {
+        let configuration = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
+        let entry =
+            |name: &&str| format!("[[process]]\nname = \"{name}\"\nprogram = \"{name}\"\norder = 1\n");
+        let table: String = names.iter().map(entry).collect();
+        let task = configuration.join("tasks/toy-vehicle.toml");
+        let settings = RunSettings {
+            task: task.clone(),
+            robot: PathBuf::new(),
+            model: PathBuf::new(),
+            pipeline: PathBuf::new(),
+            report: self.0.path().join("report"),
+            seed: 1,
+            partner: "synthetic".into(),
+            world: WorldMode::Kinematic,
+        };
+        Launch {
+            settings,
+            pipeline: Pipeline::parse(&table, "table.toml".as_ref()).unwrap(),
+            task: Task::load(&task).unwrap(),
+            programs: self.0.path().to_owned(),
+            duration: Some(duration),
+            injections: injections.iter().map(|spec| spec.parse().unwrap()).collect(),
+        }
+    }
+
+    fn events(&self) -> Vec<Event> {
+        let text =
+            std::fs::read_to_string(self.0.path().join("report").join(EventLog::FILE)).unwrap_or_default();
+        text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    }
+
+    /// The run that reports here, once it has been made.
+    fn run(&self) -> Run {
+        let report = self.0.path().join("report");
+        wait_for(|| Run::all().into_iter().find(|run| run.settings().report == report))
+    }
+
+    fn count(&self, kind: EventKind, process: &str) -> usize {
+        self.events().iter().filter(|event| event.event == kind && event.process == process).count()
+    }
+}
+
+fn wait_for<T>(mut look: impl FnMut() -> Option<T>) -> T {
+    let begin = Instant::now();
+    loop {
+        if let Some(found) = look() {
+            return found;
+        }
+        assert!(begin.elapsed() < Duration::from_secs(60), "it never came");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+fn in_background(launch: Launch) -> JoinHandle<Result<Ending, LaunchError>> {
+    std::thread::spawn(|| launch.run())
+}
+
+fn shared_memory_of(run: &Run) -> usize {
+    let files = std::fs::read_dir("/dev/shm").unwrap();
+    files
+        .filter(|file| file.as_ref().unwrap().file_name().to_string_lossy().starts_with(&run.prefix()))
+        .count()
+}
+
+const LONG: Duration = Duration::from_secs(3);
+
+#[test]
+fn a_run_lasts_its_duration_and_leaves_nothing_but_its_report() {
+    let place = Place::new(&[("a", SERVICE), ("b", SERVICE)]);
+    let running = in_background(place.launch(&["a", "b"], LONG, &[]));
+    let run = place.run();
+    wait_for(|| run.start_ns().unwrap());
+    assert!(shared_memory_of(&run) > 0);
+    assert_eq!(running.join().unwrap().unwrap(), Ending::DurationOver);
+    assert!(!run.directory().exists());
+    assert_eq!(shared_memory_of(&run), 0);
+    for (kind, process) in [(EventKind::Ready, "a"), (EventKind::Stopped, "a"), (EventKind::Stopped, "b")] {
+        assert_eq!(place.count(kind, process), 1, "{kind:?} {process}");
+    }
+}
+
+#[test]
+fn faults_are_injected_at_their_time_and_on_request() {
+    let place = Place::new(&[("a", SERVICE), ("b", SERVICE)]);
+    let running = in_background(place.launch(&["a", "b"], LONG, &["a:kill@100ms"]));
+    let run = place.run();
+    wait_for(|| (place.count(EventKind::Ready, "a") == 2).then_some(()));
+    ask_for_fault(&run, "b", "crash-on-start").unwrap();
+    let unknown = ask_for_fault(&run, "c", "kill").unwrap_err().to_string();
+    assert!(unknown.contains("this set has: a, b"), "{unknown}");
+    let unknown = ask_for_fault(&run, "b", "melt").unwrap_err().to_string();
+    assert!(unknown.contains("expected one of: kill, stop, slow, crash-on-start"), "{unknown}");
+    running.join().unwrap().unwrap();
+    assert_eq!((place.count(EventKind::Injected, "a"), place.count(EventKind::Restarted, "a")), (1, 1));
+    assert_eq!((place.count(EventKind::Injected, "b"), place.count(EventKind::Restarted, "b")), (1, 2));
+}
+
+#[test]
+fn two_runs_beside_each_other_do_not_touch_each_other() {
+    let (short, long) = (Place::new(&[("a", SERVICE)]), Place::new(&[("a", SERVICE)]));
+    let longer = in_background(long.launch(&["a"], LONG, &[]));
+    let run = long.run();
+    short.launch(&["a"], Duration::from_millis(200), &["a:kill@0s"]).run().unwrap();
+    assert!(run.directory().exists() && shared_memory_of(&run) > 0);
+    longer.join().unwrap().unwrap();
+    assert_eq!(short.count(EventKind::Died, "a"), 1);
+    assert_eq!(long.count(EventKind::Died, "a"), 0);
+}
+
+#[test]
+fn what_is_missing_or_unknown_is_named_before_anything_is_started() {
+    let place = Place::new(&[("a", SERVICE)]);
+    let missing = place.launch(&["a", "b"], LONG, &[]).run().unwrap_err();
+    assert!(missing.is_configuration());
+    assert!(
+        missing.to_string().contains("process b") && missing.to_string().contains("cargo build"),
+        "{missing}"
+    );
+    let unknown = place.launch(&["a"], LONG, &["z:kill@1s"]).run().unwrap_err();
+    assert!(unknown.is_configuration() && unknown.to_string().contains("\"z\""), "{unknown}");
+    assert!(place.events().is_empty());
+}
+
+#[test]
+fn a_set_that_is_given_up_is_stopped_and_leaves_nothing() {
+    let place = Place::new(&[("a", SERVICE), ("b", "#!/bin/sh\necho 'no arm found' >&2\nexit 1\n")]);
+    let running = in_background(place.launch(&["a", "b"], LONG, &[]));
+    let run = place.run();
+    let error = running.join().unwrap().unwrap_err();
+    assert!(!error.is_configuration());
+    assert!(error.to_string().contains("no arm found"), "{error}");
+    assert_eq!(place.count(EventKind::Stopped, "a"), 1);
+    assert!(!run.directory().exists());
+    assert_eq!(shared_memory_of(&run), 0);
+}
+
+#[test]
+fn an_earlier_summary_in_the_report_folder_is_not_taken_for_this_runs() {
+    let place = Place::new(&[("a", SERVICE)]);
+    let launch = place.launch(&["a"], Duration::from_millis(10), &[]);
+    let summary = launch.settings.report.join("summary.json");
+    std::fs::create_dir_all(&launch.settings.report).unwrap();
+    std::fs::write(&summary, "{}").unwrap();
+    launch.run().unwrap();
+    assert!(!summary.exists());
+}

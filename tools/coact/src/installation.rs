@@ -1,0 +1,32 @@
+use anyhow::{Context, Result};
+use std::path::{Path, PathBuf};
+
+/// Where this installation's programs and configuration are.
+#[derive(Debug, Clone)]
+pub struct Installation {
+    /// Folder of the programs: that of this one.
+    pub programs: PathBuf,
+    /// Folder `rt-config`.
+    pub configuration: PathBuf,
+}
+
+impl Installation {
+    /// Finds it: `rt-config` lies in a folder above this program, or above the current one.
+    ///
+    /// # Errors
+    /// There is no such folder.
+    pub fn find() -> Result<Self> {
+        let program = std::env::current_exe().context("this program's own place is unknown")?;
+        let programs = program.parent().unwrap_or(Path::new("/")).to_owned();
+        let here = std::env::current_dir().context("there is no current folder")?;
+        let above = programs.ancestors().chain(here.ancestors());
+        let configuration = above
+            .map(|folder| folder.join("rt-config"))
+            .find(|folder| folder.join("pipeline.toml").is_file())
+            .with_context(|| {
+                let (programs, here) = (programs.display(), here.display());
+                format!("no rt-config/pipeline.toml above {programs} or {here}; expected it in the checkout's root")
+            })?;
+        Ok(Self { programs, configuration })
+    }
+}

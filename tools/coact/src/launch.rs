@@ -1,0 +1,123 @@
+use crate::folder_name::unused_report_folder;
+use crate::installation::Installation;
+use crate::{closing, partner};
+use anyhow::{Context, Result};
+use coact_joint_task::NetworkPlan;
+use coact_pipeline::{Pipeline, RunSettings, WorldMode};
+use coact_robot::Robot;
+use coact_supervisor::{Injection, Launch, LaunchError};
+use std::path::{Path, PathBuf, absolute};
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// Starts the processes of the pipeline, shows their progress, and reports how fast, regular and anticipatory they were.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  coact launch                                        the toy vehicle, with a simulated partner
+  coact launch --duration 600 --report reports/long   ten minutes, one assembly after another
+  coact launch --inject fields:kill@20s               what if the mind is killed after 20 s?
+  coact launch --partner recorded:DIR                 recorded reaches move the partner's hand
+  coact launch --lockstep --world kinematic --json    as fast as the machine can
+
+Exit status: 0 every verdict holds, 1 one does not, 2 bad usage or configuration.")]
+pub struct Args {
+    /// The task [default: the toy vehicle]
+    #[arg(long, value_name = "FILE")]
+    task: Option<PathBuf>,
+    /// Who works with the robot: synthetic, script:FILE or recorded:DIR
+    #[arg(long, default_value = "synthetic")]
+    partner: String,
+    /// Seed of everything random
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Seconds; without it, until all subgoals are achieved, 300 s at most
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    duration: Option<Duration>,
+    /// Where the report goes [default: reports/<date-time>]
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
+    /// All stages in one process, as fast as possible, with the same decisions
+    #[arg(long, conflicts_with = "inject")]
+    lockstep: bool,
+    /// How the world computes: physics, or kinematic (same sensors and truth, no contact forces)
+    #[arg(long, default_value = "physics")]
+    world: WorldMode,
+    /// A fault, as in fields:kill@20s (kill, stop, slow or crash-on-start); may be repeated
+    #[arg(long, value_name = "PROCESS:FAULT@TIME")]
+    inject: Vec<Injection>,
+    /// The process table [default: rt-config/pipeline.toml]
+    #[arg(long, value_name = "FILE")]
+    pipeline: Option<PathBuf>,
+    /// Print nothing but the final summary.json on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let expected = || "expected seconds, above 0, for example 90 or 2.5".to_owned();
+    let seconds: f64 = text.parse().map_err(|_| expected())?;
+    let duration = Duration::try_from_secs_f64(seconds).map_err(|_| expected())?;
+    if duration.is_zero() { Err(expected()) } else { Ok(duration) }
+}
+
+/// Runs the set to its end.
+///
+/// # Errors
+/// A file is missing or malformed, or the machine refuses the run: nothing was started, or it was stopped again.
+pub fn run(args: Args) -> Result<ExitCode> {
+    let (json, lockstep) = (args.json, args.lockstep);
+    let launch = prepare(args)?;
+    let report = launch.settings.report.clone();
+    if lockstep {
+        in_lockstep(&launch)?;
+    } else if let Err(error) = launch.run() {
+        return gave_up(error, &report, json);
+    }
+    closing::show(&report, json)
+}
+
+/// Reads and checks every file before anything is started.
+fn prepare(args: Args) -> Result<Launch> {
+    let Installation { programs, configuration } = Installation::find()?;
+    let below = |path: &str| configuration.join(path);
+    let task = absolute(args.task.unwrap_or_else(|| below("tasks/toy-vehicle.toml")))?;
+    let pipeline = absolute(args.pipeline.unwrap_or_else(|| below("pipeline.toml")))?;
+    let report = absolute(args.report.unwrap_or_else(|| unused_report_folder(Path::new("reports"))))?;
+    let robot = below("robots/aros.toml");
+    Robot::load(&robot)?;
+    let (checked, _) = NetworkPlan::load(&task)?;
+    let settings = RunSettings {
+        task,
+        robot,
+        model: below("perception/reaches.toml"),
+        pipeline: pipeline.clone(),
+        report,
+        seed: args.seed,
+        partner: partner::resolve(&args.partner)?,
+        world: args.world,
+    };
+    Ok(Launch {
+        settings,
+        pipeline: Pipeline::load(&pipeline)?,
+        task: checked,
+        programs,
+        duration: args.duration,
+        injections: args.inject,
+    })
+}
+
+/// The same stages in this process. (Call site of `coact_lockstep::run`.)
+fn in_lockstep(launch: &Launch) -> Result<()> {
+    let _ = launch;
+    anyhow::bail!("--lockstep is not available in this build")
+}
+
+/// A set that was given up has a report as far as it came, and counts as failed; all else was refused.
+fn gave_up(error: LaunchError, report: &Path, json: bool) -> Result<ExitCode> {
+    if error.is_configuration() {
+        return Err(error.into());
+    }
+    closing::show(report, json).with_context(|| error.to_string()).ok();
+    closing::alarm(&error.to_string());
+    Ok(ExitCode::FAILURE)
+}
