@@ -37,7 +37,7 @@ impl Task {
     /// # Errors
     /// A [`TaskError`] that names file, line, key and what was expected.
     pub fn load(path: &Path) -> Result<Self, TaskError> {
-        crate::load::load(path).map(|(task, _)| task)
+        crate::NetworkPlan::load(path).map(|(task, _)| task)
     }
 
     /// The observable act at `index`, in words.

@@ -1,0 +1,159 @@
+use coact_control::Control;
+use coact_fields::Network;
+use coact_joint_task::{NetworkPlan, Task};
+use coact_messages::{
+    Command, FieldFrame, Header, LAYOUT, LayerKind, Percept, SensorSample, Truth, WorldState,
+};
+use coact_perception::Perception;
+use coact_pipeline::{RunSettings, WorldMode};
+use coact_robot::Robot;
+use coact_world::{BodyKind, Partner, Settings, World};
+
+/// One period, ns.
+const PERIOD_NS: u64 = 1_000_000;
+
+/// All stages, and the newest message of each topic.
+pub struct Lockstep {
+    task: Task,
+    world: World,
+    perception: Perception,
+    network: Network,
+    control: Control,
+    tick: u64,
+    /// The newest sensor sample.
+    pub sample: Box<SensorSample>,
+    /// The newest percept.
+    pub percept: Box<Percept>,
+    /// The newest field frame.
+    pub frame: Box<FieldFrame>,
+    /// The newest command.
+    pub command: Box<Command>,
+    /// What is true now.
+    pub truth: Box<Truth>,
+    /// The world's own memory.
+    pub state: Box<WorldState>,
+    previous_frame: Box<FieldFrame>,
+    previous_command: Box<Command>,
+}
+
+/// Why the stages could not be made.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant is the error of the stage or file that it names")]
+pub enum LockstepError {
+    #[error(transparent)]
+    Task(#[from] coact_joint_task::TaskError),
+    #[error(transparent)]
+    Robot(#[from] coact_robot::RobotError),
+    #[error(transparent)]
+    World(#[from] coact_world::WorldError),
+    #[error(transparent)]
+    Model(#[from] coact_perception::ModelError),
+    #[error(transparent)]
+    Perception(#[from] coact_perception::SingularModel),
+    #[error(transparent)]
+    Network(#[from] coact_neural_field::ParameterError),
+    #[error(transparent)]
+    Control(#[from] coact_control::ControlError),
+}
+
+impl Lockstep {
+    /// The stages of a run with these settings.
+    ///
+    /// # Errors
+    /// The file or setting that a stage refuses.
+    pub fn new(settings: &RunSettings) -> Result<Self, LockstepError> {
+        let (task, plan) = NetworkPlan::load(&settings.task)?;
+        let robot = Robot::load(&settings.robot)?;
+        let body = match settings.world {
+            WorldMode::Physics => BodyKind::Physics,
+            WorldMode::Kinematic => BodyKind::Kinematic,
+        };
+        let partner = Partner::load(&settings.partner, &task)?;
+        let world = World::new(&task, &robot, Settings { seed: settings.seed, partner, body })?;
+        let model = coact_perception::PreshapeModel::load(&settings.model)?;
+        let network = Network::new(plan, task.fingerprint, settings.seed)?;
+        let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
+        network.rest(&mut frame);
+        Ok(Self {
+            world,
+            perception: Perception::new(&task, &model)?.with_robot(robot.clone()),
+            control: Control::new(robot, &task, coact_control::Settings::default())?,
+            network,
+            task,
+            tick: 0,
+            sample: bytemuck::zeroed_box(),
+            percept: bytemuck::zeroed_box(),
+            previous_frame: frame.clone(),
+            frame,
+            command: bytemuck::zeroed_box(),
+            previous_command: bytemuck::zeroed_box(),
+            truth: bytemuck::zeroed_box(),
+            state: bytemuck::zeroed_box(),
+        })
+    }
+
+    /// The task.
+    pub fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// The network's layers, populations and synapses.
+    pub fn plan(&self) -> &NetworkPlan {
+        self.network.plan()
+    }
+
+    /// Ticks so far.
+    pub fn ticks(&self) -> u64 {
+        self.tick
+    }
+
+    /// Runs one period of every stage.
+    pub fn step(&mut self) {
+        self.step_watched(&mut |_, stage| stage());
+    }
+
+    /// Runs one period; each stage is run by `watch`, which is given its name and must call it once.
+    ///
+    /// Benches and tests measure single stages of the running whole in this way.
+    pub fn step_watched(&mut self, watch: &mut dyn FnMut(&'static str, &mut dyn FnMut())) {
+        let Self { world, perception, network, control, sample, percept, truth, state, .. } = self;
+        let tick = self.tick;
+        std::mem::swap(&mut self.command, &mut self.previous_command);
+        std::mem::swap(&mut self.frame, &mut self.previous_frame);
+        let (frame, command) = (&mut self.frame, &mut self.command);
+        let previous = (tick > 0).then_some(&*self.previous_command);
+        watch("world", &mut || world.step(tick, previous, sample, truth, state));
+        for header in [&mut sample.header, &mut truth.header, &mut state.header] {
+            *header = stamp(tick);
+        }
+        watch("perception", &mut || perception.step(tick, Some(sample), percept));
+        percept.header = stamp(tick);
+        watch("fields", &mut || network.step(tick, Some(percept), &self.previous_frame, frame));
+        frame.header = stamp(tick);
+        watch("control", &mut || {
+            control.step(tick, Some(sample), Some(percept), Some(frame), previous, command);
+        });
+        command.header = stamp(tick);
+        self.tick += 1;
+    }
+
+    /// Whether the robot knows all subgoals to be achieved.
+    pub fn complete(&self) -> bool {
+        let achieved = self.plan().layer(LayerKind::SubgoalsAchieved).populations.clone();
+        self.frame.signal[achieved].iter().all(|&signal| signal > 0.5)
+    }
+}
+
+/// The header of every message of a tick: its stamps are the tick's own time.
+fn stamp(tick: u64) -> Header {
+    let now = tick * PERIOD_NS;
+    Header {
+        layout: LAYOUT,
+        generation: 0,
+        sequence: tick,
+        cycle: tick,
+        sensor_ns: now,
+        published_ns: now,
+        reserved: 0,
+    }
+}

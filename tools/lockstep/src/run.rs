@@ -1,0 +1,100 @@
+use crate::{Lockstep, LockstepError};
+use coact_messages::{Header, Speech};
+use coact_monitor::{Environment, Intentions, Monitor, MonitorError, Rules, RulesError, Summary, Watched};
+use coact_pipeline::RunSettings;
+use coact_voice::{Meanings, Sentence, Voice};
+use std::time::{Duration, Instant, SystemTime};
+
+/// How often monitor and voice look at the messages, ticks: as their processes do.
+const LOOK_EVERY: u64 = 5;
+/// How long a run without a duration goes on when nothing is completed.
+const LONGEST: Duration = Duration::from_secs(300);
+/// How long it goes on after completion.
+const AFTERWARDS: u64 = 2000;
+
+/// What a run was like.
+pub struct Outcome {
+    /// What went into `summary.json`.
+    pub summary: Summary,
+    /// Ticks that were run: ms of the run's own time.
+    pub ticks: u64,
+    /// How long that took.
+    pub elapsed: Duration,
+}
+
+/// Why a run came to no end.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "each variant is the error of what it names")]
+pub enum RunError {
+    #[error(transparent)]
+    Stage(#[from] LockstepError),
+    #[error(transparent)]
+    Monitor(#[from] MonitorError),
+    #[error(transparent)]
+    Rules(#[from] RulesError),
+    #[error("{path}: {cause}; expected a folder that can be written to")]
+    Report { path: std::path::PathBuf, cause: std::io::Error },
+}
+
+/// Runs all stages for `duration`, or, without one, until every subgoal is achieved (300 s at most), and writes the
+/// report of the settings. `progress` is told of every look: the tick, and what was said since the last one.
+///
+/// # Errors
+/// A file or setting that is refused, or a report that cannot be written.
+pub fn run(
+    settings: &RunSettings,
+    duration: Option<Duration>,
+    mut progress: impl FnMut(&Lockstep, Option<&Sentence>),
+) -> Result<Outcome, RunError> {
+    let mut stages = Lockstep::new(settings)?;
+    std::fs::create_dir_all(&settings.report)
+        .map_err(|cause| RunError::Report { path: settings.report.clone(), cause })?;
+    let mut monitor = monitor(settings, &stages)?;
+    let mut voice = Voice::new(stages.task(), Meanings::from(stages.plan()));
+    let most = duration.unwrap_or(LONGEST).as_millis() as u64;
+    let (started, mut end) = (Instant::now(), most);
+    while stages.ticks() < end {
+        stages.step();
+        let mut events = Vec::new();
+        monitor.truth(&stages.truth, &mut events);
+        if stages.ticks() % LOOK_EVERY != 0 {
+            continue;
+        }
+        monitor.frame(&stages.frame, &mut events);
+        let sentence = voice.observe(&stages.frame);
+        if let Some(sentence) = &sentence {
+            monitor.speech(&speech(sentence), &mut events);
+        }
+        monitor.keep(0, events)?;
+        progress(&stages, sentence.as_ref());
+        if duration.is_none() && end == most && stages.complete() {
+            end = most.min(stages.ticks() + AFTERWARDS);
+        }
+    }
+    let elapsed = started.elapsed();
+    let summary = monitor.finish(Environment::of_machine(), stages.ticks() * 1_000_000)?;
+    Ok(Outcome { summary, ticks: stages.ticks(), elapsed })
+}
+
+fn monitor(settings: &RunSettings, stages: &Lockstep) -> Result<Monitor, RunError> {
+    let folder = settings.pipeline.parent().unwrap_or(std::path::Path::new("."));
+    Ok(Monitor::open(Watched {
+        report: settings.report.clone(),
+        task: stages.task().clone(),
+        intentions: Intentions::from(stages.plan()),
+        links: Vec::new(),
+        rules: Rules::load(&folder.join(Rules::FILE))?,
+        start_ns: 0,
+        started: SystemTime::now(),
+    })?)
+}
+
+/// The message that the voice's process would publish.
+fn speech(sentence: &Sentence) -> Speech {
+    let mut speech: Speech = bytemuck::Zeroable::zeroed();
+    let text = &sentence.text[..sentence.text.floor_char_boundary(speech.text.len())];
+    speech.header = Header { cycle: sentence.cycle, ..Header::default() };
+    speech.text[..text.len()].copy_from_slice(text.as_bytes());
+    speech.length = text.len() as u64;
+    speech
+}
