@@ -17,6 +17,8 @@ pub struct Robot {
     pub hand: Hand,
     /// Arm posture at rest, rad.
     pub park: Posture,
+    /// The URDF that all this was read from: masses and shapes of the links are found there.
+    pub urdf: Urdf,
 }
 
 impl Robot {
@@ -37,7 +39,7 @@ impl Robot {
                 "lies outside the joint limits of the URDF; choose it within",
             ));
         }
-        Ok(Self { name: urdf.name().to_owned(), kinematics, hand, park: config.arm.park })
+        Ok(Self { name: urdf.name().to_owned(), kinematics, hand, park: config.arm.park, urdf })
     }
 
     /// The arm.

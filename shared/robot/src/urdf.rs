@@ -41,6 +41,11 @@ impl Urdf {
         &self.robot.name
     }
 
+    /// All links and joints as the URDF states them.
+    pub fn model(&self) -> &urdf_rs::Robot {
+        &self.robot
+    }
+
     /// The links and their inertials as the URDF states them.
     pub fn links(&self) -> &[urdf_rs::Link] {
         &self.robot.links
