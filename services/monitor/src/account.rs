@@ -1,4 +1,4 @@
-use coact_messages::Pulse;
+use coact_messages::{Header, Pulse};
 
 /// The deadline accounts of one process over the whole run, its restarts included.
 #[derive(Debug, Clone, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -41,7 +41,13 @@ pub struct Lapse {
 }
 
 impl Account {
-    /// Adds one cycle and gives the lapses that it brought.
+    /// False for a pulse that was counted before: a reader that joins gets the newest one once more.
+    pub fn is_new(&self, pulse: &Pulse) -> bool {
+        let Header { generation, sequence, .. } = pulse.header;
+        self.last.is_none_or(|last| (generation, sequence) > (last.generation, last.sequence))
+    }
+
+    /// Adds one cycle, a new one, and gives the lapses that it brought.
     ///
     /// Pulses that were lost on the way are made up for from the counters; misses among them count as one run,
     /// the worst that may have been.

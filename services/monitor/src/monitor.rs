@@ -107,6 +107,29 @@ impl Monitor {
         })
     }
 
+    /// Removes what the monitor of an earlier run left in a report directory; nothing else is touched.
+    ///
+    /// # Errors
+    /// A file cannot be removed.
+    pub fn clear(report: &Path) -> Result<(), MonitorError> {
+        let files = [Journal::FILE, "summary.json"].map(|name| report.join(name)).into_iter();
+        let folders = [("latency", "hlog"), ("latency", "json"), ("plots", "svg")];
+        let inside = folders.into_iter().flat_map(|(folder, extension)| {
+            let entries = std::fs::read_dir(report.join(folder)).into_iter().flatten();
+            let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+            paths.filter(move |path| path.extension().is_some_and(|own| own == extension))
+        });
+        for path in files.chain(inside) {
+            match std::fs::remove_file(&path) {
+                Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(MonitorError::File { path, cause });
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
     /// One cycle of a process.
     pub fn pulse(&mut self, process: &str, pulse: &Pulse) {
         let lapse = self.latencies.pulse(process, pulse);
@@ -173,7 +196,7 @@ impl Monitor {
             task: &self.task,
             environment,
             events: self.journal.events(),
-            latencies: Some(&self.latencies),
+            figures: Some(self.latencies.figures()),
             start_ns: self.start_ns,
             duration_s: now_ns.saturating_sub(self.start_ns) as f64 / 1e9,
             rules: &self.rules,
@@ -197,7 +220,7 @@ impl Monitor {
     fn draw(&self, summary: &Summary) -> Result<(), MonitorError> {
         let folder = self.report.join("plots");
         std::fs::create_dir_all(&folder).map_err(|cause| self.error("plots", cause))?;
-        for (name, recorder) in self.latencies.histograms() {
+        for (name, recorder) in self.latencies.figures().histograms() {
             percentile_curve(&name.replace('.', " "), recorder, &folder.join(format!("{name}.svg")))?;
         }
         Ok(anticipation_timeline(&summary.anticipation.events, &folder.join("anticipation.svg"))?)

@@ -1,5 +1,5 @@
-use crate::latencies::{END_TO_END, execution_name, hop_name, wakeup_name};
-use crate::{ActionEvent, Environment, Event, FaultEvent, Latencies, Rules, TaskReport, verdict};
+use crate::figures::{END_TO_END, execution_name, hop_name, wakeup_name};
+use crate::{ActionEvent, Environment, Event, FaultEvent, Figures, Rules, TaskReport, verdict};
 use coact_joint_task::Task;
 use hdrhistogram::Histogram;
 use serde::Serialize;
@@ -67,19 +67,19 @@ pub struct AnticipationReport {
     pub decided_before_grasp: usize,
     /// Those of them that were decided rightly.
     pub correct: usize,
-    /// Decision lead of all actions that were answered rightly, late ones included; null without any.
-    pub lead_ms: Option<LeadPercentiles>,
+    /// Decision lead of all actions that were answered rightly, late ones included.
+    pub lead_ms: LeadPercentiles,
     /// Every action.
     pub events: Vec<ActionEvent>,
 }
 
-/// Decision leads, ms; negative ones came too late.
+/// Decision leads, ms; negative ones came too late; null without any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[allow(missing_docs, reason = "the names are the percentiles")]
 pub struct LeadPercentiles {
-    pub p5: i64,
-    pub p50: i64,
-    pub p95: i64,
+    pub p5: Option<i64>,
+    pub p50: Option<i64>,
+    pub p95: Option<i64>,
 }
 
 /// One fault.
@@ -110,8 +110,8 @@ pub struct Findings<'a> {
     pub environment: Environment,
     /// Every event of the run.
     pub events: &'a [Event],
-    /// Latencies; none in lockstep, where no clock runs.
-    pub latencies: Option<&'a Latencies>,
+    /// Latencies and deadline accounts; none in lockstep, where no clock runs.
+    pub figures: Option<&'a Figures>,
     /// Start of the run, ns of `CLOCK_MONOTONIC`.
     pub start_ns: u64,
     /// How long the run lasted, s.
@@ -123,12 +123,12 @@ pub struct Findings<'a> {
 impl Summary {
     /// Draws the conclusions.
     pub fn new(findings: Findings) -> Self {
-        let Findings { task, environment, events, latencies, start_ns, duration_s, rules } = findings;
+        let Findings { task, environment, events, figures, start_ns, duration_s, rules } = findings;
         let mut summary = Self {
             environment,
-            processes: latencies.map(processes).unwrap_or_default(),
-            hops: latencies.map(hops).unwrap_or_default(),
-            end_to_end_ns: latencies.map(|own| percentiles(own, END_TO_END)).unwrap_or_default(),
+            processes: figures.map(processes).unwrap_or_default(),
+            hops: figures.map(hops).unwrap_or_default(),
+            end_to_end_ns: figures.map(|own| percentiles(own, END_TO_END)).unwrap_or_default(),
             anticipation: AnticipationReport::new(events),
             task: TaskReport::new(task, events, duration_s),
             faults: faults(events, start_ns),
@@ -174,34 +174,34 @@ impl AnticipationReport {
 
 impl LeadPercentiles {
     /// Of leads in ascending order, by nearest rank.
-    fn of(sorted: &[i64]) -> Option<Self> {
+    fn of(sorted: &[i64]) -> Self {
         let rank = |share: f64| ((share * sorted.len() as f64).ceil() as usize).max(1) - 1;
         let at = |share| sorted.get(rank(share)).copied();
-        Some(Self { p5: at(0.05)?, p50: at(0.5)?, p95: at(0.95)? })
+        Self { p5: at(0.05), p50: at(0.5), p95: at(0.95) }
     }
 }
 
-fn percentiles(latencies: &Latencies, name: &str) -> Percentiles {
-    latencies.histograms().get(name).map(|own| Percentiles::of(own.total())).unwrap_or_default()
+fn percentiles(figures: &Figures, name: &str) -> Percentiles {
+    figures.histograms().get(name).map(|own| Percentiles::of(own.total())).unwrap_or_default()
 }
 
-fn processes(latencies: &Latencies) -> BTreeMap<String, ProcessReport> {
+fn processes(figures: &Figures) -> BTreeMap<String, ProcessReport> {
     let report = |name: &str, account: &crate::Account| ProcessReport {
         cycles: account.cycles,
         missed: account.missed,
         longest_miss_run: account.longest_miss_run,
         restarts: account.restarts,
-        wakeup_ns: percentiles(latencies, &wakeup_name(name)),
-        execution_ns: percentiles(latencies, &execution_name(name)),
+        wakeup_ns: percentiles(figures, &wakeup_name(name)),
+        execution_ns: percentiles(figures, &execution_name(name)),
     };
-    latencies.accounts().iter().map(|(name, account)| (name.clone(), report(name, account))).collect()
+    figures.accounts().iter().map(|(name, account)| (name.clone(), report(name, account))).collect()
 }
 
-fn hops(latencies: &Latencies) -> BTreeMap<String, Percentiles> {
-    let edges = latencies.links().iter().filter_map(|link| Some((link.input_from.as_ref()?, &link.process)));
+fn hops(figures: &Figures) -> BTreeMap<String, Percentiles> {
+    let edges = figures.links().iter().filter_map(|link| Some((link.input_from.as_ref()?, &link.process)));
     edges
-        .filter(|(from, to)| latencies.histograms().contains_key(&hop_name(from, to)))
-        .map(|(from, to)| (format!("{from}->{to}"), percentiles(latencies, &hop_name(from, to))))
+        .filter(|(from, to)| figures.histograms().contains_key(&hop_name(from, to)))
+        .map(|(from, to)| (format!("{from}->{to}"), percentiles(figures, &hop_name(from, to))))
         .collect()
 }
 

@@ -17,18 +17,27 @@ pub struct TaskReport {
     /// Assemblies that were completed.
     pub assemblies: u64,
     /// What the robot decided, in order.
-    pub decisions: Vec<Told>,
+    pub decisions: Vec<Decided>,
     /// What the robot said, in order.
-    pub utterances: Vec<Told>,
+    pub utterances: Vec<Said>,
 }
 
-/// Something at a time.
+/// A decision of the robot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Told {
+pub struct Decided {
     /// When, s from the start of the run.
     pub at_s: f64,
-    /// What: the action's name, or the sentence.
-    pub what: String,
+    /// Name of the action.
+    pub action: String,
+}
+
+/// A sentence of the robot.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Said {
+    /// When, s from the start of the run.
+    pub at_s: f64,
+    /// The sentence.
+    pub text: String,
 }
 
 impl TaskReport {
@@ -44,7 +53,7 @@ impl TaskReport {
             decisions: Vec::new(),
             utterances: Vec::new(),
         };
-        let told = |at_ms: u64, what: &String| Told { at_s: at_ms as f64 / 1e3, what: what.clone() };
+        let seconds = |at_ms: &u64| *at_ms as f64 / 1e3;
         for event in events {
             match event {
                 Event::Subgoal { assembly, name, .. } => {
@@ -52,12 +61,16 @@ impl TaskReport {
                 }
                 Event::Assembly { at_ms, completed } => {
                     if report.assemblies == 0 {
-                        report.duration_s = *at_ms as f64 / 1e3;
+                        report.duration_s = seconds(at_ms);
                     }
                     report.assemblies = *completed;
                 }
-                Event::Decision { at_ms, action } => report.decisions.push(told(*at_ms, action)),
-                Event::Utterance { at_ms, text } => report.utterances.push(told(*at_ms, text)),
+                Event::Decision { at_ms, action } => {
+                    report.decisions.push(Decided { at_s: seconds(at_ms), action: action.clone() });
+                }
+                Event::Utterance { at_ms, text } => {
+                    report.utterances.push(Said { at_s: seconds(at_ms), text: text.clone() });
+                }
                 Event::Forgotten { .. } | Event::Action(_) | Event::Fault(_) => {}
             }
         }

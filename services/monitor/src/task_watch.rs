@@ -13,13 +13,15 @@ pub struct TaskWatch {
     /// Assemblies completed.
     completed: u64,
     decision: Decision,
+    /// Cycle of the newest sentence.
+    spoken: u64,
 }
 
 impl TaskWatch {
     /// For a task.
     pub fn new(task: &Task) -> Self {
         let decision = Decision { action: NONE, reserved: 0, since: 0 };
-        Self { task: task.clone(), achieved: 0, remembered: 0, completed: 0, decision }
+        Self { task: task.clone(), achieved: 0, remembered: 0, completed: 0, decision, spoken: 0 }
     }
 
     /// Goes on after a restart from the events that were written before.
@@ -35,6 +37,7 @@ impl TaskWatch {
                     self.decision.action = index.map_or(NONE, |index| index as u32);
                     self.decision.since = *at_ms;
                 }
+                Event::Utterance { at_ms, .. } => self.spoken = *at_ms,
                 _ => {}
             }
         }
@@ -83,8 +86,12 @@ impl TaskWatch {
         }
     }
 
-    /// What the robot said.
+    /// What the robot said; a reader that joins gets the last sentence once more, which is not news.
     pub fn speech(&mut self, speech: &Speech, events: &mut Vec<Event>) {
+        if speech.header.cycle <= self.spoken {
+            return;
+        }
+        self.spoken = speech.header.cycle;
         let length = (speech.length as usize).min(speech.text.len());
         let text = String::from_utf8_lossy(&speech.text[..length]).into_owned();
         events.push(Event::Utterance { at_ms: speech.header.cycle, text });

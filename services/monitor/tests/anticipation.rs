@@ -171,7 +171,7 @@ fn shares_and_leads_are_summed_up_over_expected_answers_only() {
         event(5, None, false, false),
     ]);
     assert_eq!((report.actions, report.decided_before_grasp, report.correct), (4, 2, 1));
-    let lead = report.lead_ms.unwrap();
-    assert_eq!((lead.p5, lead.p50, lead.p95), (-50, -50, 300));
+    let lead = report.lead_ms;
+    assert_eq!((lead.p5, lead.p50, lead.p95), (Some(-50), Some(-50), Some(300)));
     assert_eq!(report.events.len(), 5);
 }

@@ -98,6 +98,9 @@ fn a_killed_monitor_goes_on_and_tells_the_same_story() {
         let mut monitor = open(parts.path());
         play(&mut monitor, start..kill);
         monitor.write().unwrap();
+        let mut events = Vec::new();
+        monitor.speech(&speech(650, "I will hold it."), &mut events);
+        assert_eq!(events.is_empty(), kill >= 650, "a sentence is told once");
     }
     let mut monitor = open(parts.path());
     play(&mut monitor, 1300..2000);
@@ -164,4 +167,21 @@ fn a_foreign_journal_is_refused_with_its_place() {
     std::fs::write(folder.path().join("events.jsonl"), "{\"event\":\"dance\"}\n").unwrap();
     let error = coact_monitor::Journal::open(folder.path()).unwrap_err().to_string();
     assert!(error.contains("events.jsonl:1: not an event"), "{error}");
+}
+
+#[test]
+fn an_earlier_runs_report_is_cleared_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("supervisor.jsonl"), "").unwrap();
+    let mut monitor = open(folder.path());
+    play(&mut monitor, 0..2000);
+    finish(monitor);
+    Monitor::clear(folder.path()).unwrap();
+    let mut left = Vec::new();
+    for entry in [folder.path().into(), folder.path().join("latency"), folder.path().join("plots")] {
+        let entries = std::fs::read_dir(entry).unwrap();
+        left.extend(entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()));
+    }
+    left.sort();
+    assert_eq!(left, ["latency", "plots", "supervisor.jsonl"]);
 }

@@ -39,6 +39,7 @@ fn draw(shown: &[ActionEvent], all: usize, path: &Path) -> Result<(), Box<dyn Er
     chart
         .configure_mesh()
         .x_desc("time from grasp completion (ms)")
+        .x_label_formatter(&|ms| format!("{ms:.0}"))
         .y_labels(0)
         .disable_y_mesh()
         .light_line_style(WHITE)

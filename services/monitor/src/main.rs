@@ -1,0 +1,101 @@
+//! The monitor as a process: drains all topics that tell how the run goes, and keeps its report.
+
+use anyhow::Context;
+use coact_joint_task::NetworkPlan;
+use coact_messages::{FieldFrame, Pulse, Speech, Truth, topic};
+use coact_monitor::{Environment, Intentions, Monitor, MonitorError, Rules, Watched, links};
+use coact_realtime::{Bus, Input, PortError, Process, Schedule, now};
+use std::time::{Duration, Instant, SystemTime};
+
+/// How often the topics are drained. Much shorter than a peak lasts and than the readers' buffers last.
+const LOOK_EVERY: Duration = Duration::from_millis(5);
+/// How often histograms go to disk: a kill loses no more.
+const WRITE_EVERY: Duration = Duration::from_secs(1);
+
+fn main() -> anyhow::Result<()> {
+    let process = Process::from_arguments("monitor")?;
+    let watched = watched(&process)?;
+    let names = watched.links.iter().map(|link| link.process.clone()).collect();
+    if process.generation() == 0 {
+        Monitor::clear(&watched.report)?;
+    }
+    let mut topics = Topics::open(process.bus(), names)?;
+    process.report_ready()?;
+    let Some(schedule) = process.wait_for_start()? else { return Ok(()) };
+    let mut monitor = Monitor::open(since_start(watched, schedule))?;
+    let mut written = Instant::now();
+    let mut refused = None;
+    while !process.stop_requested() {
+        std::thread::sleep(LOOK_EVERY);
+        topics.drain(&mut monitor, &mut refused)?;
+        if written.elapsed() >= WRITE_EVERY {
+            written = Instant::now();
+            warn_once(monitor.write(), &mut refused);
+        }
+    }
+    topics.drain(&mut monitor, &mut refused)?;
+    monitor.finish(Environment::of_run(process.run(), process.pipeline()), now())?;
+    Ok(())
+}
+
+fn watched(process: &Process) -> anyhow::Result<Watched> {
+    let settings = process.run().settings();
+    let (task, plan) = NetworkPlan::load(&settings.task)?;
+    let folder = settings.pipeline.parent().context("the process table stands in no folder")?;
+    Ok(Watched {
+        report: settings.report.clone(),
+        task,
+        intentions: Intentions::from(&plan),
+        links: links(process.pipeline()),
+        rules: Rules::load(&folder.join(Rules::FILE))?,
+        start_ns: 0,
+        started: SystemTime::UNIX_EPOCH,
+    })
+}
+
+/// The start of the run by both clocks.
+fn since_start(watched: Watched, schedule: Schedule) -> Watched {
+    let elapsed = Duration::from_nanos(now().saturating_sub(schedule.start_ns));
+    Watched { start_ns: schedule.start_ns, started: SystemTime::now() - elapsed, ..watched }
+}
+
+/// A full disk must not end the run: the first failure is warned of, later ones are not.
+fn warn_once(result: Result<(), MonitorError>, refused: &mut Option<MonitorError>) {
+    if let (Err(error), None) = (result, &refused) {
+        tracing::warn!("{error}; the report lacks what could not be written");
+        *refused = Some(error);
+    }
+}
+
+/// All that the monitor listens to.
+struct Topics {
+    pulses: Vec<(String, Input<Pulse>)>,
+    truth: Input<Truth>,
+    fields: Input<FieldFrame>,
+    speech: Input<Speech>,
+}
+
+impl Topics {
+    fn open(bus: &Bus, processes: Vec<String>) -> Result<Self, PortError> {
+        let mut pulses = Vec::new();
+        for process in processes {
+            let input = bus.input(&topic::pulse(&process))?;
+            pulses.push((process, input));
+        }
+        let truth = bus.input(topic::TRUTH)?;
+        Ok(Self { pulses, truth, fields: bus.input(topic::FIELDS)?, speech: bus.input(topic::SPEECH)? })
+    }
+
+    fn drain(&mut self, monitor: &mut Monitor, refused: &mut Option<MonitorError>) -> Result<(), PortError> {
+        let Self { pulses, truth, fields, speech } = self;
+        let mut events = Vec::new();
+        for (process, input) in pulses {
+            input.each(|pulse| monitor.pulse(process, pulse))?;
+        }
+        truth.each(|truth| monitor.truth(truth, &mut events))?;
+        fields.each(|frame| monitor.frame(frame, &mut events))?;
+        speech.each(|speech| monitor.speech(speech, &mut events))?;
+        warn_once(monitor.keep(now(), events), refused);
+        Ok(())
+    }
+}

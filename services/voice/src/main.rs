@@ -1,0 +1,45 @@
+//! The voice as a process: watches the field frames, publishes and prints what the robot says.
+
+use coact_joint_task::NetworkPlan;
+use coact_messages::{FieldFrame, Speech, topic};
+use coact_realtime::{Output, PortError, Process};
+use coact_voice::{Meanings, Sentence, Speaker, Voice};
+use std::time::Duration;
+
+/// How often the fields are looked at: speech has time.
+const LOOK_EVERY: Duration = Duration::from_millis(10);
+
+fn main() -> anyhow::Result<()> {
+    let process = Process::from_arguments("voice")?;
+    let (task, plan) = NetworkPlan::load(&process.run().settings().task)?;
+    let mut voice = Voice::new(&task, Meanings::from(&plan));
+    let mut fields = process.bus().input::<FieldFrame>(topic::FIELDS)?;
+    let mut speech = process.bus().output::<Speech>(topic::SPEECH)?;
+    let mut speaker = Speaker::from_environment();
+    process.report_ready()?;
+    while !process.stop_requested() {
+        std::thread::sleep(LOOK_EVERY);
+        if !fields.refresh()? {
+            continue;
+        }
+        let Some(frame) = fields.latest() else { continue };
+        if let Some(sentence) = voice.observe(frame) {
+            tracing::info!("{}", sentence.text);
+            publish(&mut speech, &sentence, frame.header.sensor_ns)?;
+            speaker.say(&sentence.text);
+        }
+    }
+    Ok(())
+}
+
+fn publish(speech: &mut Output<Speech>, sentence: &Sentence, sensor_ns: u64) -> Result<(), PortError> {
+    let mut message = speech.loan()?;
+    let fits = (0..=sentence.text.len().min(message.text.len())).rev();
+    let end = fits.into_iter().find(|&end| sentence.text.is_char_boundary(end)).unwrap_or(0);
+    let text = &sentence.text[..end];
+    message.text = [0; 256];
+    message.text[..text.len()].copy_from_slice(text.as_bytes());
+    message.length = text.len() as u64;
+    message.send(sentence.cycle, sensor_ns)?;
+    Ok(())
+}

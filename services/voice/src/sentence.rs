@@ -1,0 +1,49 @@
+//! Clauses, composed from the task's names and the robot's motor skills.
+
+use crate::Goal;
+use coact_joint_task::{Action, Motion, Task};
+
+/// What the person is about to do: why the robot does what it does.
+pub(crate) fn inferred(task: &Task, goal: Goal) -> String {
+    let chain = &task.chains[goal.chain];
+    format!("You want to {} the {}.", chain.name, task.kinds[chain.kind].name)
+}
+
+/// What the robot is about to do; nothing for a skill that is speech itself.
+pub(crate) fn announced(task: &Task, action: &Action) -> Option<String> {
+    let part = action.kind.map_or("part", |kind| task.kinds[kind].name.as_str());
+    let goal = action.subgoal.map(|subgoal| task.subgoals[subgoal].name.as_str());
+    Some(match (action.motion, goal) {
+        (Motion::Insert, Some(goal)) => format!("I will put the {goal}."),
+        (Motion::Insert, None) => format!("I will put the {part} where it belongs."),
+        (Motion::Request, Some(goal)) => format!("Please give me the {part}: I want to put the {goal}."),
+        (Motion::Request, None) => format!("Please give me the {part}."),
+        (Motion::Receive, _) => format!("I will take the {part} from you."),
+        (Motion::Give, _) => format!("Here is the {part} for you."),
+        (Motion::Hold, Some(goal)) => format!("I will hold still for the {goal}."),
+        (Motion::Hold, None) => "I will hold still for you.".to_owned(),
+        (Motion::Point, _) => format!("Look, there is the {part}."),
+        (Motion::Speak, _) => return None,
+    })
+}
+
+/// What is wrong, and what could be done instead.
+pub(crate) fn objected(task: &Task, subgoal: usize, achieved: bool, available: &[usize]) -> String {
+    let name = &task.subgoals[subgoal].name;
+    let (mut text, next) = match achieved {
+        true => (format!("The {name} is done already"), "now we need"),
+        false => (format!("The {name} cannot be done yet"), "first we need"),
+    };
+    let instead: Vec<String> = available
+        .iter()
+        .filter(|&&other| other != subgoal)
+        .map(|&other| format!("the {}", task.subgoals[other].name))
+        .collect();
+    match instead.split_last() {
+        None => {}
+        Some((only, [])) => text.push_str(&format!("; {next} {only}")),
+        Some((last, others)) => text.push_str(&format!("; {next} {} or {last}", others.join(", "))),
+    }
+    text.push('.');
+    text
+}

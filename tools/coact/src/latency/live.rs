@@ -1,0 +1,76 @@
+//! The figures of a running set, second by second.
+
+use super::{report, show};
+use anyhow::{Context, bail};
+use coact_messages::{Pulse, topic};
+use coact_monitor::{Figures, links};
+use coact_pipeline::{Pipeline, Run};
+use coact_realtime::{Bus, Input};
+use std::io::{IsTerminal, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+const SHOW_EVERY: Duration = Duration::from_secs(1);
+/// Much shorter than the readers' buffers last.
+const DRAIN_EVERY: Duration = Duration::from_millis(50);
+/// Moves to the upper left and clears what is below.
+const CLEAR: &str = "\x1b[H\x1b[J";
+
+/// Attaches to a run until Ctrl-C or its end.
+pub(super) fn run(id: Option<&str>, json: bool) -> anyhow::Result<()> {
+    let run = find(id)?;
+    let pipeline = Pipeline::load(&run.settings().pipeline)?;
+    let bus = Bus::open(&run, "latency", 0)?;
+    let links = links(&pipeline);
+    let mut inputs: Vec<(String, Input<Pulse>)> = Vec::new();
+    for link in &links {
+        inputs.push((link.process.clone(), bus.input(&topic::pulse(&link.process))?));
+    }
+    let mut figures = Figures::new(links);
+    let stop = Arc::new(AtomicBool::new(false));
+    signal_hook::flag::register(signal_hook::consts::SIGINT, Arc::clone(&stop))
+        .context("Ctrl-C cannot be caught")?;
+    let mut shown = Instant::now();
+    while !stop.load(Ordering::Relaxed) && run.owner_lives() && run.directory().exists() {
+        std::thread::sleep(DRAIN_EVERY);
+        for (process, input) in &mut inputs {
+            input.each(|pulse| drop(figures.pulse(process, pulse)))?;
+        }
+        if shown.elapsed() >= SHOW_EVERY {
+            shown = Instant::now();
+            print(&run, &figures, json)?;
+        }
+    }
+    Ok(())
+}
+
+fn print(run: &Run, figures: &Figures, json: bool) -> anyhow::Result<()> {
+    let mut out = std::io::stdout().lock();
+    let written = if json {
+        writeln!(out, "{}", serde_json::to_string(&report(figures))?)
+    } else {
+        let clear = if out.is_terminal() { CLEAR } else { "" };
+        writeln!(out, "{clear}run {} since it was attached to (Ctrl-C ends)\n{}", run.id(), show(figures))
+    };
+    written.and_then(|()| out.flush()).context("standard output is closed")
+}
+
+/// The run of that name, or the newest one that still has its supervisor.
+fn find(id: Option<&str>) -> anyhow::Result<Run> {
+    let mut living: Vec<Run> = Run::all().into_iter().filter(Run::owner_lives).collect();
+    let known = living.iter().map(|run| run.id().to_owned()).collect::<Vec<_>>().join(", ");
+    let age = |run: &Run| std::fs::metadata(run.directory().join("run.json")).and_then(|file| file.modified()).ok();
+    living.sort_by_key(age);
+    let found = match id {
+        Some(id) => living.into_iter().find(|run| run.id() == id),
+        None => living.pop(),
+    };
+    let Some(run) = found else {
+        match id {
+            Some(id) if !known.is_empty() => bail!("no run is called {id}; running: {known}"),
+            _ => bail!("no set is running; start one with tools/launch"),
+        }
+    };
+    Ok(run)
+}
