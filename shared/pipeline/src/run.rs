@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 /// One run of the process set: its directory, its identity, and the names that keep it apart from other runs.
 ///
 /// ```text
-/// <temporary directory>/coact_<id>/run.json     what the run is made of
-///                                 /start        clock reading of tick 0, written when all are ready
-///                                 /ready/       <name>.<generation>.json, one for each process start
-///                                 /iox/         root directory of iceoryx2
-/// /dev/shm/coact_<id>_*                         the run's shared memory
+/// /dev/shm/coact_<id>/run.json     what the run is made of
+///                    /start        clock reading of tick 0, written when all are ready
+///                    /ready/       <name>.<generation>.json, one for each process start
+///                    /iox/         root directory of iceoryx2
+/// /dev/shm/coact_<id>_*            the run's shared memory
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Run {
@@ -26,9 +26,6 @@ struct Description {
     owner: u32,
     settings: RunSettings,
 }
-
-/// Names of iceoryx2's sockets grow to some 80 bytes below the root directory, and may have 108 in all.
-const LONGEST_BASE: usize = 16;
 
 impl Run {
     /// Makes the directory of a new run that the calling process owns.
@@ -58,7 +55,7 @@ impl Run {
         Ok(Self { directory: directory.to_owned(), description })
     }
 
-    /// Every run of this machine that has a directory, whether its owner still lives or not.
+    /// Every run on this machine that has a directory, whether its owner still lives or not.
     pub fn all() -> Vec<Self> {
         let Ok(entries) = std::fs::read_dir(base()) else { return Vec::new() };
         let mut runs: Vec<_> = entries
@@ -185,10 +182,11 @@ fn failed(operation: &'static str, path: &Path, source: io::Error) -> RunError {
     RunError::File { path: path.to_owned(), operation, source }
 }
 
-/// The temporary directory, unless socket names below it would become too long.
+/// Beside the shared memory: iceoryx2 syncs a dozen files when a process starts, which costs nothing where no disk is.
+/// The path is short as well: socket names below it grow to some 80 bytes, and may have 108 in all.
 fn base() -> PathBuf {
-    let base = std::env::temp_dir();
-    if base.as_os_str().len() <= LONGEST_BASE { base } else { PathBuf::from("/tmp") }
+    let memory = Path::new(shared_memory::DIRECTORY);
+    if memory.is_dir() { memory.to_owned() } else { std::env::temp_dir() }
 }
 
 /// Takes a name that no other run has: the process id and a count, kept by making the directory.

@@ -3,7 +3,7 @@
 use crate::RunError;
 use std::path::Path;
 
-const DIRECTORY: &str = "/dev/shm";
+pub(crate) const DIRECTORY: &str = "/dev/shm";
 /// Every port of a full set with a replacement beside each process takes about 30 MiB.
 const NEEDED_MIB: u64 = 48;
 

@@ -46,6 +46,9 @@ impl Process {
         let run = Run::load(directory)?;
         let pipeline = Pipeline::load(&run.settings().pipeline)?;
         let entry = pipeline.process(name)?.clone();
+        if entry.realtime {
+            scheduling::hurry();
+        }
         let bus = Bus::open(&run, name, generation)?;
         Ok(Self { run, pipeline, entry, generation, bus, signals, resumed: false })
     }

@@ -5,6 +5,16 @@ use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity, set_current_t
 use std::io;
 use std::num::NonZeroU64;
 
+/// Priority of a real-time process that is not ready yet.
+const STARTING: u8 = 1;
+
+/// Lets a process start before everything that is not real time, and behind every process that is ready: a replacement
+/// is wanted soon, but its start takes many cycles and must not delay a survivor's cycle.
+pub(crate) fn hurry() {
+    // Refused, it starts as slowly as any program; what is refused for good is told when it is ready.
+    let _ = fifo(STARTING);
+}
+
 /// Asks for what `entry` wants; returns what was refused, with the reasons.
 pub(crate) fn request(entry: &ProcessEntry) -> Vec<String> {
     // Without SCHED_FIFO the kernel may delay wake-ups by this slack, 50 µs by default.
