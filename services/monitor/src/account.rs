@@ -60,8 +60,10 @@ impl Account {
             skipped: pulse.skipped,
         };
         let same = self.last.filter(|last| last.generation == now.generation && last.sequence < now.sequence);
-        let before =
-            same.unwrap_or(Counters { sequence: now.sequence.saturating_sub(1), ..Counters::default() });
+        // A reader that joins late counts from there; a replacement has counted from its own start.
+        let joined_late = self.last.is_none() && now.sequence > 0;
+        let zero = if joined_late { now } else { Counters::default() };
+        let before = same.unwrap_or(Counters { sequence: now.sequence.saturating_sub(1), ..zero });
         let missed = now.missed.saturating_sub(before.missed);
         let skipped = now.skipped.saturating_sub(before.skipped);
         self.cycles += now.sequence.saturating_sub(before.sequence).max(1);

@@ -50,3 +50,9 @@ fn each_cycle_tells_what_it_added() {
     assert_eq!(account.add(&counted(1, 0, 3, 5)), Lapse { missed: 1, skipped: 4 });
     assert_eq!(account.add(&counted(2, 0, 3, 5)), Lapse::default());
 }
+
+#[test]
+fn what_was_before_a_late_reader_joined_is_not_counted() {
+    let account = account(&[counted(500, 0, 70, 9), counted(501, 0, 71, 9)]);
+    assert_eq!((account.cycles, account.missed, account.longest_miss_run, account.skipped), (2, 1, 1, 0));
+}

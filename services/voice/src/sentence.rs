@@ -20,8 +20,8 @@ pub(crate) fn announced(task: &Task, action: &Action) -> Option<String> {
         (Motion::Request, None) => format!("Please give me the {part}."),
         (Motion::Receive, _) => format!("I will take the {part} from you."),
         (Motion::Give, _) => format!("Here is the {part} for you."),
-        (Motion::Hold, Some(goal)) => format!("I will hold still for the {goal}."),
-        (Motion::Hold, None) => "I will hold still for you.".to_owned(),
+        (Motion::Hold, Some(goal)) => format!("I will hold it steady for the {goal}."),
+        (Motion::Hold, None) => "I will hold it steady for you.".to_owned(),
         (Motion::Point, _) => format!("Look, there is the {part}."),
         (Motion::Speak, _) => return None,
     })

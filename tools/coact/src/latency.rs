@@ -8,6 +8,7 @@ use anyhow::{Context, bail};
 use coact_monitor::{Account, Figures, Percentiles};
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -31,9 +32,20 @@ pub struct Args {
 /// The same figures for programs.
 #[derive(Debug, Serialize)]
 struct Report<'a> {
-    processes: &'a BTreeMap<String, Account>,
+    processes: BTreeMap<&'a str, Deadlines>,
     /// By the names of the interval logs.
     histograms: BTreeMap<&'a str, Curve>,
+}
+
+/// Deadline account of one process.
+#[derive(Debug, Serialize)]
+struct Deadlines {
+    cycles: u64,
+    missed: u64,
+    longest_miss_run: u64,
+    skipped: u64,
+    stale: u64,
+    restarts: u32,
 }
 
 /// One histogram, ns.
@@ -44,22 +56,36 @@ struct Curve {
     corrected: Percentiles,
 }
 
+impl From<&Account> for Deadlines {
+    fn from(account: &Account) -> Self {
+        let &Account { cycles, missed, longest_miss_run, skipped, stale, restarts, .. } = account;
+        Self { cycles, missed, longest_miss_run, skipped, stale, restarts }
+    }
+}
+
 /// Shows the figures of a report, or of a running set.
 ///
 /// # Errors
 /// There are none, or what is there is damaged.
 pub fn run(args: Args) -> anyhow::Result<ExitCode> {
-    match args.directory {
-        Some(directory) => {
-            let figures = load(&directory)?;
-            match args.json {
-                true => println!("{}", serde_json::to_string_pretty(&report(&figures))?),
-                false => print!("{}", show(&figures)),
-            }
-        }
-        None => live::run(args.run.as_deref(), args.json)?,
-    }
+    let Some(directory) = args.directory else {
+        live::run(args.run.as_deref(), args.json)?;
+        return Ok(ExitCode::SUCCESS);
+    };
+    let figures = load(&directory)?;
+    let text = if args.json { serde_json::to_string_pretty(&report(&figures))? } else { show(&figures) };
+    write(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes to standard output; false when its reader has seen enough.
+fn write(text: &str) -> anyhow::Result<bool> {
+    let mut out = std::io::stdout().lock();
+    match writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush()) {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(false),
+        Err(error) => Err(error).context("standard output"),
+    }
 }
 
 fn load(directory: &Path) -> anyhow::Result<Figures> {
@@ -81,7 +107,8 @@ fn report(figures: &Figures) -> Report<'_> {
         let raw = Percentiles::of(recorder.total());
         (name.as_str(), Curve { raw, corrected: Percentiles::of(&recorder.corrected()) })
     });
-    Report { processes: figures.accounts(), histograms: histograms.collect() }
+    let processes = figures.accounts().iter().map(|(name, account)| (name.as_str(), account.into()));
+    Report { processes: processes.collect(), histograms: histograms.collect() }
 }
 
 /// Tables and curves as text.

@@ -92,7 +92,8 @@ fn text(buffer: &Buffer) -> String {
             let colour = COLOURS.iter().find(|(own, _)| *own == cell.fg).map(|(_, ansi)| *ansi);
             match colour {
                 Some(colour) => {
-                    let shown = cell.symbol().if_supports_color(Stream::Stdout, |symbol| symbol.color(colour));
+                    let symbol = cell.symbol();
+                    let shown = symbol.if_supports_color(Stream::Stdout, |symbol| symbol.color(colour));
                     line.push_str(&shown.to_string());
                 }
                 None => line.push_str(cell.symbol()),

@@ -1,12 +1,12 @@
 //! The figures of a running set, second by second.
 
-use super::{report, show};
+use super::{report, show, write};
 use anyhow::{Context, bail};
 use coact_messages::{Pulse, topic};
 use coact_monitor::{Figures, links};
 use coact_pipeline::{Pipeline, Run};
 use coact_realtime::{Bus, Input};
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -35,32 +35,35 @@ pub(super) fn run(id: Option<&str>, json: bool) -> anyhow::Result<()> {
     while !stop.load(Ordering::Relaxed) && run.owner_lives() && run.directory().exists() {
         std::thread::sleep(DRAIN_EVERY);
         for (process, input) in &mut inputs {
-            input.each(|pulse| drop(figures.pulse(process, pulse)))?;
+            input.each(|pulse| {
+                figures.pulse(process, pulse);
+            })?;
         }
         if shown.elapsed() >= SHOW_EVERY {
             shown = Instant::now();
-            print(&run, &figures, json)?;
+            if !print(&run, &figures, json)? {
+                break;
+            }
         }
     }
     Ok(())
 }
 
-fn print(run: &Run, figures: &Figures, json: bool) -> anyhow::Result<()> {
-    let mut out = std::io::stdout().lock();
-    let written = if json {
-        writeln!(out, "{}", serde_json::to_string(&report(figures))?)
-    } else {
-        let clear = if out.is_terminal() { CLEAR } else { "" };
-        writeln!(out, "{clear}run {} since it was attached to (Ctrl-C ends)\n{}", run.id(), show(figures))
-    };
-    written.and_then(|()| out.flush()).context("standard output is closed")
+/// False when nobody reads any more.
+fn print(run: &Run, figures: &Figures, json: bool) -> anyhow::Result<bool> {
+    if json {
+        return write(&serde_json::to_string(&report(figures))?);
+    }
+    let clear = if std::io::stdout().is_terminal() { CLEAR } else { "" };
+    write(&format!("{clear}run {} since it was attached to (Ctrl-C ends)\n{}", run.id(), show(figures)))
 }
 
 /// The run of that name, or the newest one that still has its supervisor.
 fn find(id: Option<&str>) -> anyhow::Result<Run> {
     let mut living: Vec<Run> = Run::all().into_iter().filter(Run::owner_lives).collect();
     let known = living.iter().map(|run| run.id().to_owned()).collect::<Vec<_>>().join(", ");
-    let age = |run: &Run| std::fs::metadata(run.directory().join("run.json")).and_then(|file| file.modified()).ok();
+    let age =
+        |run: &Run| std::fs::metadata(run.directory().join("run.json")).and_then(|file| file.modified()).ok();
     living.sort_by_key(age);
     let found = match id {
         Some(id) => living.into_iter().find(|run| run.id() == id),

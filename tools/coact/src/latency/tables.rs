@@ -2,20 +2,12 @@
 
 use super::Group;
 use coact_monitor::{Figures, Percentiles};
-use comfy_table::{CellAlignment, Table, presets};
+use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 
 /// Deadline accounts, one process a row.
 pub(super) fn deadlines(figures: &Figures) -> Table {
-    let mut table = table(&[
-        "process",
-        "cycles",
-        "missed",
-        "share",
-        "longest run",
-        "skipped",
-        "stale input",
-        "restarts",
-    ]);
+    let mut table =
+        table(&["process", "cycles", "missed", "share", "longest run", "skipped", "stale input", "restarts"]);
     for (process, account) in figures.accounts() {
         let share = 100.0 * account.missed as f64 / account.cycles.max(1) as f64;
         table.add_row([
@@ -51,7 +43,7 @@ pub(super) fn durations(figures: &Figures) -> Table {
 
 fn table(header: &[&str]) -> Table {
     let mut table = Table::new();
-    table.load_preset(presets::UTF8_HORIZONTAL_ONLY).set_header(header);
+    table.load_style(UTF8_FULL_CONDENSED).set_header(header);
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
