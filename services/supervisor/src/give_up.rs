@@ -8,7 +8,7 @@ pub struct GaveUp {
     pub reason: String,
     /// Its last lines on standard error.
     pub last_words: Vec<String>,
-    /// True when it refused its configuration (exit status 2): starting it again cannot help.
+    /// True when it refused to start at all: what it was given is at fault, and starting it again cannot help.
     pub configuration: bool,
 }
 

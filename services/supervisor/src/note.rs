@@ -1,3 +1,5 @@
+use std::time::Duration;
+
 /// A line for the person at the terminal, and what its colour means.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
@@ -28,5 +30,10 @@ impl Note {
     /// A note.
     pub fn new(tone: Tone, text: impl Into<String>) -> Self {
         Self { tone, text: text.into() }
+    }
+
+    /// The same, with the run's time in front.
+    pub fn at(self, elapsed: Duration) -> Self {
+        Self { text: format!("{:>6.1} s  {}", elapsed.as_secs_f64(), self.text), ..self }
     }
 }

@@ -164,11 +164,11 @@ impl ProcessSet {
 
     /// Enters a death and decides whether a replacement is started, and when.
     fn bury(&mut self, index: usize, death: Death) -> Result<(), GaveUp> {
-        let Death { pid, reason, was_ready, overdue, configuration, child } = death;
+        let Death { pid, reason, was_ready, overdue, voluntary, child } = death;
         self.record(index, EventKind::Died, Some(pid), Some(reason.clone()));
         let first_start = self.processes[index].generation == 0 && !was_ready;
-        if first_start && (configuration || overdue) {
-            return Err(self.give_up(index, pid, reason, child.last_words(), configuration));
+        if first_start && (voluntary || overdue) {
+            return Err(self.give_up(index, pid, reason, child.last_words(), true));
         }
         self.remedy(index, pid, &reason, || child.last_words())
     }

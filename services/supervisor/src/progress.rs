@@ -63,11 +63,15 @@ impl Progress {
         self.decision = action;
     }
 
-    /// A sentence that the robot says.
+    /// A message of what the robot says.
     pub fn speech(&mut self, speech: &Speech) {
         let length = usize::try_from(speech.length).unwrap_or(usize::MAX).min(speech.text.len());
-        let text = String::from_utf8_lossy(&speech.text[..length]);
-        self.notes.push(Note::new(Tone::Speech, format!("says: \u{201c}{text}\u{201d}")));
+        self.says(&String::from_utf8_lossy(&speech.text[..length]));
+    }
+
+    /// The robot says this sentence.
+    pub fn says(&mut self, sentence: &str) {
+        self.notes.push(Note::new(Tone::Speech, format!("says: \u{201c}{sentence}\u{201d}")));
     }
 
     /// The newest pulse of a process.

@@ -153,8 +153,10 @@ impl<'a> Session<'a> {
         }
         let changed = !news.is_empty();
         for note in self.progress.take_notes() {
-            let at = self.elapsed().map_or_else(String::new, |at| format!("{:>6.1} s  ", at.as_secs_f64()));
-            self.terminal.note(Note::new(note.tone, format!("{at}{}", note.text)));
+            self.terminal.note(match self.elapsed() {
+                Some(elapsed) => note.at(elapsed),
+                None => note,
+            });
         }
         if changed || clock::now() >= self.status_at {
             self.status_at = clock::now() + Duration::from_secs(1);

@@ -56,8 +56,8 @@ pub(crate) struct Death {
     /// It never became ready in time.
     pub(crate) overdue: bool,
     pub(crate) was_ready: bool,
-    /// It exited with status 2: it refused its configuration.
-    pub(crate) configuration: bool,
+    /// It ended by itself, not by a signal.
+    pub(crate) voluntary: bool,
     pub(crate) child: RunningChild,
 }
 
@@ -112,7 +112,7 @@ impl Supervised {
             reason: alive.sentence.unwrap_or_else(|| describe(status)),
             overdue: alive.overdue,
             was_ready: alive.ready,
-            configuration: status.code() == Some(2),
+            voluntary: status.code().is_some(),
             child: alive.child,
         })
     }

@@ -162,7 +162,7 @@ fn a_set_that_is_given_up_is_stopped_and_leaves_nothing() {
     let running = in_background(place.launch(&["a", "b"], LONG, &[]));
     let run = place.run();
     let error = running.join().unwrap().unwrap_err();
-    assert!(!error.is_configuration());
+    assert!(error.is_configuration());
     assert!(error.to_string().contains("no arm found"), "{error}");
     assert_eq!(place.count(EventKind::Stopped, "a"), 1);
     assert!(!run.directory().exists());

@@ -197,8 +197,8 @@ fn a_stopped_process_that_stays_silent_for_too_long_is_killed_as_hung_and_replac
 }
 
 #[test]
-fn a_process_that_refuses_its_configuration_is_not_started_again() {
-    let mut trial = Trial::of(&[("a", "echo 'task.toml:3: no such kind' >&2; exit 2")]);
+fn a_process_that_refuses_to_start_is_not_started_again() {
+    let mut trial = Trial::of(&[("a", "echo 'task.toml:3: no such kind' >&2; exit 1")]);
     let gave_up = trial.gives_up();
     assert!(gave_up.configuration);
     assert_eq!(gave_up.last_words, ["task.toml:3: no such kind"]);
@@ -207,7 +207,7 @@ fn a_process_that_refuses_its_configuration_is_not_started_again() {
 
 #[test]
 fn a_process_that_dies_over_and_over_is_given_up_with_its_last_words() {
-    let mut trial = Trial::of(&[("a", "echo 'the arm is on fire' >&2; exit 1")]);
+    let mut trial = Trial::of(&[("a", "touch \"$READY\"; sleep 0.1; echo 'the arm is on fire' >&2; exit 1")]);
     let gave_up = trial.gives_up();
     assert!(!gave_up.configuration);
     assert_eq!(trial.count(EventKind::Restarted, "a"), 3);
@@ -224,6 +224,7 @@ fn a_process_that_never_gets_ready_is_given_up_with_the_reason() {
         spec.ready_within = Duration::from_millis(200);
     });
     let gave_up = trial.gives_up();
+    assert!(gave_up.configuration);
     assert_eq!(gave_up.reason, "not ready within 0.2 s");
     assert_eq!(gave_up.last_words, ["waiting for the camera"]);
 }

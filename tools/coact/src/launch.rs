@@ -1,11 +1,13 @@
 use crate::folder_name::unused_report_folder;
 use crate::installation::Installation;
-use crate::{closing, partner};
+use crate::{closing, lockstep, partner};
 use anyhow::{Context, Result};
 use coact_joint_task::NetworkPlan;
+use coact_perception::PreshapeModel;
 use coact_pipeline::{Pipeline, RunSettings, WorldMode};
 use coact_robot::Robot;
 use coact_supervisor::{Injection, Launch, LaunchError};
+use coact_world::Partner;
 use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -65,11 +67,11 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// # Errors
 /// A file is missing or malformed, or the machine refuses the run: nothing was started, or it was stopped again.
 pub fn run(args: Args) -> Result<ExitCode> {
-    let (json, lockstep) = (args.json, args.lockstep);
+    let (json, in_lockstep) = (args.json, args.lockstep);
     let launch = prepare(args)?;
     let report = launch.settings.report.clone();
-    if lockstep {
-        in_lockstep(&launch)?;
+    if in_lockstep {
+        lockstep::run(&launch)?;
     } else if let Err(error) = launch.run() {
         return gave_up(error, &report, json);
     }
@@ -84,8 +86,6 @@ fn prepare(args: Args) -> Result<Launch> {
     let pipeline = absolute(args.pipeline.unwrap_or_else(|| below("pipeline.toml")))?;
     let report = absolute(args.report.unwrap_or_else(|| unused_report_folder(Path::new("reports"))))?;
     let robot = below("robots/aros.toml");
-    Robot::load(&robot)?;
-    let (checked, _) = NetworkPlan::load(&task)?;
     let settings = RunSettings {
         task,
         robot,
@@ -93,23 +93,21 @@ fn prepare(args: Args) -> Result<Launch> {
         pipeline: pipeline.clone(),
         report,
         seed: args.seed,
-        partner: partner::resolve(&args.partner)?,
+        partner: partner::absolute(&args.partner),
         world: args.world,
     };
+    let (task, _) = NetworkPlan::load(&settings.task)?;
+    Robot::load(&settings.robot)?;
+    PreshapeModel::load(&settings.model)?;
+    Partner::load(&settings.partner, &task, settings.seed)?;
     Ok(Launch {
         settings,
         pipeline: Pipeline::load(&pipeline)?,
-        task: checked,
+        task,
         programs,
         duration: args.duration,
         injections: args.inject,
     })
-}
-
-/// The same stages in this process. (Call site of `coact_lockstep::run`.)
-fn in_lockstep(launch: &Launch) -> Result<()> {
-    let _ = launch;
-    anyhow::bail!("--lockstep is not available in this build")
 }
 
 /// A set that was given up has a report as far as it came, and counts as failed; all else was refused.

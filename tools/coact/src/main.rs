@@ -4,7 +4,9 @@ mod closing;
 mod folder_name;
 mod inject;
 mod installation;
+mod latency;
 mod launch;
+mod lockstep;
 mod partner;
 mod task;
 
@@ -26,6 +28,8 @@ enum Command {
     Launch(launch::Args),
     /// Inject a fault into a process of a running set
     Inject(inject::Args),
+    /// Show how regular and how fast a run was, or is
+    Latency(latency::Args),
     /// Show what is made of a task file
     Task(task::Args),
 }
@@ -47,6 +51,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Launch(args) => launch::run(args),
         Command::Inject(args) => inject::run(args),
+        Command::Latency(args) => latency::run(args),
         Command::Task(args) => task::run(args),
     };
     outcome.unwrap_or_else(|error| {

@@ -1,0 +1,34 @@
+//! `coact launch --lockstep`: the same stages in this process, with the same progress and report.
+
+use anyhow::Result;
+use coact_monitor::Monitor;
+use coact_supervisor::{Launch, Note, Progress, Terminal, Tone};
+use std::time::Duration;
+
+/// Runs all stages to the end of the run.
+///
+/// # Errors
+/// A file or setting is refused, or the report cannot be written.
+pub fn run(launch: &Launch) -> Result<()> {
+    let Launch { settings, task, duration, .. } = launch;
+    Monitor::clear(&settings.report)?;
+    let terminal = Terminal::open();
+    let mut progress = Progress::new(task);
+    let outcome = coact_lockstep::run(settings, *duration, |stages, sentence| {
+        let at = Duration::from_millis(stages.ticks());
+        progress.frame(&stages.frame);
+        if let Some(sentence) = sentence {
+            progress.says(&sentence.text);
+        }
+        for note in progress.take_notes() {
+            terminal.note(note.at(at));
+        }
+        if stages.ticks().is_multiple_of(1000) {
+            terminal.status(progress.status(at));
+        }
+    })?;
+    let (run, taken) = (outcome.ticks as f64 / 1e3, outcome.elapsed.as_secs_f64());
+    let text = format!("{run:.1} s in {taken:.1} s: {:.1} times real time", run / taken);
+    terminal.note(Note::new(Tone::Plain, text));
+    Ok(())
+}
