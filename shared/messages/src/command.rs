@@ -7,6 +7,7 @@ use iceoryx2::prelude::ZeroCopySend;
 /// Every setpoint lies within position, velocity, acceleration and jerk limits, whatever arrived.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+#[type_name("coact::Command")]
 pub struct Command {
     /// Header.
     pub header: Header,

@@ -8,6 +8,7 @@ use iceoryx2::prelude::ZeroCopySend;
 /// stand in one row, layer after layer, as [`LayerTable`] says; populations likewise.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+#[type_name("coact::FieldFrame")]
 pub struct FieldFrame {
     /// Header.
     pub header: Header,

@@ -12,6 +12,10 @@
 //! All messages are `repr(C)`, hold no pointer, accept any bit pattern, and begin with a [`Header`]. Their layout
 //! is versioned by [`LAYOUT`]: whoever changes a field raises it.
 //!
+//! For iceoryx2 each message has a type name of its own, `coact::` and the name of the struct: programs in other
+//! languages state it together with size and alignment, and are refused when they differ
+//! (`tools/watch-layer.py` is an example).
+//!
 //! A message is also its producer's memory: a stage keeps nothing that its own last message does not hold, so
 //! that a restarted process resumes from the newest message of its predecessor that survives in shared memory.
 //!

@@ -5,6 +5,7 @@ use iceoryx2::prelude::ZeroCopySend;
 /// What perception makes of the sensor samples: evidence in [0, 1], never labels (1 kHz).
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+#[type_name("coact::Percept")]
 pub struct Percept {
     /// Header.
     pub header: Header,

@@ -8,6 +8,7 @@ use iceoryx2::prelude::ZeroCopySend;
 /// (`header.published_ns`). Times are ns of `CLOCK_MONOTONIC`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable, ZeroCopySend)]
+#[type_name("coact::Pulse")]
 pub struct Pulse {
     /// Header of the output that this cycle published.
     pub header: Header,

@@ -7,6 +7,7 @@ use iceoryx2::prelude::ZeroCopySend;
 /// Lengths in m, angles in rad, world frame.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+#[type_name("coact::SensorSample")]
 pub struct SensorSample {
     /// Header; `sensor_ns` is the instant of acquisition.
     pub header: Header,

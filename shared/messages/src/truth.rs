@@ -5,6 +5,7 @@ use iceoryx2::prelude::ZeroCopySend;
 /// What really happens, for the monitor alone: no other service may subscribe to this topic (1 kHz).
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+#[type_name("coact::Truth")]
 pub struct Truth {
     /// Header.
     pub header: Header,

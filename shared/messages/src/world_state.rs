@@ -5,6 +5,7 @@ use iceoryx2::prelude::ZeroCopySend;
 /// The world's own memory: what a restarted world resumes from. Read by the supervisor's keeper alone (1 kHz).
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
+#[type_name("coact::WorldState")]
 pub struct WorldState {
     /// Header.
     pub header: Header,

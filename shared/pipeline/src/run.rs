@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 /// ```text
 /// /dev/shm/coact_<id>/run.json     what the run is made of
 ///                    /start        clock reading of tick 0, written when all are ready
+///                    /config/      iceoryx2.toml: where other iceoryx2 clients find the run's topics
 ///                    /ready/       <name>.<generation>.json, one for each process start
 ///                    /iox/         root directory of iceoryx2
 /// /dev/shm/coact_<id>_*            the run's shared memory
@@ -42,8 +43,20 @@ impl Run {
         for folder in [run.ready_directory(), run.iceoryx2_root()] {
             std::fs::create_dir(&folder).map_err(|error| failed("cannot be made", &folder, error))?;
         }
+        run.write_iceoryx2_config()?;
         run.write_json("run.json", &run.description)?;
         Ok(run)
+    }
+
+    /// Where the run's topics are, for other iceoryx2 clients: `iox2` reads this file when it is started from the run
+    /// directory, programs load it by its name.
+    fn write_iceoryx2_config(&self) -> Result<(), RunError> {
+        let path = self.directory.join("config/iceoryx2.toml");
+        let (root, prefix) = (self.iceoryx2_root(), self.prefix());
+        let text = format!("[global]\nroot-path = \"{}\"\nprefix = \"{prefix}\"\n", root.display());
+        std::fs::create_dir(self.directory.join("config"))
+            .and_then(|()| std::fs::write(&path, text))
+            .map_err(|error| failed("cannot be written", &path, error))
     }
 
     /// Finds the run that lives in `directory`.
@@ -248,6 +261,16 @@ mod tests {
         assert!(found.owner_lives() && Run::all().contains(&run));
         run.remove().unwrap();
         assert!(!run.directory().exists() && !Run::all().contains(&run));
+    }
+
+    #[test]
+    fn other_iceoryx2_clients_find_root_and_prefix_in_the_run_directory() {
+        let run = Run::create(settings()).unwrap();
+        let text = std::fs::read_to_string(run.directory().join("config/iceoryx2.toml")).unwrap();
+        let config: toml::Table = text.parse().unwrap();
+        assert_eq!(config["global"]["prefix"].as_str(), Some(run.prefix().as_str()));
+        assert_eq!(config["global"]["root-path"].as_str(), run.iceoryx2_root().to_str());
+        run.remove().unwrap();
     }
 
     #[test]
