@@ -11,8 +11,10 @@ pub struct Movement<const N: usize> {
     pub duration: f64,
 }
 
-/// Share of each limit that a planned movement uses.
+/// Share of each limit that a movement from rest uses.
 const USE: f64 = 0.95;
+/// Share of each limit that a movement under way may use: more, because it may start at a peak of the one before.
+const USE_UNDER_WAY: f64 = 0.98;
 /// Shortest movement, s.
 const SHORTEST: f64 = 0.1;
 /// Points at which a movement that does not start at rest is held against the limits.
@@ -65,9 +67,9 @@ impl<const N: usize> Movement<N> {
                 let t = self.duration * point as f64 / CHECKED as f64;
                 let state = path.at(t);
                 limit.contain(state.position, 0.0)
-                    && state.velocity.abs() <= USE * limit.velocity
-                    && state.acceleration.abs() <= USE * limit.acceleration
-                    && path.jerk(t).abs() <= USE * limit.jerk
+                    && state.velocity.abs() <= USE_UNDER_WAY * limit.velocity
+                    && state.acceleration.abs() <= USE_UNDER_WAY * limit.acceleration
+                    && path.jerk(t).abs() <= USE_UNDER_WAY * limit.jerk
             })
         })
     }

@@ -1,0 +1,172 @@
+use crate::ControlError;
+use crate::body::Body;
+use coact_joint_task::{Motion, Scene, Shape, Task};
+use coact_robot::{HandGoal, PostureSearch};
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, UnitVector3, Vector3};
+
+/// Distance of the pose before a grasp or a placing from the goal, m.
+const BACK: f64 = 0.15;
+/// How far the palm of the held-out hand is raised above the horizontal, rad (15 degrees).
+const RAISED: f64 = 0.262;
+/// Distance from the palm to the middle of the held-out hand, m.
+const HOLLOW: f64 = 0.065;
+/// How far the pointing hand stays from what it points to, and how far it goes at most, m.
+const POINTING: (f64, f64) = (0.25, 0.85);
+
+/// The places of a task as goals of the hand.
+#[derive(Debug, Clone)]
+pub(crate) struct Places {
+    scene: Scene,
+    shoulder: Point3<f64>,
+    grasp_distance: f64,
+    kinds: Vec<Grip>,
+    sockets: Vec<Isometry3<f64>>,
+}
+
+/// How a kind of part is gripped.
+#[derive(Debug, Clone, Copy)]
+struct Grip {
+    height: f64,
+    width: f64,
+    /// Rolls that serve: any (0) for round parts, two for parts with flat sides.
+    rolls: u32,
+    /// Turn of the closing axis about the part's z axis, rad.
+    turn: f64,
+}
+
+impl Places {
+    /// # Errors
+    /// [`ControlError::Unreachable`] names a place of the task that the hand needs and cannot reach.
+    pub fn new(body: &Body, task: &Task) -> Result<Self, ControlError> {
+        let places = Self {
+            scene: task.scene.clone(),
+            shoulder: body.robot.arm().centres(&body.robot.park)[0],
+            grasp_distance: body.robot.hand.grasp_distance,
+            kinds: task.kinds.iter().map(|kind| grip(kind.width, &kind.shape)).collect(),
+            sockets: task.subgoals.iter().map(|subgoal| frame(subgoal.socket, subgoal.axis)).collect(),
+        };
+        places.check(body, task)?;
+        Ok(places)
+    }
+
+    /// Width of a kind of part, m.
+    pub fn width(&self, kind: usize) -> f64 {
+        self.kinds[kind].width
+    }
+
+    /// Gripping, or setting down, a part whose frame is `frame`.
+    pub fn part(&self, kind: usize, frame: &Isometry3<f64>) -> HandGoal {
+        let Grip { height, rolls, turn, .. } = self.kinds[kind];
+        let turned = frame * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
+        HandGoal::grip(&turned, height, rolls, BACK, self.scene.table_height)
+    }
+
+    /// Putting a part into its socket.
+    pub fn socket(&self, kind: usize, subgoal: usize) -> HandGoal {
+        self.part(kind, &self.sockets[subgoal])
+    }
+
+    /// Setting a part down on the table.
+    pub fn on_table(&self, kind: usize, at: [f64; 2]) -> HandGoal {
+        self.part(kind, &Isometry3::translation(at[0], at[1], self.scene.table_height))
+    }
+
+    /// Where parts change hands, m.
+    pub fn handover(&self) -> Point3<f64> {
+        Point3::from(self.scene.handover)
+    }
+
+    /// Taking or holding out a part at the handover place, from above.
+    pub fn exchange(&self, kind: usize) -> HandGoal {
+        self.part(kind, &Translation3::from(self.handover()).into())
+    }
+
+    /// The open hand held out to the handover place: away from the shoulder, raised, so that what lies in the hand
+    /// lies at the handover place.
+    pub fn held_out(&self) -> HandGoal {
+        let out = self.handover() - self.shoulder;
+        let level = Vector3::new(out.x, out.y, 0.0).try_normalize(1e-6).unwrap_or_else(Vector3::x);
+        let approach = level * RAISED.cos() + Vector3::z() * RAISED.sin();
+        let point = self.handover() + approach * (self.grasp_distance - HOLLOW);
+        self.free(point, approach, 0.0)
+    }
+
+    /// Pressing on the base from above.
+    pub fn steadying(&self) -> HandGoal {
+        self.free(Point3::from(self.scene.hold), -Vector3::z(), BACK)
+    }
+
+    /// Pointing to `target` from a distance.
+    pub fn pointing(&self, target: &Point3<f64>) -> HandGoal {
+        let line = target - self.shoulder;
+        let approach = line.try_normalize(1e-6).unwrap_or_else(|| -Vector3::z());
+        let way = (line.norm() - POINTING.0).clamp(0.0, POINTING.1);
+        self.free(self.shoulder + approach * way, approach, 0.0)
+    }
+
+    /// The place in the robot's workspace, of a grid of 25, that is farthest from all of `taken`.
+    pub fn free_place(&self, taken: impl Iterator<Item = [f64; 3]> + Clone) -> [f64; 2] {
+        let [min, max] = self.scene.workspace[0];
+        let place = |step: usize, axis: usize, cells: usize| {
+            min[axis] + (step as f64 + 0.5) / cells as f64 * (max[axis] - min[axis])
+        };
+        let cells = (0..25).map(|cell| [place(cell % 5, 0, 5), place(cell / 5, 1, 5)]);
+        let clearance = |at: &[f64; 2]| {
+            let gaps = taken.clone().map(|other| (other[0] - at[0]).hypot(other[1] - at[1]));
+            gaps.fold(f64::INFINITY, f64::min)
+        };
+        let better = |best: ([f64; 2], f64), at: [f64; 2]| {
+            let gap = clearance(&at);
+            if gap > best.1 { (at, gap) } else { best }
+        };
+        cells.fold(([0.5 * (min[0] + max[0]), 0.5 * (min[1] + max[1])], 0.0), better).0
+    }
+
+    fn free(&self, point: Point3<f64>, approach: Vector3<f64>, back: f64) -> HandGoal {
+        HandGoal { point, approach, closing: Vector3::y(), rolls: 0, back, floor: self.scene.table_height }
+    }
+
+    fn check(&self, body: &Body, task: &Task) -> Result<(), ControlError> {
+        for action in &task.actions {
+            let goal = match (action.motion, action.kind, action.subgoal) {
+                (Motion::Insert, Some(kind), Some(subgoal)) => self.socket(kind, subgoal),
+                (Motion::Receive | Motion::Give, Some(kind), _) => self.exchange(kind),
+                (Motion::Request, ..) => self.held_out(),
+                (Motion::Hold, ..) => self.steadying(),
+                _ => continue,
+            };
+            if PostureSearch::complete(&body.robot, &goal, &body.robot.park).is_none() {
+                let [x, y, z]: [f64; 3] = goal.approach.into();
+                return Err(ControlError::Unreachable {
+                    what: format!("the place for \"{}\"", action.name),
+                    place: goal.point.coords.into(),
+                    towards: format!(
+                        "pointing along ({x:.2}, {y:.2}, {z:.2}) and {:.2} m before it",
+                        goal.back
+                    ),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How to grip a part `width` wide: a box across the side that is nearer to this width.
+fn grip(width: f64, shape: &Shape) -> Grip {
+    match *shape {
+        Shape::Cylinder { height, .. } => Grip { height, width, rolls: 0, turn: 0.0 },
+        Shape::Box { size: [x, y, height] } => {
+            let across_y = (y - width).abs() < (x - width).abs();
+            let turn = if across_y { std::f64::consts::FRAC_PI_2 } else { 0.0 };
+            Grip { height, width, rolls: 2, turn }
+        }
+    }
+}
+
+/// A part's frame at `at` with its z axis along `axis`.
+fn frame(at: [f64; 3], axis: [f64; 3]) -> Isometry3<f64> {
+    let axis = UnitVector3::try_new(Vector3::from(axis), 1e-9).unwrap_or_else(Vector3::z_axis);
+    let about_x = || UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
+    let rotation = UnitQuaternion::rotation_between(&Vector3::z(), &axis).unwrap_or_else(about_x);
+    Isometry3::from_parts(Translation3::from(at), rotation)
+}

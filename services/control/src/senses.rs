@@ -1,0 +1,101 @@
+use crate::Settings;
+use coact_messages::{Decision, FieldFrame, Percept, ROBOT, SensorSample};
+use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
+
+/// Touch below this is nothing, N.
+const TOUCH: f64 = 0.02;
+/// Evidence above this is believed.
+const BELIEF: f64 = 0.5;
+/// The person's wrist is at a place when nearer than this, m: a hand's length and some.
+const HAND_LENGTH: f64 = 0.25;
+/// A hand slower than this waits, m/s.
+const WAITING: f64 = 0.25;
+
+/// What the newest messages say, where they are young enough to say anything.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Senses<'a> {
+    sample: Option<&'a SensorSample>,
+    percept: Option<&'a Percept>,
+    frame: Option<&'a FieldFrame>,
+}
+
+impl<'a> Senses<'a> {
+    pub fn new(
+        settings: &Settings,
+        tick: u64,
+        sample: Option<&'a SensorSample>,
+        percept: Option<&'a Percept>,
+        frame: Option<&'a FieldFrame>,
+    ) -> Self {
+        let young = |cycle: u64| tick.saturating_sub(cycle) <= settings.stale_after;
+        Self {
+            sample: sample.filter(|message| young(message.header.cycle)),
+            percept: percept.filter(|message| young(message.header.cycle)),
+            frame: frame.filter(|message| young(message.header.cycle)),
+        }
+    }
+
+    /// Whether a sensor sample or a field frame is missing: the robot must not move on.
+    pub fn blind(&self) -> bool {
+        self.sample.is_none() || self.frame.is_none()
+    }
+
+    pub fn decision(&self) -> Option<Decision> {
+        self.frame.map(|frame| frame.decision)
+    }
+
+    /// Whether the fingers feel something; `None` when that is not known.
+    pub fn touch(&self) -> Option<bool> {
+        let touch = self.sample?.joints.touch;
+        touch.is_finite().then_some(touch > TOUCH)
+    }
+
+    /// Frame of the part of this kind in workspace `workspace`, if one is believed to lie there.
+    pub fn part(&self, workspace: usize, kind: usize) -> Option<Isometry3<f64>> {
+        let seen = &self.percept?.workspace[workspace];
+        let position = Point3::from(seen.position[kind]);
+        if !(seen.seen[kind] > BELIEF && position.iter().all(|value| value.is_finite())) {
+            return None;
+        }
+        let [x, y, z, w] = seen.orientation[kind];
+        let rotation = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-3);
+        let rotation = rotation.filter(|rotation| rotation.coords.iter().all(|value| value.is_finite()));
+        Some(Isometry3::from_parts(Translation3::from(position), rotation.unwrap_or_default()))
+    }
+
+    /// Places of all parts that are believed to lie in the robot's workspace.
+    pub fn parts(&self) -> impl Iterator<Item = [f64; 3]> + Clone + use<'a> {
+        let workspace = self.percept.map(|percept| &percept.workspace[ROBOT]);
+        workspace.into_iter().flat_map(|workspace| {
+            let seen = workspace.seen.iter().zip(workspace.position);
+            seen.filter(|(seen, _)| **seen > BELIEF).map(|(_, position)| position)
+        })
+    }
+
+    /// Whether the place of this subgoal is believed to be empty.
+    pub fn open(&self, subgoal: usize) -> bool {
+        self.percept.is_some_and(|percept| percept.open[subgoal] > BELIEF)
+    }
+
+    /// Kind of part that perception believes in the robot's hand, while the fingers feel something.
+    pub fn in_robot_hand(&self) -> Option<usize> {
+        let percept = self.percept.filter(|_| self.touch() == Some(true))?;
+        percept.robot_holds.iter().position(|evidence| *evidence > BELIEF)
+    }
+
+    /// Whether the person holds a part of this kind.
+    pub fn in_person_hand(&self, kind: usize) -> bool {
+        self.percept.is_some_and(|percept| percept.person_holds[kind] > BELIEF)
+    }
+
+    /// Whether the person's hand waits at `place`.
+    pub fn person_waits_at(&self, place: &Point3<f64>) -> bool {
+        self.percept.is_some_and(|percept| {
+            let hand = &percept.hand;
+            let [x, y, z] = hand.velocity;
+            let speed = (x * x + y * y + z * z).sqrt();
+            let distance = (Point3::from(hand.wrist) - place).norm();
+            hand.tracked == 1 && speed < WAITING && distance < HAND_LENGTH
+        })
+    }
+}

@@ -1,0 +1,68 @@
+//! A step allocates nothing on the heap, in any phase of any skill.
+#![allow(clippy::unwrap_used)]
+
+mod kinematic_world;
+
+use kinematic_world::KinematicWorld;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+/// Counts this thread's allocations.
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+// SAFETY: every call is passed on to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+#[test]
+fn a_step_allocates_nothing() {
+    let mut world = KinematicWorld::new();
+    let actions = world.task.actions.len() as u32;
+    let mut slowest = std::time::Duration::ZERO;
+    let mut total = std::time::Duration::ZERO;
+    let mut counted = 0;
+    let (mut command, mut previous) = (world.command.clone(), world.command.clone());
+    for tick in 0..40_000u32 {
+        if tick % 1_300 == 0 {
+            world.decide(Some((tick / 1_300) % (actions + 2)));
+        }
+        world.sense();
+        let before = ALLOCATIONS.with(Cell::get);
+        let started = std::time::Instant::now();
+        world.control.step(
+            world.tick,
+            Some(&world.sample),
+            Some(&world.percept),
+            Some(&world.frame),
+            (tick > 0).then_some(&*previous),
+            &mut command,
+        );
+        let took = started.elapsed();
+        counted += ALLOCATIONS.with(Cell::get) - before;
+        (slowest, total) = (slowest.max(took), total + took);
+        *previous = *command;
+        *world.command = *command;
+        world.tick += 1;
+    }
+    // For information only: the figures of a debug build on a busy machine prove nothing.
+    println!("step: {:?} on average, {slowest:?} at worst", total / 40_000);
+    assert_eq!(counted, 0);
+    assert!(ALLOCATIONS.with(Cell::get) > 0, "the counter counts");
+}

@@ -1,0 +1,292 @@
+//! A world without forces: joints follow their setpoints exactly, a part is held while the fingers are closed on it.
+#![allow(clippy::unwrap_used, dead_code)]
+
+use coact_control::{Control, Settings};
+use coact_joint_task::{Motion, Shape, Task};
+use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, PERSON, Percept, ROBOT, SensorSample};
+use coact_robot::{JointLimits, Robot, grip};
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use std::path::{Path, PathBuf};
+
+/// How near the grasp point must be to a part's grip, and a part to its socket, m.
+const NEAR: f64 = 0.03;
+
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+pub fn robot() -> Robot {
+    Robot::load(&root().join("rt-config/robots/aros.toml")).unwrap()
+}
+
+pub fn task() -> Task {
+    Task::load(&root().join("rt-config/tasks/toy-vehicle.toml")).unwrap()
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Holder {
+    Nobody,
+    Robot,
+    Person,
+    Socket(usize),
+}
+
+#[derive(Debug, Clone)]
+pub struct Part {
+    pub kind: usize,
+    pub workspace: usize,
+    pub frame: Isometry3<f64>,
+    pub holder: Holder,
+}
+
+pub struct KinematicWorld {
+    pub task: Task,
+    pub robot: Robot,
+    pub control: Control,
+    pub parts: Vec<Part>,
+    pub tick: u64,
+    pub sample: Box<SensorSample>,
+    pub percept: Box<Percept>,
+    pub frame: Box<FieldFrame>,
+    pub command: Box<Command>,
+    /// Phases as they came, each with the tick at which it began.
+    pub phases: Vec<(MotionPhase, u64)>,
+    /// Largest share of any velocity, acceleration and jerk limit that the setpoints used.
+    pub used: [f64; 3],
+    history: [[f64; JOINTS]; 3],
+    in_hand: Isometry3<f64>,
+}
+
+impl KinematicWorld {
+    pub fn new() -> Self {
+        let (task, robot) = (task(), robot());
+        let control = Control::new(robot.clone(), &task, Settings::default()).unwrap();
+        let height = task.scene.table_height;
+        let parts = task.parts.iter().map(|part| Part {
+            kind: part.kind,
+            workspace: part.workspace.index(),
+            frame: Isometry3::translation(part.at[0], part.at[1], height),
+            holder: Holder::Nobody,
+        });
+        let mut world = Self {
+            parts: parts.collect(),
+            tick: 1000,
+            sample: bytemuck::zeroed_box(),
+            percept: bytemuck::zeroed_box(),
+            frame: bytemuck::zeroed_box(),
+            command: bytemuck::zeroed_box(),
+            phases: Vec::new(),
+            used: [0.0; 3],
+            history: [[0.0; JOINTS]; 3],
+            in_hand: Isometry3::identity(),
+            task,
+            robot,
+            control,
+        };
+        world.decide(None);
+        world.percept.hand.wrist = world.task.scene.person_rest;
+        world.percept.hand.tracked = 1;
+        let park = world.robot.hand.posture(world.robot.hand.base_for_width(0.10));
+        world.command.position[..7].copy_from_slice(&world.robot.park);
+        world.command.position[7..14].copy_from_slice(&park);
+        world.history = [world.command.position; 3];
+        world
+    }
+
+    /// Index of the action with this skill for a subgoal of this name.
+    pub fn action(&self, motion: Motion, subgoal: &str) -> u32 {
+        let named = |index: &usize| {
+            let action = &self.task.actions[*index];
+            let goal = action.subgoal.map(|goal| self.task.subgoals[goal].name.as_str());
+            action.motion == motion && goal == Some(subgoal)
+        };
+        (0..self.task.actions.len()).find(named).unwrap_or_else(|| panic!("no {motion:?} for {subgoal}"))
+            as u32
+    }
+
+    pub fn decide(&mut self, action: Option<u32>) {
+        self.frame.decision.action = action.unwrap_or(NONE);
+        self.frame.decision.since = self.tick;
+    }
+
+    /// Puts the person's hand somewhere, still.
+    pub fn hand_at(&mut self, place: [f64; 3]) {
+        self.percept.hand.wrist = place;
+        self.percept.hand.velocity = [0.0; 3];
+    }
+
+    pub fn palm(&self) -> Isometry3<f64> {
+        self.robot.palm(&self.command.position)
+    }
+
+    pub fn grasp_point(&self) -> Point3<f64> {
+        self.robot.grasp_point(&self.command.position)
+    }
+
+    pub fn held(&self) -> Option<&Part> {
+        self.parts.iter().find(|part| part.holder == Holder::Robot)
+    }
+
+    pub fn phase(&self) -> MotionPhase {
+        self.phases.last().map_or(MotionPhase::Rest, |last| last.0)
+    }
+
+    /// Runs until `done`, at most `seconds`; the seconds it took.
+    pub fn until(&mut self, seconds: f64, what: &str, mut done: impl FnMut(&Self) -> bool) -> f64 {
+        let start = self.tick;
+        while !done(self) {
+            let passed = (self.tick - start) as f64 * 1e-3;
+            assert!(passed < seconds, "not within {seconds} s: {what}; phases {:?}", self.phases);
+            self.step();
+        }
+        (self.tick - start) as f64 * 1e-3
+    }
+
+    pub fn run(&mut self, seconds: f64) {
+        for _ in 0..(seconds * 1e3) as u64 {
+            self.step();
+        }
+    }
+
+    /// One cycle with fresh messages.
+    pub fn step(&mut self) {
+        self.sense();
+        let (sample, percept, frame) = (self.sample.clone(), self.percept.clone(), self.frame.clone());
+        self.step_with(Some(&sample), Some(&percept), Some(&frame));
+    }
+
+    /// One cycle with whatever messages.
+    pub fn step_with(
+        &mut self,
+        sample: Option<&SensorSample>,
+        percept: Option<&Percept>,
+        frame: Option<&FieldFrame>,
+    ) {
+        let previous = self.command.clone();
+        let previous = (self.tick > 1000).then_some(&*previous);
+        self.control.step(self.tick, sample, percept, frame, previous, &mut self.command);
+        self.check_limits();
+        self.grasp_and_release();
+        let phase = phase(self.command.phase);
+        if self.phases.last().map(|last| last.0) != Some(phase) {
+            self.phases.push((phase, self.tick));
+        }
+        self.tick += 1;
+    }
+
+    pub fn sense(&mut self) {
+        let tick = self.tick;
+        for header in [&mut self.sample.header, &mut self.percept.header, &mut self.frame.header] {
+            header.cycle = tick;
+        }
+        self.sample.joints.position = self.command.position;
+        self.sample.joints.velocity = self.command.velocity;
+        self.sample.joints.touch = if self.held().is_some() { 3.0 } else { 0.0 };
+        let Self { percept, parts, task, .. } = self;
+        for workspace in &mut percept.workspace {
+            workspace.seen.fill(0.0);
+        }
+        percept.robot_holds.fill(0.0);
+        percept.person_holds.fill(0.0);
+        percept.open = std::array::from_fn(|goal| f64::from(u8::from(goal < task.subgoals.len())));
+        percept.achieved.fill(0.0);
+        for part in parts.iter() {
+            match part.holder {
+                Holder::Nobody => {
+                    let seen = &mut percept.workspace[part.workspace];
+                    seen.seen[part.kind] = 1.0;
+                    seen.position[part.kind] = part.frame.translation.vector.into();
+                    seen.orientation[part.kind] = [0.0, 0.0, 0.0, 1.0];
+                }
+                Holder::Robot => percept.robot_holds[part.kind] = 1.0,
+                Holder::Person => percept.person_holds[part.kind] = 1.0,
+                Holder::Socket(goal) => (percept.open[goal], percept.achieved[goal]) = (0.0, 1.0),
+            }
+        }
+    }
+
+    fn height(&self, kind: usize) -> f64 {
+        match self.task.kinds[kind].shape {
+            Shape::Cylinder { height, .. } => height,
+            Shape::Box { size } => size[2],
+        }
+    }
+
+    fn grasp_and_release(&mut self) {
+        let palm = self.palm();
+        let width = self.robot.hand.width(self.command.position[8]);
+        if let Some(index) = self.parts.iter().position(|part| part.holder == Holder::Robot) {
+            self.parts[index].frame = palm * self.in_hand;
+            if width > self.task.kinds[self.parts[index].kind].width + 0.004 {
+                self.release(index);
+            }
+            return;
+        }
+        let point = self.grasp_point();
+        let between = |part: &Part| {
+            let grip = part.frame * Point3::new(0.0, 0.0, grip::grip_height(self.height(part.kind)));
+            let free = matches!(part.holder, Holder::Nobody | Holder::Person);
+            free && (grip - point).norm() < NEAR && width <= self.task.kinds[part.kind].width
+        };
+        if let Some(index) = self.parts.iter().position(between) {
+            self.parts[index].holder = Holder::Robot;
+            self.in_hand = palm.inverse() * self.parts[index].frame;
+        }
+    }
+
+    fn release(&mut self, index: usize) {
+        let Part { kind, frame, .. } = self.parts[index].clone();
+        let place = frame.translation.vector;
+        let matching = |goal: &usize| {
+            let subgoal = &self.task.subgoals[*goal];
+            let upright = (frame.rotation * Vector3::z()).dot(&Vector3::from(subgoal.axis));
+            subgoal.kind == kind && (place - Vector3::from(subgoal.socket)).norm() < NEAR && upright > 0.99
+        };
+        let wrist = Point3::from(self.percept.hand.wrist);
+        let part = &mut self.parts[index];
+        if let Some(goal) = (0..self.task.subgoals.len()).find(matching) {
+            let subgoal = &self.task.subgoals[goal];
+            part.holder = Holder::Socket(goal);
+            part.frame.translation = Translation3::from(subgoal.socket);
+        } else if (wrist.coords - place).norm() < 0.25 {
+            part.holder = Holder::Person;
+        } else {
+            part.holder = Holder::Nobody;
+            part.workspace = if place.x > -0.75 { ROBOT } else { PERSON };
+            part.frame = Isometry3::from_parts(
+                Translation3::new(place.x, place.y, self.task.scene.table_height),
+                UnitQuaternion::identity(),
+            );
+        }
+    }
+
+    /// Holds the finite differences of what was sent against the limits.
+    fn check_limits(&mut self) {
+        const DT: f64 = 1e-3;
+        let limits = self.robot.limits();
+        let [oldest, older, old] = self.history;
+        for (joint, JointLimits { lower, upper, velocity, acceleration, jerk, .. }) in
+            limits.iter().enumerate()
+        {
+            let now = self.command.position[joint];
+            assert!(now >= *lower && now <= *upper, "joint {joint} at {now} rad");
+            let v = |a: f64, b: f64| (a - b) / DT;
+            let (v2, v1, v0) =
+                (v(now, old[joint]), v(old[joint], older[joint]), v(older[joint], oldest[joint]));
+            let (a1, a0) = ((v2 - v1) / DT, (v1 - v0) / DT);
+            let used = [v2 / velocity, a1 / acceleration, (a1 - a0) / DT / jerk].map(f64::abs);
+            for (order, used) in used.into_iter().enumerate() {
+                // Third differences of numbers near 2 at a tick of 1 ms round to about 1e-6 rad/s³.
+                assert!(used <= 1.0 + 1e-4, "joint {joint}, derivative {}: {used} of its limit", order + 1);
+                self.used[order] = self.used[order].max(used);
+            }
+        }
+        self.history = [older, old, self.command.position];
+    }
+}
+
+fn phase(word: u32) -> MotionPhase {
+    use MotionPhase::*;
+    let all = [Rest, Reach, Approach, Grasp, Transport, Release, Retreat, Hold, Brake];
+    all.into_iter().find(|phase| *phase as u32 == word).unwrap_or_else(|| panic!("phase {word}"))
+}
