@@ -68,7 +68,7 @@ impl Lockstep {
             WorldMode::Physics => BodyKind::Physics,
             WorldMode::Kinematic => BodyKind::Kinematic,
         };
-        let partner = Partner::load(&settings.partner, &task)?;
+        let partner = Partner::load(&settings.partner, &task, settings.seed)?;
         let world = World::new(&task, &robot, Settings { seed: settings.seed, partner, body })?;
         let model = coact_perception::PreshapeModel::load(&settings.model)?;
         let network = Network::new(plan, task.fingerprint, settings.seed)?;

@@ -1,0 +1,67 @@
+//! One assembly in lockstep, told line by line: `cargo run -p coact-lockstep --example assemble -- [SEED] [PARTNER] [SECONDS]`.
+
+use coact_lockstep::Lockstep;
+use coact_messages::{LayerKind, NONE};
+use coact_pipeline::{RunSettings, WorldMode};
+use std::path::Path;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let seed = arguments.next().map_or(Ok(1), |seed| seed.parse())?;
+    let partner = arguments.next().unwrap_or_else(|| "synthetic".into());
+    let seconds: u64 = arguments.next().map_or(Ok(200), |seconds| seconds.parse())?;
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
+    let model = std::env::var("MODEL").map_or_else(|_| folder.join("perception/preshape.toml"), Into::into);
+    let mut stages = Lockstep::new(&RunSettings {
+        task: folder.join("tasks/toy-vehicle.toml"),
+        robot: folder.join("robots/aros.toml"),
+        model,
+        pipeline: folder.join("pipeline.toml"),
+        report: std::env::temp_dir(),
+        seed,
+        partner,
+        world: WorldMode::Kinematic,
+    })?;
+    let mut last = String::new();
+    let started = std::time::Instant::now();
+    while stages.ticks() < seconds * 1000 && !stages.complete() {
+        stages.step();
+        let now = describe(&stages);
+        if now != last {
+            println!("{:8.3} {now}", stages.ticks() as f64 / 1000.0);
+            last = now;
+        }
+    }
+    let (ticks, elapsed) = (stages.ticks(), started.elapsed().as_secs_f64());
+    println!("{} ms in {elapsed:.2} s: {:.1} times real time", ticks, ticks as f64 / 1000.0 / elapsed);
+    Ok(())
+}
+
+/// Everything that a person watching would want to know of this tick, in one line.
+fn describe(stages: &Lockstep) -> String {
+    let (task, plan, frame, truth) = (stages.task(), stages.plan(), &stages.frame, &stages.truth);
+    let peaks = |layer| {
+        let populations = plan.layer(layer).populations.clone();
+        let standing = populations.filter(|&population| frame.signal[population] > 0.5);
+        standing.map(|population| plan.populations[population].label.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let decision = match frame.decision.action {
+        NONE => "-",
+        action => &task.actions[action as usize].name,
+    };
+    let chain = match truth.chain {
+        NONE => "-".into(),
+        chain => format!("{} {}", task.chains[chain as usize].name, task.kinds[task.chains[chain as usize].kind].name),
+    };
+    format!(
+        "done {:09b} person [{chain} {}] AOL [{}] ASL [{}] IL [{}] EML [{}] available [{}] AEL [{decision}] motion {}",
+        truth.achieved,
+        truth.phase,
+        peaks(LayerKind::ActionObservation),
+        peaks(LayerKind::ActionSimulation),
+        peaks(LayerKind::Intention),
+        peaks(LayerKind::ErrorMonitoring),
+        peaks(LayerKind::SubgoalsAvailable),
+        stages.command.phase,
+    )
+}
