@@ -47,9 +47,10 @@ proptest! {
     #[test]
     fn no_input_breaks_the_limits(disorders in prop::collection::vec(disorder(), 10..40)) {
         let mut world = KinematicWorld::new();
-        world.step();
-        let mut moved = false;
-        let start = world.command.position;
+        let nut = world.action(coact_joint_task::Motion::Insert, "nut on the robot's side");
+        world.decide(Some(nut));
+        world.run(0.5);
+        prop_assert!(world.used[0] > 0.1, "disorder begins in the middle of a movement");
         for Disorder { action, fault, cycles, noise } in disorders {
             world.decide(Some(action));
             for _ in 0..cycles {
@@ -63,11 +64,9 @@ proptest! {
                     (!lost(9)).then_some(&*frame),
                 );
             }
-            moved |= world.command.position != start;
         }
         prop_assert!(world.command.position.iter().all(|angle| angle.is_finite()));
         prop_assert!(world.command.tracking_error.iter().all(|angle| angle.is_finite()));
-        prop_assert!(moved || world.tick < 4000);
     }
 }
 
