@@ -35,4 +35,23 @@ pub enum WorldError {
         /// What is wrong, and what to change.
         message: String,
     },
+    /// The robot cannot be simulated as its files describe it.
+    #[error("robot joint \"{joint}\" {message}")]
+    Robot {
+        /// The joint's name in the URDF.
+        joint: String,
+        /// What is wrong, and what to change.
+        message: String,
+    },
+    /// The recordings of people's reaches cannot be used.
+    #[error(transparent)]
+    Recording(#[from] coact_recordings::RecordingError),
+    /// The recordings lack what the task needs.
+    #[error("{}: {message}", path.display())]
+    Recordings {
+        /// The folder.
+        path: PathBuf,
+        /// What is missing, and what is expected.
+        message: String,
+    },
 }

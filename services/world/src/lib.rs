@@ -16,6 +16,6 @@ mod slot;
 mod world;
 
 pub use error::WorldError;
-pub use person::Script;
+pub use person::{Recorded, Script};
 pub use settings::{BodyKind, Partner, Settings};
 pub use world::World;

@@ -57,6 +57,6 @@ fn world(run: &RunSettings) -> anyhow::Result<World> {
         WorldMode::Physics => BodyKind::Physics,
         WorldMode::Kinematic => BodyKind::Kinematic,
     };
-    let settings = Settings { seed: run.seed, partner: Partner::load(&run.partner, &task)?, body };
+    let settings = Settings { seed: run.seed, partner: Partner::load(&run.partner, &task, run.seed)?, body };
     Ok(World::new(&task, &robot, settings)?)
 }

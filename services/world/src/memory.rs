@@ -2,7 +2,7 @@ use crate::person::PersonMemory;
 use crate::robot_hand::RobotHandMemory;
 use crate::sensors::TrackerMemory;
 use bytemuck::{Pod, Zeroable};
-use coact_messages::{SceneView, WorldState};
+use coact_messages::{MAX_PARTS, SceneView, WorldState};
 
 /// Everything that a world remembers beside joints and parts: the opaque words of [`WorldState`].
 ///
@@ -18,6 +18,8 @@ pub(crate) struct Memory {
     pub complete_since: u64,
     /// Completed assemblies before the present one.
     pub assemblies: u64,
+    /// Ticks for which each part has lain where nobody can take it from.
+    pub stray: [u64; MAX_PARTS],
     pub person: PersonMemory,
     pub robot: RobotHandMemory,
     pub tracker: TrackerMemory,

@@ -4,6 +4,8 @@ use glam::{DQuat, DVec3};
 
 /// How near a part must be to a socket to snap into it when it is let go, m.
 const SNAP: f64 = 0.03;
+/// How far other parts must be from where a part is put back, m.
+const HOME_CLEARANCE: f64 = 0.1;
 
 /// Who has a part: [`PartState::state`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,6 +84,12 @@ impl Parts {
         self.state[part].orientation = orientation.into();
     }
 
+    /// Places a part that moves, velocity in m/s.
+    pub fn move_to(&mut self, part: usize, position: DVec3, orientation: DQuat, velocity: [f64; 3]) {
+        self.place(part, position, orientation);
+        self.state[part].velocity = velocity;
+    }
+
     /// Centre of the part's body, m: where the person's fingers close.
     pub fn centre(&self, part: usize, task: &Task) -> DVec3 {
         self.position(part) + self.orientation(part) * (0.5 * height(task.kinds[self.kind(part)].shape) * DVec3::Z)
@@ -135,6 +143,23 @@ impl Parts {
             .filter(|index| task.subgoals[*index].kind == kind && achieved & (1 << index) == 0)
             .filter(|index| distance(index) <= SNAP)
             .min_by(|one, other| distance(one).total_cmp(&distance(other)))
+    }
+
+    /// Whether a free part lies where neither of the two can take it from.
+    pub fn is_stray(&self, part: usize, task: &Task) -> bool {
+        let at = self.state[part].position;
+        let within = |[low, high]: &[[f64; 2]; 2]| (0..2).all(|axis| at[axis] >= low[axis] && at[axis] <= high[axis]);
+        let fallen = at[2] < task.scene.table_height - 0.05;
+        self.is(part, Holder::Nobody) && (fallen || !task.scene.workspace.iter().any(within))
+    }
+
+    /// Puts a part back to where the task lays it out, unless another one lies there.
+    pub fn put_back(&mut self, part: usize, task: &Task) {
+        let home = DVec3::new(task.parts[part].at[0], task.parts[part].at[1], task.scene.table_height);
+        let taken = |other: usize| other != part && self.position(other).distance(home) < HOME_CLEARANCE;
+        if !(0..self.count).any(taken) {
+            self.move_to(part, home, DQuat::IDENTITY, [0.0; 3]);
+        }
     }
 
     fn mount(&mut self, part: usize, subgoal: usize, task: &Task) {

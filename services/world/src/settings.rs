@@ -1,5 +1,5 @@
 use crate::WorldError;
-use crate::person::Script;
+use crate::person::{Recorded, Script};
 use coact_joint_task::Task;
 use std::path::Path;
 
@@ -30,17 +30,22 @@ pub enum Partner {
     Synthetic,
     /// Follows a written sequence of actions.
     Script(Script),
+    /// Chooses like the synthetic one; the hand is that of a recorded person.
+    Recorded(Recorded),
 }
 
 impl Partner {
     /// Reads a partner as it is named on a command line: `synthetic`, `script:FILE` or `recorded:DIR`.
     ///
+    /// A folder of recordings holds several people: each seed takes another one, in turn.
+    ///
     /// # Errors
     /// [`WorldError`] for another word, or for what is wrong in the file or folder.
-    pub fn load(name: &str, task: &Task) -> Result<Self, WorldError> {
+    pub fn load(name: &str, task: &Task, seed: u64) -> Result<Self, WorldError> {
         match name.split_once(':') {
             None if name == "synthetic" => Ok(Self::Synthetic),
             Some(("script", file)) => Script::load(Path::new(file), task).map(Self::Script),
+            Some(("recorded", folder)) => Recorded::load(Path::new(folder), seed).map(Self::Recorded),
             _ => Err(WorldError::Partner { name: name.to_owned() }),
         }
     }

@@ -1,19 +1,22 @@
-use crate::body::{Body, Joints, Kinematic};
+use crate::body::{Body, FingerStop, Influence, Joints, Kinematic, Physics};
 use crate::memory::Memory;
 use crate::noise::Noise;
 use crate::parts::Parts;
 use crate::person::{HandModel, Person, Plan, Surroundings};
 use crate::robot_hand::{Palm, RobotHand};
-use crate::sensors::{read_joints, recognise, track};
+use crate::sensors::{Capture, read_joints, recognise, track};
 use crate::{BodyKind, Partner, Settings, WorldError};
 use bytemuck::Zeroable;
 use coact_joint_task::Task;
-use coact_messages::{ARM_JOINTS, Command, JOINTS, SensorSample, Truth, WorldState};
+use crate::slot::Slot;
+use coact_messages::{ARM_JOINTS, Command, JOINTS, NONE, PartnerPhase, SensorSample, Truth, WorldState};
 use coact_robot::Robot;
 use glam::DVec3;
 
 /// How long a finished assembly stands before the scene is laid out again, ticks.
 const ADMIRED: u64 = 3000;
+/// How long a part lies out of reach before it is put back, ticks.
+const STRAY: u64 = 3000;
 /// How far the robot's hand must be from where a part will lie, m.
 const CLEARANCE: f64 = 0.15;
 
@@ -24,6 +27,8 @@ pub struct World {
     hand: RobotHand,
     person: Person,
     body: Body,
+    /// Angle of the finger tips for each rad of the finger bases.
+    coupling: f64,
     joints: Joints,
     parts: Parts,
     memory: Memory,
@@ -37,21 +42,23 @@ impl World {
     /// [`WorldError::Scene`] when the scene cannot be simulated as it is laid out.
     pub fn new(task: &Task, robot: &Robot, settings: Settings) -> Result<Self, WorldError> {
         let noise = Noise::new(settings.seed);
-        let plan = match settings.partner {
-            Partner::Synthetic => Plan::Synthetic,
-            Partner::Script(script) => Plan::Script(script),
+        let (plan, recorded) = match settings.partner {
+            Partner::Synthetic => (Plan::Synthetic, None),
+            Partner::Script(script) => (Plan::Script(script), None),
+            Partner::Recorded(recorded) => (Plan::Synthetic, Some(recorded)),
         };
         let parts = Parts::new(task);
         let joints = parked(robot);
         let body = match settings.body {
-            BodyKind::Kinematic => Body::Kinematic(Kinematic::new(task, robot)),
-            BodyKind::Physics => Body::Kinematic(Kinematic::new(task, robot)),
+            BodyKind::Kinematic => Body::Kinematic(Kinematic::new(task)),
+            BodyKind::Physics => Body::Physics(Box::new(Physics::new(task, robot, &joints, &parts)?)),
         };
         Ok(Self {
             noise,
             hand: RobotHand::new(robot, task),
-            person: Person { model: HandModel::new(&task.scene), plan, noise },
+            person: Person { model: HandModel::new(&task.scene), plan, noise, recorded },
             body,
+            coupling: robot.hand.coupling,
             joints,
             parts,
             memory: Memory::zeroed(),
@@ -68,9 +75,13 @@ impl World {
         truth: &mut Truth,
         state: &mut WorldState,
     ) {
-        let elapsed = self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, 1000));
-        let stop = self.hand.stop(&self.memory.robot, &self.parts);
-        self.body.advance(elapsed, command, stop, &mut self.joints, &mut self.parts);
+        let influence = Influence {
+            elapsed: self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, 1000)),
+            command,
+            stop: FingerStop { base: self.hand.stop(&self.memory.robot, &self.parts), coupling: self.coupling },
+            person: self.memory.person.hand.wrist(),
+        };
+        self.body.advance(&influence, &mut self.joints, &mut self.parts);
         let palm = self.hand.palm(&self.joints.position);
         self.live(tick, &palm);
         self.sense(tick, command, out);
@@ -106,7 +117,19 @@ impl World {
         hand.notice(tick, palm, &mut memory.robot);
         let mut around = Surroundings { tick, task, parts, robot: &memory.robot };
         person.advance(&mut memory.person, &mut around);
+        self.tidy();
         self.begin_again(tick, palm);
+    }
+
+    /// Somebody puts back what fell off the table, or lies where neither of the two can take it from.
+    fn tidy(&mut self) {
+        let Self { task, parts, memory, .. } = self;
+        for part in 0..parts.all().len() {
+            memory.stray[part] = if parts.is_stray(part, task) { memory.stray[part] + 1 } else { 0 };
+            if memory.stray[part] > STRAY {
+                parts.put_back(part, task);
+            }
+        }
     }
 
     /// Lays the scene out again some time after the assembly was completed, once the robot's hand is out of the way.
@@ -137,8 +160,11 @@ impl World {
         let wanted = command.map_or(0.0, |command| crate::robot_hand::closing(&command.position));
         let touch = hand.touch(&memory.robot, parts, wanted);
         read_joints(tick, noise, (&joints.position, &joints.velocity), touch, &mut out.joints);
-        let pose = memory.person.hand;
-        track(tick, last, noise, &mut memory.tracker, || (None, person.model.keypoints(&pose)));
+        let Memory { person: moved, tracker, .. } = memory;
+        track(tick, last, noise, tracker, || match person.recorded_keypoints(moved, tick) {
+            Some(keypoints) => Capture::Recorded(keypoints),
+            None => Capture::Simulated(person.model.keypoints(&moved.hand)),
+        });
         out.hand = memory.tracker.delivered;
         recognise(tick, last, noise, parts, &mut memory.scene.0);
         out.scene = memory.scene.0;
@@ -147,9 +173,11 @@ impl World {
     fn tell(&self, truth: &mut Truth) {
         let person = &self.memory.person;
         truth.actions = person.actions as u32;
-        truth.phase = person.phase() as u32;
-        truth.chain = person.chain.message();
-        truth.subgoal = person.subgoal.message();
+        let phase = person.phase();
+        let of_action = |index: Slot| if phase == PartnerPhase::Idle { NONE } else { index.message() };
+        truth.phase = phase as u32;
+        truth.chain = of_action(person.chain);
+        truth.subgoal = of_action(person.subgoal);
         truth.onset_cycle = person.onset;
         truth.grasp_cycle = person.grasped;
         truth.achieved = self.parts.achieved();

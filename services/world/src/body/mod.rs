@@ -1,11 +1,19 @@
 //! What obeys the robot's commands: a body without dynamics, or a simulated one.
 
+mod articulation;
+mod finger_stop;
 mod kinematic;
+mod physics;
+mod scene;
+mod shapes;
 
+pub(crate) use finger_stop::FingerStop;
 pub(crate) use kinematic::Kinematic;
+pub(crate) use physics::Physics;
 
 use crate::parts::Parts;
 use coact_messages::{Command, JOINTS};
+use glam::DVec3;
 
 /// Measured joint positions, rad, and velocities, rad/s, in message order.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,27 +25,36 @@ pub(crate) struct Joints {
 /// The robot's body, and how parts that nobody holds behave.
 pub(crate) enum Body {
     Kinematic(Kinematic),
+    Physics(Box<Physics>),
+}
+
+/// What a body is moved by in one step.
+#[derive(Clone, Copy)]
+pub(crate) struct Influence<'a> {
+    /// Ticks since the step before.
+    pub elapsed: u64,
+    pub command: Option<&'a Command>,
+    pub stop: FingerStop,
+    /// The person's hand, m.
+    pub person: DVec3,
 }
 
 impl Body {
-    /// Moves the joints by one step of `elapsed` ticks towards the command; fingers on a part stop at `finger_stop`.
-    pub fn advance(
-        &mut self,
-        elapsed: u64,
-        command: Option<&Command>,
-        finger_stop: Option<f64>,
-        joints: &mut Joints,
-        parts: &mut Parts,
-    ) {
+    /// Moves joints and loose parts by one step.
+    pub fn advance(&mut self, influence: &Influence, joints: &mut Joints, parts: &mut Parts) {
         match self {
-            Self::Kinematic(body) => body.advance(elapsed, command, finger_stop, joints, parts),
+            Self::Kinematic(body) => body.advance(influence, joints, parts),
+            Self::Physics(body) => {
+                body.advance(influence.command, &influence.stop, influence.person, joints, parts);
+            }
         }
     }
 
     /// Takes over joints and parts from a world that was killed.
-    pub fn resume(&mut self, _joints: &Joints, _parts: &Parts) {
+    pub fn resume(&mut self, joints: &Joints, parts: &Parts) {
         match self {
             Self::Kinematic(_) => {}
+            Self::Physics(body) => body.resume(joints, parts),
         }
     }
 }

@@ -1,6 +1,5 @@
-use super::intention::{Choice, Intention, View};
-use super::plan::Plan;
-use super::{Errand, HandModel, PersonMemory, Stage};
+use super::playback::LEAD;
+use super::{Choice, Errand, HandModel, Intention, PersonMemory, Plan, Recorded, Stage, View};
 use crate::noise::{Noise, Stream};
 use crate::parts::{Holder, Parts};
 use crate::robot_hand::RobotHandMemory;
@@ -8,8 +7,6 @@ use crate::slot::Slot;
 use coact_joint_task::Task;
 use rand::RngExt;
 
-/// How far a part may lie from the closing fingers and still be grasped, m.
-const WITHIN_FINGERS: f64 = 0.05;
 /// How long the person waits for the robot's hand at the base, ms.
 const HOLD_MS: u64 = 3000;
 /// How long a part is held out to the robot, ms.
@@ -27,6 +24,8 @@ pub(crate) struct Person {
     pub model: HandModel,
     pub plan: Plan,
     pub noise: Noise,
+    /// Recorded reaches that drive the hand in place of the model's profiles.
+    pub recorded: Option<Recorded>,
 }
 
 /// What the person acts upon in one tick.
@@ -88,8 +87,19 @@ impl Person {
         memory.subgoal = intention.subgoal.map_or(Slot::EMPTY, Slot::of);
         memory.part = intention.part.map_or(Slot::EMPTY, Slot::of);
         memory.set_errand(intention.errand);
-        memory.recording = Slot::EMPTY;
-        self.set_out(memory, around);
+        memory.recording = self.choose_recording(intention, around);
+        match memory.recording.get() {
+            Some(_) => memory.enter(Stage::Prepare, around.tick + LEAD),
+            None => self.set_out(memory, around),
+        }
+    }
+
+    /// One of the recorded reaches for a part of this width.
+    fn choose_recording(&self, intention: Intention, around: &Surroundings) -> Slot {
+        let (Some(recorded), Some(part)) = (&self.recorded, intention.part) else { return Slot::EMPTY };
+        let width = around.task.kinds[around.parts.kind(part)].width;
+        let turn = self.noise.at(Stream::Choice, around.tick).random_range(0..recorded.count_for(width).max(1));
+        recorded.nth_for(width, turn).map_or(Slot::EMPTY, Slot::of)
     }
 
     /// Reach onset.
@@ -109,8 +119,12 @@ impl Person {
             }
             self.aim(memory, around.parts.centre(part, around.task));
         }
-        memory.hand = memory.movement.pose(around.tick);
+        memory.hand = match memory.recording.get() {
+            None => memory.movement.pose(around.tick),
+            Some(_) => self.recorded_pose(memory, around.tick).unwrap_or(memory.hand),
+        };
         if memory.movement.is_over(around.tick) {
+            memory.hand = memory.movement.to;
             self.arrive(memory, around);
         }
     }
@@ -122,10 +136,6 @@ impl Person {
             memory.grasped = tick;
             return memory.enter(Stage::Show, tick + SHOW_MS);
         };
-        let missed = around.parts.centre(part, around.task).distance(self.model.centre(&memory.hand));
-        if missed > WITHIN_FINGERS {
-            return self.withdraw(memory, around);
-        }
         memory.grasped = tick;
         memory.grip = Slot::of(part);
         if around.parts.is(part, Holder::Robot) {

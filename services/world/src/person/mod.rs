@@ -8,15 +8,20 @@ mod memory;
 mod movement;
 mod movements;
 mod plan;
+mod playback;
 mod profile;
+mod recorded;
 mod script;
+mod script_file;
 mod synthetic;
 
 pub(crate) use actor::{Person, Surroundings};
-pub(crate) use hand_model::HandModel;
+pub(crate) use hand_model::{FOREARM, HandModel};
 pub(crate) use hand_pose::HandPose;
 
+pub(crate) use intention::{Choice, Intention, View};
 pub(crate) use memory::{Errand, PersonMemory, Stage};
 pub(crate) use movement::Movement;
 pub(crate) use plan::Plan;
+pub use recorded::Recorded;
 pub use script::Script;

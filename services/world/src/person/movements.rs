@@ -24,14 +24,15 @@ impl Person {
     /// The reach of the present action, from where the hand is now.
     pub(super) fn reach_movement(&self, memory: &PersonMemory, around: &Surroundings) -> Movement {
         let mut rng = self.noise.at(Stream::Movement, around.tick);
-        let time = movement_time(&mut rng);
+        let drawn = movement_time(&mut rng);
+        let time = self.recording(memory).map_or(drawn, |reach| reach.movement_time);
         let deviate: f64 = StandardNormal.sample(&mut rng);
         let pitch = pitch(memory, around.task) + PITCH_SCATTER * deviate.clamp(-2.0, 2.0);
         let (to, peak) = match memory.part.get() {
             Some(part) => {
                 let width = around.task.kinds[around.parts.kind(part)].width;
                 let centre = around.parts.centre(part, around.task);
-                (self.model.grasping(centre, pitch, width, GRASPING), peak_aperture(width, &mut rng))
+                (self.grasp_of(memory, centre, pitch, width), peak_aperture(width, &mut rng))
             }
             None => (self.shown(pitch, around.task), 0.0),
         };
@@ -57,7 +58,17 @@ impl Person {
     /// Corrects the end of the reach for where the part is now.
     pub(super) fn aim(&self, memory: &mut PersonMemory, centre: DVec3) {
         let to = memory.movement.to;
-        memory.movement.to = self.model.grasping(centre, to.pitch, to.aperture, to.extension);
+        memory.movement.to = self.grasp_of(memory, centre, to.pitch, to.aperture);
+    }
+
+    /// The hand that has grasped what is at `centre`; a recorded hand holds it where its finger tips are.
+    fn grasp_of(&self, memory: &PersonMemory, centre: DVec3, pitch: f64, aperture: f64) -> HandPose {
+        let Some(reach) = self.recording(memory) else {
+            return self.model.grasping(centre, pitch, aperture, GRASPING);
+        };
+        let mut pose = self.model.grasping(centre, pitch, aperture, reach.centre.x);
+        pose.wrist = (pose.wrist() - reach.centre.y * self.model.thumb_side(&pose)).into();
+        pose
     }
 
     /// Plans the way of the held part to `place`, where its own z axis points along `axis`.

@@ -75,15 +75,3 @@ fn intend(view: &View, chain: usize) -> Option<Intention> {
     let offered = || view.take_offered().filter(|taking| taking.chain == chain);
     own.or_else(offered)
 }
-
-impl Script {
-    /// Reads a scenario file.
-    ///
-    /// # Errors
-    /// [`WorldError`] with file, line, key and what was expected.
-    pub fn load(path: &std::path::Path, _task: &coact_joint_task::Task) -> Result<Self, crate::WorldError> {
-        std::fs::read_to_string(path)
-            .map_err(|source| crate::WorldError::File { path: path.to_path_buf(), source })?;
-        Ok(Self { entries: Vec::new() })
-    }
-}

@@ -33,15 +33,22 @@ impl PartialEq for TrackerMemory {
     }
 }
 
+/// What is before the camera.
+pub(crate) enum Capture {
+    /// A simulated hand, m: the tracker's noise and gaps are added.
+    Simulated([DVec3; 9]),
+    /// A recorded one, with what its own detector misplaced and missed.
+    Recorded([Keypoint; 9]),
+}
+
 /// When a frame is due: delivers the one before, and captures a new one. So a frame is one frame time old when it
-/// comes. `capture` gives keypoints, and their own confidences when they come from a recorded person: then nothing
-/// is added to what the recording's detector missed or misplaced.
+/// comes.
 pub(crate) fn track(
     tick: u64,
     last: Option<u64>,
     noise: &Noise,
     memory: &mut TrackerMemory,
-    capture: impl FnOnce() -> (Option<[Keypoint; 9]>, [DVec3; 9]),
+    capture: impl FnOnce() -> Capture,
 ) {
     if !is_frame_due(RATE, last, tick) {
         return;
@@ -51,10 +58,9 @@ pub(crate) fn track(
         memory.delivered = memory.pending;
         memory.has_delivered = 1;
     }
-    let (recorded, points) = capture();
-    let (seen, keypoints) = match recorded {
-        Some(keypoints) => (keypoints.iter().any(|point| point.confidence > 0.0), keypoints),
-        None => blur(tick, noise, &points),
+    let (seen, keypoints) = match capture() {
+        Capture::Recorded(keypoints) => (keypoints.iter().any(|point| point.confidence > 0.0), keypoints),
+        Capture::Simulated(points) => blur(tick, noise, &points),
     };
     memory.is_pending = u64::from(seen);
     memory.pending.captured_cycle = tick;

@@ -11,6 +11,8 @@ pub(in super::super) struct FakeRobot {
     closing: f64,
     /// Tick until which it stays as it is.
     busy_until: u64,
+    /// Ticks to stay away after something was given.
+    pause: u64,
     errand: Errand,
 }
 
@@ -25,14 +27,14 @@ enum Errand {
 
 impl FakeRobot {
     pub fn new() -> Self {
-        Self { at: DVec3::new(0.0, 0.0, 2.0), closing: 0.0, busy_until: 0, errand: Errand::None }
+        Self { at: DVec3::new(0.0, 0.0, 2.0), closing: 0.0, busy_until: 0, pause: 0, errand: Errand::None }
     }
 
     /// One tick of the world with this robot in it.
     pub fn step(&mut self, tick: u64, world: &mut World, out: &mut Out) {
         if tick >= self.busy_until {
-            self.busy_until = tick + 60;
             self.act(world);
+            self.busy_until = tick + 60 + std::mem::take(&mut self.pause);
         }
         let palm = Palm { grasp_point: self.at, orientation: DQuat::IDENTITY, closing: self.closing };
         let World { parts, task, .. } = world;
@@ -103,6 +105,7 @@ impl FakeRobot {
         self.at = world.task.scene.handover.into();
         if world.memory.person.grip.get() == Some(part) {
             self.abandon();
+            self.pause = 1500;
         }
     }
 

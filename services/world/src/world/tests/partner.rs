@@ -97,13 +97,3 @@ fn gesture_is_answered_by_taking_what_is_offered() {
     }
     assert!(taken >= 3, "{taken} requests were answered");
 }
-
-#[test]
-fn debug_log() {
-    run(0, 100, |tick, world, out, before| {
-        let p = &world.memory.person;
-        if out.truth.phase != before.phase || out.truth.achieved != before.achieved {
-            eprintln!("{tick} act {} {:?} {:?} chain {:?} goal {:?} part {:?} achieved {:b} robot held {:?} asking {} off {}", p.actions, p.stage(), p.errand(), p.chain.get().map(|c| (&world.task.chains[c].name, world.task.chains[c].kind)), p.subgoal.get(), p.part.get(), out.truth.achieved, world.memory.robot.held.get(), world.memory.robot.asking_since, world.memory.robot.offering_since);
-        }
-    });
-}

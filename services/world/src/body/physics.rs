@@ -1,0 +1,161 @@
+use super::articulation::Articulation;
+use super::scene::furnish_scene;
+use super::shapes::{Layer, part_collider};
+use super::{FingerStop, Joints};
+use crate::WorldError;
+use crate::parts::{Holder, Parts};
+use coact_joint_task::Task;
+use coact_messages::{Command, PartState};
+use coact_robot::Robot;
+use glam::{DQuat, DVec3};
+use rapier3d::prelude::*;
+
+/// Gravity, m/s².
+const GRAVITY: f32 = 9.81;
+/// The person's hand is a ball of this radius, m.
+const PERSON_HAND: f32 = 0.045;
+
+/// Rigid-body dynamics of table, base, parts and robot; one step is one tick.
+///
+/// Parts in a hand follow it, mounted parts stand fast, and all others are loose.
+pub(crate) struct Physics {
+    world: PhysicsWorld,
+    articulation: Articulation,
+    parts: Vec<RigidBodyHandle>,
+    /// Parts as this body left them: what differs now was placed by someone else.
+    left: Vec<PartState>,
+    person: RigidBodyHandle,
+}
+
+impl Physics {
+    /// Builds the scene with the parts and the joints where they are.
+    ///
+    /// # Errors
+    /// [`WorldError`] when parts overlap each other or the base at the start, or a joint of the robot is unknown.
+    pub fn new(task: &Task, robot: &Robot, joints: &Joints, parts: &Parts) -> Result<Self, WorldError> {
+        let mut world = PhysicsWorld::new();
+        world.gravity = Vector::new(0.0, 0.0, -GRAVITY);
+        world.integration_parameters.dt = 1e-3;
+        furnish_scene(&mut world, task)?;
+        let articulation = Articulation::build(&mut world, robot)?;
+        let bodies = parts.all().iter().map(|part| {
+            let body = world.insert_body(RigidBodyBuilder::dynamic().pose(pose_of(part)));
+            let kind = &task.kinds[part.kind as usize];
+            let collider = part_collider(kind.shape)
+                .mass(kind.mass as f32)
+                .friction(0.7)
+                .collision_groups(Layer::Part.groups());
+            world.insert_collider(collider, Some(body));
+            body
+        });
+        let bodies = bodies.collect();
+        let person = world.insert_body(RigidBodyBuilder::kinematic_position_based());
+        let ball = ColliderBuilder::ball(PERSON_HAND).collision_groups(Layer::Person.groups());
+        world.insert_collider(ball, Some(person));
+        let mut built = Self { world, articulation, parts: bodies, left: parts.all().to_vec(), person };
+        built.resume(joints, parts);
+        Ok(built)
+    }
+
+    /// Takes over joints and parts as they are.
+    pub fn resume(&mut self, joints: &Joints, parts: &Parts) {
+        self.articulation.place(&mut self.world, joints);
+        for (index, part) in parts.all().iter().enumerate() {
+            self.put(index, part);
+        }
+        self.left.copy_from_slice(parts.all());
+    }
+
+    /// One step of 1 ms.
+    pub fn advance(
+        &mut self,
+        command: Option<&Command>,
+        stop: &FingerStop,
+        person: DVec3,
+        joints: &mut Joints,
+        parts: &mut Parts,
+    ) {
+        if let Some(command) = command {
+            self.articulation.command(&mut self.world, command, |joint| stop.limit(joint));
+        }
+        self.follow(person, parts);
+        self.world.step();
+        self.articulation.read(&self.world, joints);
+        self.report(parts);
+    }
+
+    /// Hands what was placed, taken or mounted since the last step to the engine.
+    fn follow(&mut self, person: DVec3, parts: &Parts) {
+        for (index, part) in parts.all().iter().enumerate() {
+            let left = self.left[index];
+            let loose = part.state == Holder::Nobody as u32;
+            let untouched = part.state == left.state
+                && part.position == left.position
+                && part.orientation == left.orientation;
+            if untouched {
+                continue;
+            }
+            if !loose && part.state == left.state {
+                self.carry(index, part);
+            } else {
+                self.put(index, part);
+            }
+            self.left[index] = *part;
+        }
+        if let Some(body) = self.world.bodies.get_mut(self.person) {
+            body.set_next_kinematic_position(Pose::from_translation(person.as_vec3().to_array().into()));
+        }
+    }
+
+    fn carry(&mut self, index: usize, part: &PartState) {
+        if let Some(body) = self.world.bodies.get_mut(self.parts[index]) {
+            body.set_next_kinematic_position(pose_of(part));
+        }
+    }
+
+    /// Places a part, and makes it loose, carried or fixed as its state says.
+    fn put(&mut self, index: usize, part: &PartState) {
+        let Some(body) = self.world.bodies.get_mut(self.parts[index]) else { return };
+        let kind = match part.state {
+            state if state == Holder::Nobody as u32 => RigidBodyType::Dynamic,
+            state if state == Holder::Socket as u32 => RigidBodyType::Fixed,
+            _ => RigidBodyType::KinematicPositionBased,
+        };
+        body.set_body_type(kind, true);
+        body.set_position(pose_of(part), true);
+        if kind == RigidBodyType::Dynamic {
+            body.set_linvel(DVec3::from(part.velocity).as_vec3().to_array().into(), true);
+            body.set_angvel(Vector::ZERO, true);
+        }
+    }
+
+    /// Where the loose parts are now. A body that the engine lost stays where it was last seen.
+    fn report(&mut self, parts: &mut Parts) {
+        for index in 0..self.parts.len() {
+            if !parts.is(index, Holder::Nobody) {
+                continue;
+            }
+            let Some(body) = self.world.bodies.get(self.parts[index]) else { continue };
+            if body.is_sleeping() {
+                continue;
+            }
+            let (at, turn, velocity) = (body.translation(), body.rotation(), body.linvel());
+            let finite = at.is_finite() && turn.is_finite() && velocity.is_finite();
+            if !finite {
+                let mut last = self.left[index];
+                last.velocity = [0.0; 3];
+                self.put(index, &last);
+                continue;
+            }
+            let at = DVec3::from_array(at.to_array().map(f64::from));
+            let turn = DQuat::from_array(turn.to_array().map(f64::from)).normalize();
+            parts.move_to(index, at, turn, velocity.to_array().map(f64::from));
+            self.left[index] = parts.all()[index];
+        }
+    }
+}
+
+fn pose_of(part: &PartState) -> Pose {
+    let [x, y, z, w] = part.orientation.map(|entry| entry as f32);
+    Pose::from_parts(part.position.map(|entry| entry as f32).into(), Rotation::from_xyzw(x, y, z, w).normalize())
+}

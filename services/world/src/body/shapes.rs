@@ -1,0 +1,81 @@
+//! Shapes of tasks and URDFs as colliders. The physics engine's cylinders stand along y, ours along z.
+
+use coact_joint_task::Shape;
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use rapier3d::prelude::*;
+use std::f64::consts::FRAC_PI_2;
+
+/// What touches what.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Layer {
+    /// Table and base: touched by loose parts and by the arm.
+    Fixture,
+    /// Parts: touch fixtures, each other and the arm.
+    Part,
+    /// The robot's arm.
+    Arm,
+    /// The person's hand: touches the arm. Parts that it grasps follow it by the rules of grasping.
+    Person,
+}
+
+impl Layer {
+    pub fn groups(self) -> InteractionGroups {
+        let (own, others) = match self {
+            Self::Fixture => (Group::GROUP_1, Group::GROUP_2 | Group::GROUP_3),
+            Self::Part => (Group::GROUP_2, Group::GROUP_1 | Group::GROUP_2 | Group::GROUP_3),
+            Self::Arm => (Group::GROUP_3, Group::GROUP_1 | Group::GROUP_2 | Group::GROUP_4),
+            Self::Person => (Group::GROUP_4, Group::GROUP_3),
+        };
+        InteractionGroups::new(own, others, InteractionTestMode::And)
+    }
+}
+
+/// Turns the engine's y axis onto our z axis.
+pub(super) fn upright() -> Isometry3<f64> {
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);
+    Isometry3::from_parts(Default::default(), turn)
+}
+
+/// Collider of a part in the part's frame, whose origin is at the centre of its underside.
+pub(super) fn part_collider(shape: Shape) -> ColliderBuilder {
+    let half = 0.5 * crate::parts::height(shape);
+    let centre = Isometry3::translation(0.0, 0.0, half);
+    match shape {
+        Shape::Cylinder { radius, .. } => {
+            ColliderBuilder::cylinder(half as f32, radius as f32).position(pose(&(centre * upright())))
+        }
+        Shape::Box { size } => {
+            let [x, y, z] = size.map(|extent| 0.5 * extent as f32);
+            ColliderBuilder::cuboid(x, y, z).position(pose(&centre))
+        }
+    }
+}
+
+/// Collider of a URDF geometry and how it is turned; none for a mesh, which our robot files do not use.
+pub(super) fn collider(geometry: &urdf_rs::Geometry) -> Option<(ColliderBuilder, Isometry3<f64>)> {
+    Some(match geometry {
+        urdf_rs::Geometry::Box { size } => {
+            let [x, y, z] = size.0.map(|extent| 0.5 * extent as f32);
+            (ColliderBuilder::cuboid(x, y, z), Isometry3::identity())
+        }
+        urdf_rs::Geometry::Cylinder { radius, length } => {
+            (ColliderBuilder::cylinder(0.5 * *length as f32, *radius as f32), upright())
+        }
+        urdf_rs::Geometry::Capsule { radius, length } => {
+            (ColliderBuilder::capsule_y(0.5 * *length as f32, *radius as f32), upright())
+        }
+        urdf_rs::Geometry::Sphere { radius } => {
+            (ColliderBuilder::ball(*radius as f32), Isometry3::identity())
+        }
+        urdf_rs::Geometry::Mesh { .. } => return None,
+    })
+}
+
+/// A pose in the engine's single precision.
+pub(super) fn pose(place: &Isometry3<f64>) -> Pose {
+    let (at, turn) = (place.translation.vector, place.rotation.coords);
+    Pose::from_parts(
+        Vector::new(at.x as f32, at.y as f32, at.z as f32),
+        Rotation::from_xyzw(turn.x as f32, turn.y as f32, turn.z as f32, turn.w as f32).normalize(),
+    )
+}
