@@ -62,6 +62,8 @@ pub(crate) struct RuleEntry {
     pub to: Selector,
     #[serde(default)]
     pub same: Vec<Attribute>,
+    #[serde(default)]
+    pub unlike: Vec<Attribute>,
     pub relation: Option<Relation>,
     #[serde(default)]
     pub share: bool,

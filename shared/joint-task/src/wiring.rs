@@ -210,34 +210,41 @@ impl Wiring<'_> {
     }
 
     fn related(&self, rule: &RuleEntry, from: &Population, to: &Population) -> bool {
-        let same = rule.same.iter().all(|attribute| match attribute {
-            Attribute::Act => alike(&from.act, &to.act),
-            Attribute::Kind => alike(&from.kind, &to.kind),
-            Attribute::Grip => alike(&from.grip, &to.grip),
-            Attribute::Gesture => alike(&from.gesture, &to.gesture),
-            Attribute::Subgoal => alike(&from.subgoal, &to.subgoal),
-            Attribute::Side => alike(&from.side, &to.side),
-            Attribute::Workspace => alike(&from.workspace, &to.workspace),
-            Attribute::Chain => alike(&from.chain, &to.chain),
-        });
-        same && match rule.relation {
-            None => true,
-            Some(Relation::Before) => match (from.subgoal, to.subgoal) {
-                (Some(before), Some(after)) => self.task.subgoals[after].after.contains(&before),
-                _ => false,
-            },
-            Some(Relation::Answers) => {
-                from.answer.is_some()
-                    && from.answer == to.rule
-                    && (to.subgoal.is_none() || from.subgoal == to.subgoal)
-                    && (to.role != "hold" || from.held)
+        let same = rule.same.iter().all(|&attribute| alike(attribute, from, to));
+        let unlike =
+            rule.unlike.is_empty() || rule.unlike.iter().any(|&attribute| !alike(attribute, from, to));
+        same && unlike
+            && match rule.relation {
+                None => true,
+                Some(Relation::Before) => match (from.subgoal, to.subgoal) {
+                    (Some(before), Some(after)) => self.task.subgoals[after].after.contains(&before),
+                    _ => false,
+                },
+                Some(Relation::Answers) => {
+                    from.answer.is_some()
+                        && from.answer == to.rule
+                        && (to.subgoal.is_none() || from.subgoal == to.subgoal)
+                        && (to.role != "hold" || from.held)
+                }
             }
-        }
     }
 }
 
-fn alike<T: PartialEq>(from: &Option<T>, to: &Option<T>) -> bool {
-    from.is_some() && from == to
+/// Whether both stand for the same thing, and both for one at all.
+fn alike(attribute: Attribute, from: &Population, to: &Population) -> bool {
+    fn equal<T: PartialEq>(from: &Option<T>, to: &Option<T>) -> bool {
+        from.is_some() && from == to
+    }
+    match attribute {
+        Attribute::Act => equal(&from.act, &to.act),
+        Attribute::Kind => equal(&from.kind, &to.kind),
+        Attribute::Grip => equal(&from.grip, &to.grip),
+        Attribute::Gesture => equal(&from.gesture, &to.gesture),
+        Attribute::Subgoal => equal(&from.subgoal, &to.subgoal),
+        Attribute::Side => equal(&from.side, &to.side),
+        Attribute::Workspace => equal(&from.workspace, &to.workspace),
+        Attribute::Chain => equal(&from.chain, &to.chain),
+    }
 }
 
 /// All channels of the percept, and their names with their places behind `first`.

@@ -51,7 +51,10 @@ fn describe(stages: &Lockstep) -> String {
     };
     let chain = match truth.chain {
         NONE => "-".into(),
-        chain => format!("{} {}", task.chains[chain as usize].name, task.kinds[task.chains[chain as usize].kind].name),
+        chain => format!(
+            "{} {}",
+            task.chains[chain as usize].name, task.kinds[task.chains[chain as usize].kind].name
+        ),
     };
     format!(
         "done {:09b} person [{chain} {}] AOL [{}] ASL [{}] IL [{}] EML [{}] available [{}] AEL [{decision}] motion {}",

@@ -1,0 +1,48 @@
+//! The process around control: each field frame becomes a command to the joints.
+
+use coact_control::{Control, Settings};
+use coact_joint_task::Task;
+use coact_messages::{Command, FieldFrame, Header, Percept, SensorSample, topic};
+use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick};
+use coact_robot::Robot;
+
+struct Servos {
+    control: Control,
+    sample: Input<SensorSample>,
+    percept: Input<Percept>,
+    frame: Input<FieldFrame>,
+    command: Output<Command>,
+}
+
+impl Cycle for Servos {
+    type Trigger = FieldFrame;
+
+    fn trigger(&mut self) -> &mut Input<FieldFrame> {
+        &mut self.frame
+    }
+
+    fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
+        let Self { control, sample, percept, frame, command } = self;
+        sample.refresh()?;
+        percept.refresh()?;
+        let mut out = command.loan()?;
+        // The stage goes on from the command that it sent itself, or was resumed from.
+        control.step(tick.cycle, sample.latest(), percept.latest(), frame.latest(), None, &mut out);
+        out.send(tick.cycle, frame.header().map_or(0, |header| header.sensor_ns))
+    }
+}
+
+fn main() -> anyhow::Result<()> {
+    let mut process = Process::from_arguments("control")?;
+    let run = process.run().settings();
+    let (task, robot) = (Task::load(&run.task)?, Robot::load(&run.robot)?);
+    let mut control = Control::new(robot, &task, Settings::default())?;
+    let sample = process.bus().input(topic::SENSORS)?;
+    let percept = process.bus().input(topic::PERCEPT)?;
+    let frame = process.bus().trigger(topic::FIELDS)?;
+    let mut command = process.bus().output(topic::COMMAND)?;
+    if let Some(last) = process.survivor(&mut command)? {
+        control.resume(&last);
+    }
+    Ok(process.run_cycles(Servos { control, sample, percept, frame, command })?)
+}
