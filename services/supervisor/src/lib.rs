@@ -25,6 +25,7 @@ mod process_spec;
 mod progress;
 mod refusal;
 mod restart_ledger;
+mod scheduling;
 mod session;
 mod stderr_tail;
 mod supervised;

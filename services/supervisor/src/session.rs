@@ -2,7 +2,7 @@ use crate::control_socket::ControlSocket;
 use crate::kept_messages::KeptMessages;
 use crate::launch::{Ending, Launch};
 use crate::observer::Observer;
-use crate::{Injection, LaunchError, Note, ProcessSet, Progress, Refusal, Terminal, Tone, clock};
+use crate::{Injection, LaunchError, Note, ProcessSet, Progress, Refusal, Terminal, Tone, clock, scheduling};
 use coact_pipeline::Run;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use std::sync::Arc;
@@ -74,6 +74,7 @@ impl<'a> Session<'a> {
 
     /// Starts the set, stays with it until its end, and stops it.
     pub(crate) fn attend(mut self) -> Result<Ending, LaunchError> {
+        scheduling::stand_by();
         let ending = self.watch();
         self.show();
         self.terminal.status("stopping".into());

@@ -1,0 +1,78 @@
+use crate::{Finished, checkout, coact, wait_for};
+use coact_pipeline::Run;
+use rustix::process::{Pid, Signal, kill_process};
+use std::fs::File;
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+
+/// A running `coact launch`.
+#[derive(Debug)]
+pub struct Launched {
+    child: Child,
+    folder: tempfile::TempDir,
+}
+
+impl Launched {
+    /// `coact launch` with these arguments and a report folder of its own.
+    pub fn start(arguments: &[&str]) -> Self {
+        Self::start_by(Command::new(coact()), arguments)
+    }
+
+    /// The same, by a command that ends in the program `coact`: under another user's limits, for example.
+    pub fn start_by(mut command: Command, arguments: &[&str]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| Stdio::from(File::create(folder.path().join(name)).unwrap());
+        command.arg("launch").arg("--report").arg(folder.path().join("report")).args(arguments);
+        command.current_dir(checkout()).stdin(Stdio::null()).stdout(file("stdout")).stderr(file("stderr"));
+        Self { child: command.spawn().unwrap(), folder }
+    }
+
+    /// Its run, once it has been made.
+    pub fn run(&self) -> Run {
+        let report = self.report();
+        wait_for("the run's directory", || Run::all().into_iter().find(|run| run.settings().report == report))
+    }
+
+    /// Its run, once all processes are ready and its clock runs.
+    pub fn when_started(&self) -> Run {
+        let run = self.run();
+        wait_for("the run's start", || run.start_ns().unwrap_or_default());
+        run
+    }
+
+    /// What it has shown so far.
+    pub fn shown(&self) -> String {
+        std::fs::read_to_string(self.folder.path().join("stderr")).unwrap()
+    }
+
+    /// Sends a signal to the supervisor.
+    pub fn signal(&self, signal: Signal) {
+        kill_process(Pid::from_child(&self.child), signal).unwrap();
+    }
+
+    /// Waits for its end.
+    pub fn finish(mut self) -> Finished {
+        let status = wait_for("the end of the run", || self.child.try_wait().unwrap());
+        let read = |name: &str| std::fs::read_to_string(self.folder.path().join(name)).unwrap_or_default();
+        Finished {
+            code: status.code(),
+            stdout: read("stdout"),
+            stderr: read("stderr"),
+            summary: serde_json::from_str(&read("report/summary.json")).unwrap_or_default(),
+            journal: read("report/events.jsonl"),
+            supervisor: read("report/supervisor.jsonl"),
+        }
+    }
+
+    fn report(&self) -> PathBuf {
+        self.folder.path().join("report")
+    }
+}
+
+impl Drop for Launched {
+    fn drop(&mut self) {
+        // A test that failed leaves no set behind: the supervisor's children die with it.
+        self.child.kill().ok();
+        self.child.wait().ok();
+    }
+}

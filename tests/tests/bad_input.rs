@@ -1,0 +1,128 @@
+//! What is wrong is named, with file and line, before anything is started.
+#![allow(clippy::unwrap_used)]
+
+use coact_tests::{Finished, Launched, checkout, coact};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A copy of the configuration that may be spoilt.
+fn configuration() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    copy(&checkout().join("rt-config"), &folder.path().join("rt-config"));
+    folder
+}
+
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).unwrap();
+    for entry in std::fs::read_dir(from).unwrap().map(Result::unwrap) {
+        let target = to.join(entry.file_name());
+        match entry.path().is_dir() {
+            true => copy(&entry.path(), &target),
+            false => assert!(std::fs::copy(entry.path(), target).is_ok()),
+        }
+    }
+}
+
+/// Replaces the first `from` in a file by `to`; answers file and line as an error should name them.
+fn spoil(file: PathBuf, from: &str, to: &str) -> String {
+    let text = std::fs::read_to_string(&file).unwrap();
+    let at = text.find(from).unwrap();
+    std::fs::write(&file, text.replacen(from, to, 1)).unwrap();
+    format!("{}:{}", file.file_name().unwrap().to_string_lossy(), 1 + text[..at].matches('\n').count())
+}
+
+fn refused(arguments: &[&str]) -> Finished {
+    let finished = Launched::start(arguments).finish();
+    assert_eq!(finished.code, Some(2), "{}", finished.stderr);
+    assert!(finished.supervisor.is_empty(), "nothing was started");
+    finished
+}
+
+#[test]
+fn a_malformed_task_is_refused_with_file_and_line() {
+    let folder = configuration();
+    let task = folder.path().join("rt-config/tasks/toy-vehicle.toml");
+    let place =
+        spoil(task.clone(), "after = [\"wheel on the robot's side\"]", "after = [\"wheel on the moon\"]");
+    let finished = refused(&["--task", task.to_str().unwrap()]);
+    assert!(
+        finished.stderr.contains(&place) && finished.stderr.contains("moon"),
+        "{place}: {}",
+        finished.stderr
+    );
+}
+
+#[test]
+fn a_malformed_pipeline_is_refused_with_file_and_line() {
+    let folder = configuration();
+    let pipeline = folder.path().join("rt-config/pipeline.toml");
+    let place = spoil(pipeline.clone(), "priority = 83", "priority = 183");
+    let finished = refused(&["--pipeline", pipeline.to_str().unwrap()]);
+    assert!(
+        finished.stderr.contains(&place) && finished.stderr.contains("183"),
+        "{place}: {}",
+        finished.stderr
+    );
+}
+
+#[test]
+fn a_program_that_is_not_there_is_named() {
+    let folder = configuration();
+    let pipeline = folder.path().join("rt-config/pipeline.toml");
+    spoil(pipeline.clone(), "program = \"coact-voice\"", "program = \"coact-choir\"");
+    let finished = refused(&["--pipeline", pipeline.to_str().unwrap()]);
+    assert!(finished.stderr.contains("coact-choir does not exist"), "{}", finished.stderr);
+}
+
+#[test]
+fn an_unknown_process_or_fault_is_refused_with_those_that_there_are() {
+    let finished = refused(&["--inject", "wheels:kill@1s"]);
+    assert!(
+        finished.stderr.contains("wheels") && finished.stderr.contains("perception"),
+        "{}",
+        finished.stderr
+    );
+    let finished = refused(&["--inject", "fields:melt@1s"]);
+    assert!(finished.stderr.contains("crash-on-start"), "{}", finished.stderr);
+}
+
+#[test]
+fn a_partner_that_makes_no_sense_is_refused() {
+    let finished = refused(&["--partner", "robot"]);
+    assert!(finished.stderr.contains("script:FILE"), "{}", finished.stderr);
+    let script = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(&script, "[[act]]\nchain = 7\n").unwrap();
+    let partner = format!("script:{}", script.path().display());
+    let finished = refused(&["--partner", &partner]);
+    let name = script.path().file_name().unwrap().to_string_lossy();
+    assert!(finished.stderr.contains(&format!("{name}:")), "{}", finished.stderr);
+    refused(&["--partner", "recorded:/no/such/folder"]);
+}
+
+#[test]
+fn a_full_shared_memory_is_said_so() {
+    let mut command = Command::new("unshare");
+    let small = "mount -t tmpfs -o size=4m tmpfs /dev/shm && exec \"$0\" \"$@\"";
+    command.args(["--mount", "--map-root-user", "sh", "-c", small]).arg(coact());
+    let finished = Launched::start_by(command, &["--duration", "1"]).finish();
+    assert_eq!(finished.code, Some(2), "{}", finished.stderr);
+    assert!(finished.stderr.contains("/dev/shm") && finished.stderr.contains("MiB"), "{}", finished.stderr);
+}
+
+#[test]
+fn without_real_time_privileges_it_runs_and_says_so() {
+    let mut command = Command::new("prlimit");
+    command.args(["--rtprio=0", "--memlock=65536"]);
+    if rustix::process::getuid().is_root() {
+        command.args(["setpriv", "--bounding-set=-sys_nice,-ipc_lock", "--inh-caps=-sys_nice,-ipc_lock"]);
+    }
+    command.arg(coact());
+    let finished = Launched::start_by(command, &["--duration", "3", "--world", "kinematic"]).finish();
+    assert!(matches!(finished.code, Some(0 | 1)), "{}", finished.stderr);
+    assert!(finished.stderr.contains("SCHED_FIFO"), "{}", finished.stderr);
+    assert_eq!(finished.summary["environment"]["memory_locked"], false);
+    assert!(finished.cycles("fields") > 1500, "{}", finished.stderr);
+    for process in ["world", "perception", "fields", "control"] {
+        assert!(finished.summary["environment"].to_string().contains(process));
+    }
+}

@@ -1,0 +1,81 @@
+//! Whatever dies, the set goes on: no subgoal is lost, and the report has a line for it.
+#![allow(clippy::unwrap_used)]
+
+use coact_pipeline::Pipeline;
+use coact_supervisor::EventKind;
+use coact_tests::{Launched, checkout, coact, left_behind, wait_for};
+use std::process::{Command, Output};
+
+#[test]
+fn each_process_is_killed_once_and_the_assembly_is_finished() {
+    let pipeline = Pipeline::load(&checkout().join("rt-config/pipeline.toml")).unwrap();
+    let names: Vec<String> = pipeline.processes.iter().map(|entry| entry.name.clone()).collect();
+    let kill = |(index, name): (usize, &String)| format!("--inject={name}:kill@{}s", 4 + 5 * index);
+    let kills: Vec<String> = names.iter().enumerate().map(kill).collect();
+    let mut arguments = vec!["--world", "kinematic"];
+    arguments.extend(kills.iter().map(String::as_str));
+    let launched = Launched::start(&arguments);
+    let run = launched.when_started();
+    let finished = launched.finish();
+    assert_eq!(left_behind(&run), Vec::<String>::new());
+    assert_eq!(
+        finished.summary["task"]["achieved"], finished.summary["task"]["subgoals"],
+        "{}",
+        finished.stderr
+    );
+    assert_eq!(finished.journalled("forgotten"), 0, "{}", finished.journal);
+    let faults = finished.summary["faults"].as_array().unwrap();
+    for name in &names {
+        assert_eq!(finished.count(EventKind::Died, name), 1, "{name}\n{}", finished.supervisor);
+        assert_eq!(finished.count(EventKind::Ready, name), 2, "{name}\n{}", finished.supervisor);
+        let fault = faults.iter().find(|fault| fault["process"] == name.as_str()).unwrap();
+        assert_eq!(fault["fault"], "kill");
+        assert!(fault["detected_ms"].is_f64() && fault["recovered_ms"].is_f64(), "{fault}");
+    }
+    assert_eq!(faults.len(), names.len());
+}
+
+#[test]
+fn faults_are_injected_into_a_running_set_from_the_command_line() {
+    let launched = Launched::start(&["--duration", "12", "--world", "kinematic"]);
+    let run = launched.when_started();
+    let id = run.id();
+    assert!(inject(&["fields", "kill", "--run", id]).status.success());
+    wait_for("the replacement of fields", || run.ready("fields", 1).unwrap());
+    assert!(inject(&["perception", "crash-on-start", "--run", id]).status.success());
+    wait_for("the second replacement of perception", || run.ready("perception", 2).unwrap());
+    assert!(inject(&["control", "stop", "--run", id]).status.success());
+    wait_for("the replacement of control", || run.ready("control", 1).unwrap());
+    let unknown = inject(&["wheels", "kill", "--run", id]);
+    assert_eq!(unknown.status.code(), Some(2));
+    let said = String::from_utf8(unknown.stderr).unwrap();
+    for name in ["wheels", "world", "perception", "fields", "control", "monitor", "voice"] {
+        assert!(said.contains(name), "{name} is not in: {said}");
+    }
+    let finished = launched.finish();
+    assert!(finished.cycles("fields") > 6000, "{}", finished.stderr);
+    let resumed = finished.events().iter().any(|event| {
+        event.process == "control" && event.reason.as_deref().is_some_and(|reason| reason.starts_with("hung"))
+    });
+    assert!(resumed, "{}", finished.supervisor);
+}
+
+#[test]
+fn a_replacement_goes_on_from_what_its_predecessor_left() {
+    let launched = Launched::start(&["--duration", "8", "--world", "kinematic", "--inject=fields:kill@5s"]);
+    let run = launched.when_started();
+    let ready = wait_for("the replacement of fields", || run.ready("fields", 1).unwrap());
+    assert!(ready.resumed);
+    launched.finish();
+}
+
+#[test]
+fn a_run_that_does_not_exist_is_refused() {
+    let refused = inject(&["fields", "kill", "--run", "no-such-run"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8(refused.stderr).unwrap().contains("no-such-run"));
+}
+
+fn inject(arguments: &[&str]) -> Output {
+    Command::new(coact()).arg("inject").args(arguments).output().unwrap()
+}

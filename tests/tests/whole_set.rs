@@ -1,0 +1,73 @@
+//! Real processes build together, and leave nothing behind.
+#![allow(clippy::unwrap_used)]
+
+use coact_supervisor::EventKind;
+use coact_tests::{Launched, left_behind, wait_for};
+use rustix::process::{Pid, Signal, test_kill_process};
+
+const CHAIN: [&str; 4] = ["world", "perception", "fields", "control"];
+
+#[test]
+fn a_set_builds_at_its_rate_and_reports() {
+    let launched = Launched::start(&["--duration", "15", "--world", "kinematic", "--json"]);
+    let run = launched.when_started();
+    let finished = launched.finish();
+    assert_eq!(left_behind(&run), Vec::<String>::new());
+    let verdict = if finished.code == Some(0) { "pass" } else { "fail" };
+    assert_eq!(finished.summary["verdict"], verdict, "{}", finished.stderr);
+    assert!(finished.achieved() >= 1, "{}", finished.stderr);
+    for process in CHAIN {
+        let cycles = finished.cycles(process);
+        assert!((13_500..=15_100).contains(&cycles), "{process}: {cycles} cycles in 15 s");
+    }
+    let printed: serde_json::Value = serde_json::from_str(&finished.stdout).unwrap();
+    assert_eq!(printed, finished.summary, "--json prints the summary and nothing else");
+    assert!(finished.events().iter().all(|event| event.event != EventKind::Died));
+}
+
+#[test]
+fn two_runs_beside_each_other_both_build() {
+    let start = |seed| Launched::start(&["--duration", "12", "--world", "kinematic", "--seed", seed]);
+    let (one, other) = (start("1"), start("2"));
+    let (first, second) = (one.when_started(), other.when_started());
+    assert_ne!(first.prefix(), second.prefix());
+    for (run, finished) in [(first, one.finish()), (second, other.finish())] {
+        assert_eq!(left_behind(&run), Vec::<String>::new());
+        assert!(finished.achieved() >= 1, "{}", finished.stderr);
+        assert!(finished.summary["faults"].as_array().unwrap().is_empty());
+    }
+}
+
+#[test]
+fn an_interrupted_run_is_stopped_in_order_and_reported() {
+    let launched = Launched::start(&["--world", "kinematic"]);
+    let run = launched.when_started();
+    launched.signal(Signal::TERM);
+    let finished = launched.finish();
+    assert!(matches!(finished.code, Some(0 | 1)), "{}", finished.stderr);
+    assert!(finished.summary["verdict"].is_string(), "the monitor had the time to write its summary");
+    let stopped: Vec<_> = finished.events().into_iter().filter(|e| e.event == EventKind::Stopped).collect();
+    assert_eq!(stopped.len(), CHAIN.len() + 2);
+    assert_eq!(stopped.last().unwrap().process, "monitor");
+    assert_eq!(left_behind(&run), Vec::<String>::new());
+}
+
+#[test]
+fn processes_die_with_a_killed_supervisor_and_the_next_run_removes_its_remains() {
+    let launched = Launched::start(&["--world", "kinematic"]);
+    let run = launched.when_started();
+    let pids: Vec<u32> = CHAIN.iter().map(|name| run.ready(name, 0).unwrap().unwrap().pid).collect();
+    launched.signal(Signal::KILL);
+    launched.finish();
+    wait_for("the death of all processes", || pids.iter().all(|&pid| !lives(pid)).then_some(()));
+    assert!(!left_behind(&run).is_empty());
+    Launched::start(&["--duration", "0.1", "--world", "kinematic"]).finish();
+    assert_eq!(left_behind(&run), Vec::<String>::new());
+}
+
+/// Exists, and is not a dead process that nobody has reaped yet.
+fn lives(pid: u32) -> bool {
+    let exists = Pid::from_raw(pid as i32).is_some_and(|pid| test_kill_process(pid).is_ok());
+    let status = std::fs::read_to_string(format!("/proc/{pid}/status")).unwrap_or_default();
+    exists && !status.contains("State:\tZ") && !status.is_empty()
+}
