@@ -154,3 +154,76 @@ impl Group {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use coact_messages::Pulse;
+    use coact_monitor::{Latencies, Link};
+    use std::time::SystemTime;
+
+    /// A report of one process, `control`, that is last in the chain and woke up 1 to 100 µs late.
+    fn written() -> tempfile::TempDir {
+        let report = tempfile::tempdir().unwrap();
+        let links = vec![Link { process: "control".into(), input_from: Some("fields".into()), last: true }];
+        let mut latencies =
+            Latencies::open(&report.path().join("latency"), links, SystemTime::now()).unwrap();
+        for cycle in 0..100 {
+            let mut pulse = Pulse { scheduled_ns: 5_000_000, input_published_ns: 1, ..Pulse::default() };
+            pulse.started_ns = pulse.scheduled_ns + (cycle + 1) * 1000;
+            pulse.input_received_ns = 30_001;
+            (pulse.header.sequence, pulse.header.sensor_ns) = (cycle, 4_900_000);
+            pulse.header.published_ns = 5_200_000;
+            latencies.pulse("control", &pulse);
+        }
+        latencies.write().unwrap();
+        report
+    }
+
+    fn refused(directory: &Path) -> String {
+        format!("{:#}", load(directory).unwrap_err())
+    }
+
+    #[test]
+    fn report_is_found_by_its_directory_and_by_its_logs() {
+        let report = written();
+        for directory in [report.path().to_owned(), report.path().join("latency")] {
+            let figures = load(&directory).unwrap();
+            assert_eq!(figures.accounts()["control"].cycles, 100);
+        }
+    }
+
+    #[test]
+    fn every_histogram_has_its_row_and_every_sort_its_curves() {
+        let figures = load(written().path()).unwrap();
+        let text = show(&figures);
+        for shown in ["hop fields → control", "wake-up lateness control", "execution control", "300.0"] {
+            assert!(text.contains(shown), "{shown} is missing in\n{text}");
+        }
+        assert_eq!(text.matches("duration by percentile").count(), 4);
+        assert!(text.contains("99 %") && text.contains("100 µs"), "{text}");
+    }
+
+    #[test]
+    fn json_has_figures_raw_and_corrected() {
+        let figures = load(written().path()).unwrap();
+        let json = serde_json::to_value(report(&figures)).unwrap();
+        assert_eq!(json["processes"]["control"]["cycles"], 100);
+        assert_eq!(json["histograms"]["end-to-end"]["raw"]["count"], 100);
+        assert_eq!(json["histograms"]["wakeup.control"]["corrected"]["count"], 100);
+    }
+
+    #[test]
+    fn missing_foreign_and_damaged_directories_are_refused_with_their_names() {
+        let (report, foreign) = (written(), tempfile::tempdir().unwrap());
+        assert!(refused(&foreign.path().join("none")).contains("none: no such directory"));
+        assert!(refused(foreign.path()).contains("holds no latency logs"));
+        let log = report.path().join("latency/end-to-end.hlog");
+        let text = std::fs::read_to_string(&log).unwrap();
+        std::fs::write(&log, format!("{text}garbage\n")).unwrap();
+        assert!(refused(report.path()).contains("end-to-end.hlog:"), "{}", refused(report.path()));
+        std::fs::write(&log, text.replacen("HIST", "XXXX", 1)).unwrap();
+        assert!(refused(report.path()).contains("interval 1 is damaged"), "{}", refused(report.path()));
+    }
+}
