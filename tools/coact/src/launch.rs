@@ -89,7 +89,7 @@ fn prepare(args: Args) -> Result<Launch> {
     let settings = RunSettings {
         task,
         robot,
-        model: below("perception/reaches.toml"),
+        model: below("perception/preshape.toml"),
         pipeline: pipeline.clone(),
         report,
         seed: args.seed,

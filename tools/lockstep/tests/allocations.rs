@@ -1,0 +1,22 @@
+//! A steady cycle of every stage makes no heap allocation.
+#![allow(clippy::unwrap_used)]
+
+mod shipped;
+
+use coact_lockstep::Lockstep;
+use shipped::settings;
+use std::collections::BTreeMap;
+
+#[test]
+fn no_stage_allocates_in_steady_state() {
+    let mut stages = Lockstep::new(&settings(2, "synthetic")).unwrap();
+    (0..100).for_each(|_| stages.step());
+    let mut allocations = BTreeMap::<&str, u64>::new();
+    // Long enough for grasps, handovers and changes of decision.
+    for _ in 0..30_000 {
+        stages.step_watched(&mut |name, stage| {
+            *allocations.entry(name).or_default() += allocation_counter::measure(stage).count_total;
+        });
+    }
+    assert_eq!(allocations, BTreeMap::from([("world", 0), ("perception", 0), ("fields", 0), ("control", 0)]));
+}

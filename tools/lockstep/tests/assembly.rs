@@ -1,0 +1,53 @@
+//! Robot and synthetic partner build the whole vehicle, and do so in the same way each time.
+#![allow(clippy::unwrap_used)]
+
+mod shipped;
+
+use coact_lockstep::Lockstep;
+use shipped::settings;
+
+/// Ticks within which every assembly must be done: three times what it usually takes.
+const LONGEST: u64 = 180_000;
+
+#[test]
+fn vehicle_is_built_with_every_partner() {
+    for seed in 1..=5 {
+        let mut stages = Lockstep::new(&settings(seed, "synthetic")).unwrap();
+        while !stages.complete() && stages.ticks() < LONGEST {
+            stages.step();
+        }
+        let achieved = stages.truth.achieved;
+        assert!(stages.complete(), "partner {seed}: only {achieved:09b} after {LONGEST} ms");
+        assert_eq!(achieved.count_ones() as usize, stages.task().subgoals.len(), "the robot knows what is true");
+    }
+}
+
+#[test]
+fn subgoals_are_achieved_in_an_order_that_the_plan_allows() {
+    for seed in 6..=8 {
+        let mut stages = Lockstep::new(&settings(seed, "synthetic")).unwrap();
+        let mut before = 0;
+        while !stages.complete() && stages.ticks() < LONGEST {
+            stages.step();
+            let now = stages.truth.achieved;
+            for (index, subgoal) in stages.task().subgoals.iter().enumerate() {
+                let new = now & !before & (1 << index) != 0;
+                let ready = subgoal.after.iter().all(|&needed| before & (1 << needed) != 0);
+                assert!(!new || ready, "partner {seed}: {} came too early", subgoal.name);
+            }
+            before = now;
+        }
+    }
+}
+
+#[test]
+fn same_seed_gives_the_same_bits() {
+    let mut pair = [0, 1].map(|_| Lockstep::new(&settings(3, "synthetic")).unwrap());
+    for _ in 0..20_000 {
+        pair.iter_mut().for_each(Lockstep::step);
+        let [one, other] = &pair;
+        assert_eq!(bytemuck::bytes_of(&*one.command), bytemuck::bytes_of(&*other.command), "tick {}", one.ticks());
+    }
+    let [one, other] = &pair;
+    assert_eq!(bytemuck::bytes_of(&*one.frame), bytemuck::bytes_of(&*other.frame));
+}

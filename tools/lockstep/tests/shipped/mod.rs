@@ -1,0 +1,33 @@
+//! The stages with what the project ships.
+#![allow(dead_code, reason = "each test file uses its part")]
+
+use coact_lockstep::Lockstep;
+use coact_messages::NONE;
+use coact_pipeline::{RunSettings, WorldMode};
+use std::path::{Path, PathBuf};
+
+pub fn configuration() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config")
+}
+
+pub fn settings(seed: u64, partner: &str) -> RunSettings {
+    let folder = configuration();
+    RunSettings {
+        task: folder.join("tasks/toy-vehicle.toml"),
+        robot: folder.join("robots/aros.toml"),
+        model: folder.join("perception/preshape.toml"),
+        pipeline: folder.join("pipeline.toml"),
+        report: PathBuf::new(),
+        seed,
+        partner: partner.into(),
+        world: WorldMode::Kinematic,
+    }
+}
+
+/// Name of the robot's decision.
+pub fn decision(stages: &Lockstep) -> Option<&str> {
+    match stages.frame.decision.action {
+        NONE => None,
+        action => Some(&stages.task().actions[action as usize].name),
+    }
+}
