@@ -8,13 +8,13 @@ use coact_joint_task::{Grip, Kind, Task};
 use coact_messages::{MAX_KINDS, PERSON, Percept};
 use nalgebra::Vector3;
 
-/// Phases of a reach (see [`crate::SNAPSHOTS`]) between which evidence for a grasp opens.
-const OPENS: (f64, f64) = (0.15, 0.35);
+/// Phases of a reach (see [`crate::SNAPSHOTS`]) between which evidence for a grasp opens: an early decision is a wrong one.
+const OPENS: (f64, f64) = (0.6, 1.1);
 /// Phases between which evidence is sharpened, as contact comes near, and the exponent that is reached.
-const SHARPENS: (f64, f64) = (0.40, 0.80);
-const SHARPNESS: f64 = 4.0;
+const SHARPENS: (f64, f64) = (1.0, 1.4);
+const SHARPNESS: f64 = 6.0;
 /// Phases between which the pitch of the hand becomes that of the grip.
-const TURNS: (f64, f64) = (0.20, 0.60);
+const TURNS: (f64, f64) = (0.25, 0.80);
 /// How well a movement must lead to a part: no, and full evidence that it is meant for one.
 const LEADS: (f64, f64) = (0.05, 0.35);
 /// Distance from its target at which a movement that did not begin at rest tells where it goes, m: no, full evidence.

@@ -3,7 +3,7 @@ use crate::preshape::Classifier;
 use crate::targets::Heading;
 
 /// Phase of a reach beyond which it is over, whatever came of it.
-const OVER: f64 = 1.7;
+const OVER: f64 = 2.3;
 
 /// What the hand is doing now.
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,7 @@
 use nalgebra::Vector3;
 
 /// Scatter of a reach's end point about the line of its present movement: at the target, and per metre of way left.
-const SCATTER: (f64, f64) = (0.03, 0.30);
+const SCATTER: (f64, f64) = (0.05, 0.30);
 /// Speed below which a movement has no direction, m/s.
 const DIRECTED: f64 = 0.10;
 

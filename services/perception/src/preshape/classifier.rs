@@ -3,7 +3,8 @@ use super::features::features;
 use super::hierarchy::{Counts, Hierarchy};
 use super::model::{CLASSES, DIRECTIONS, PreshapeModel, READ, SNAPSHOTS};
 use super::person::{OwnLevel, PastReach, Person};
-use super::{Features, PreshapeMemory, ReachRecord};
+use super::reach::ON_THE_WAY;
+use super::{FEATURES, Features, PreshapeMemory, ReachRecord};
 use crate::hand::HandMemory;
 use coact_joint_task::Kind;
 use coact_messages::MAX_KINDS;
@@ -39,7 +40,7 @@ impl Classifier {
         })
     }
 
-    /// Time since the reach's onset in units of the person's usual time to the slow phase.
+    /// Time since the reach's onset in units of the person's tempo.
     pub fn phase(&self, memory: &PreshapeMemory, cycle: u64) -> f64 {
         let tempo = if memory.person.tempo > 0.0 { memory.person.tempo } else { self.model.tempo };
         cycle.saturating_sub(memory.reach.onset) as f64 * 1e-3 / tempo
@@ -63,11 +64,16 @@ impl Classifier {
             return;
         }
         let phase = self.phase(memory, hand.captured);
+        let features = self.features(hand, &memory.reach);
+        let displacement = features[FEATURES - 1];
+        memory
+            .reach
+            .pace
+            .advance(displacement, hand.captured.saturating_sub(memory.reach.onset) as f64 * 1e-3);
         let own_movement = hand.motion.onset == memory.reach.onset;
         if memory.reach.tempo == 0.0 && own_movement && hand.motion.slowed > 0 {
-            memory.reach.tempo = (hand.motion.slowed - memory.reach.onset) as f64 * 1e-3;
+            memory.reach.tempo = memory.reach.pace.time_to(ON_THE_WAY * displacement).unwrap_or(0.0);
         }
-        let features = self.features(hand, &memory.reach);
         memory.reach.advance(phase, &features);
         if memory.reach.is_complete() {
             self.finish(memory);

@@ -19,6 +19,7 @@ mod features;
 mod fitting;
 mod hierarchy;
 mod model;
+mod pace;
 mod person;
 mod preshape_memory;
 mod reach;
@@ -26,6 +27,7 @@ mod reach;
 pub use error::ModelError;
 pub use features::{FEATURES, Features};
 pub use model::{CLASSES, DIRECTIONS, Level, PreshapeModel, READ, SNAPSHOTS, WHOLE, WHOLE_LENGTH};
+pub use pace::Pace;
 pub use reach::ReachRecord;
 
 /// The last phase that is read, as an index into [`SNAPSHOTS`].

@@ -6,13 +6,13 @@ use std::path::Path;
 pub const CLASSES: usize = 3;
 /// Discriminant directions: one less than classes.
 pub const DIRECTIONS: usize = 2;
-/// Phases of a reach at which features are kept: time since onset, in units of the person's usual time to the slow
-/// phase.
-pub const SNAPSHOTS: [f64; 7] = [0.3, 0.5, 0.65, 0.8, 0.95, 1.1, 1.8];
+/// Phases of a reach at which features are kept: time since onset, in units of the person's tempo. Contact comes at
+/// about 1.8.
+pub const SNAPSHOTS: [f64; 6] = [0.65, 0.9, 1.1, 1.3, 1.5, 2.4];
 /// The first so many of them are read while the reach goes on.
 pub const READ: usize = 5;
 /// The ones from which a reach that is over is judged as a whole: the last lies beyond the grasp.
-pub const WHOLE: [usize; 3] = [3, 5, 6];
+pub const WHOLE: [usize; 3] = [2, 4, 5];
 /// Features of a whole reach.
 pub const WHOLE_LENGTH: usize = FEATURES * WHOLE.len();
 
@@ -22,7 +22,7 @@ pub const WHOLE_LENGTH: usize = FEATURES * WHOLE.len();
 pub struct PreshapeModel {
     /// Widths of the three size classes, m, ascending.
     pub sizes: [f64; CLASSES],
-    /// Usual time from onset to the slow phase over all people, s.
+    /// Usual tempo over all people: time from onset to 80 % of the way to the slow phase, s.
     pub tempo: f64,
     /// One level for each phase that is read on the way, in the order of [`SNAPSHOTS`].
     pub phase: Vec<Level>,

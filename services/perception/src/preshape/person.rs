@@ -2,7 +2,7 @@ use super::model::{CLASSES, DIRECTIONS, READ};
 use bytemuck::{Pod, Zeroable};
 
 /// Reaches that are remembered.
-pub(crate) const REACHES: usize = 36;
+pub(crate) const REACHES: usize = 34;
 /// Reaches that the usual tempo of people counts for.
 const PRIOR_REACHES: usize = 3;
 
@@ -14,7 +14,7 @@ pub(crate) struct PastReach {
     pub whole: [f64; DIRECTIONS],
     /// At each phase that is read on the way.
     pub phase: [[f64; DIRECTIONS]; READ],
-    /// Time from onset to the slow phase, s.
+    /// Its tempo, s.
     pub tempo: f64,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct OwnLevel {
 pub(crate) struct Person {
     /// Reaches so far.
     pub count: u64,
-    /// Usual time from onset to the slow phase, s; 0 before the first reach.
+    /// Usual tempo, s; 0 before the first reach.
     pub tempo: f64,
     /// Class means at each phase; valid once `adapted`.
     pub own: [OwnLevel; READ],

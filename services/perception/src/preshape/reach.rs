@@ -1,5 +1,9 @@
-use super::{FEATURES, Features, SNAPSHOTS};
+use super::{FEATURES, Features, Pace, SNAPSHOTS};
 use bytemuck::{Pod, Zeroable};
+
+/// Share of the way to the slow phase that a person's tempo is measured by. People differ in how they arrive; this far,
+/// they are alike: contact comes at 1.8 times it, within 10 %.
+pub(crate) const ON_THE_WAY: f64 = 0.8;
 
 /// What is kept of one reach from rest: features at each phase of [`SNAPSHOTS`].
 #[repr(C)]
@@ -9,10 +13,12 @@ pub struct ReachRecord {
     pub onset: u64,
     /// Phases that have passed.
     pub passed: u64,
-    /// Time from onset to the slow phase, s; 0 before.
+    /// Time from onset to [`ON_THE_WAY`] of the way that was covered when the slow phase began, s; 0 before that.
     pub tempo: f64,
     /// Where the wrist lay before, m.
     pub departure: [f64; 3],
+    /// When the wrist had covered how much of its way.
+    pub pace: Pace,
     /// Features at each phase.
     pub features: [Features; SNAPSHOTS.len()],
 }
@@ -43,7 +49,7 @@ impl ReachRecord {
     }
 
     /// Features of the whole reach, one phase after the other.
-    pub(crate) fn whole(&self) -> [f64; super::WHOLE_LENGTH] {
+    pub fn whole(&self) -> [f64; super::WHOLE_LENGTH] {
         std::array::from_fn(|index| self.features[super::WHOLE[index / FEATURES]][index % FEATURES])
     }
 }

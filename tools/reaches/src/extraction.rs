@@ -1,0 +1,52 @@
+use crate::playback::Playback;
+use coact_joint_task::Task;
+use coact_perception::{
+    CLASSES, DIRECTIONS, FEATURES, Level, Perception, PreshapeModel, READ, ReachRecord, SingularModel,
+    WHOLE_LENGTH,
+};
+use coact_recordings::Reach;
+
+/// Tempo that is assumed of people whom nobody has seen yet, s.
+const USUAL_TEMPO: f64 = 0.33;
+
+/// What perception kept of one reach, and what it was for.
+#[derive(Debug, Clone)]
+pub(crate) struct Labelled {
+    pub participant: u32,
+    /// Size class.
+    pub class: usize,
+    pub record: ReachRecord,
+}
+
+/// Replays one person's reaches through perception and keeps what it reads from the hand. Reaches in which it found no
+/// onset, no slow phase or no grasp are left out.
+pub(crate) fn extract(task: &Task, person: &[&Reach]) -> Result<Vec<Labelled>, SingularModel> {
+    let mut playback = Playback::new(task, Perception::new(task, &blank())?, person);
+    let mut kept = Vec::new();
+    for reach in person {
+        playback.play(reach, |_, _| {});
+        let record = *playback.perception().reach();
+        if record.is_complete() && record.tempo > 0.0 {
+            kept.push(Labelled { participant: reach.participant, class: reach.size.index(), record });
+        }
+    }
+    Ok(kept)
+}
+
+/// A model that knows nothing: features are read alike under every model.
+fn blank() -> PreshapeModel {
+    let unit = [[1.0, 0.0], [0.0, 1.0]];
+    let level = |length: usize| Level {
+        directions: std::array::from_fn::<_, DIRECTIONS, _>(|_| vec![0.0; length]),
+        mean: [[0.0; DIRECTIONS]; CLASSES],
+        within: unit,
+        contrast: unit,
+        person: unit,
+    };
+    PreshapeModel {
+        sizes: [0.025, 0.055, 0.075],
+        tempo: USUAL_TEMPO,
+        phase: vec![level(FEATURES); READ],
+        whole: level(WHOLE_LENGTH),
+    }
+}

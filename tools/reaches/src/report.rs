@@ -1,0 +1,80 @@
+use crate::outcome::{FRACTIONS, Outcome};
+use serde::Serialize;
+
+/// What came of all reaches, and of each person's.
+#[derive(Debug, Clone, Serialize)]
+pub struct Report {
+    /// The plan.
+    pub task: String,
+    /// How many goals it leaves.
+    pub goals: usize,
+    /// All people.
+    pub overall: Tally,
+    /// Each person, in the order of the folder.
+    pub people: Vec<(u32, Tally)>,
+    /// Every reach.
+    pub reaches: Vec<Outcome>,
+}
+
+/// Figures of some reaches. Shares are of all of them: no decision counts as not right.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Tally {
+    /// Reaches.
+    pub reaches: usize,
+    /// Decided rightly before contact.
+    pub right: usize,
+    /// Decided wrongly.
+    pub wrong: usize,
+    /// Not decided.
+    pub undecided: usize,
+    /// Share decided rightly before contact.
+    pub right_share: f64,
+    /// Share for which the right goal stood at 20, 40, 60, 80 and 100 % of movement time.
+    pub standing_right: [f64; 5],
+    /// Contact minus decision, ms, of all decisions: p5, p50, p95; `None` without decisions.
+    pub lead_ms: Option<[i64; 3]>,
+    /// Perception's onset minus the label, ms: p5, p50, p95.
+    pub onset_ms: Option<[i64; 3]>,
+    /// Reaches whose onset perception missed before contact.
+    pub onset_missed: usize,
+}
+
+impl Report {
+    /// Counts what became of the reaches.
+    pub fn new(task: &str, goals: usize, reaches: Vec<Outcome>) -> Self {
+        let mut people: Vec<u32> = reaches.iter().map(|outcome| outcome.participant).collect();
+        people.dedup();
+        let own = |person: u32| reaches.iter().filter(move |outcome| outcome.participant == person);
+        let people = people.into_iter().map(|person| (person, Tally::of(own(person)))).collect();
+        Self { task: task.to_owned(), goals, overall: Tally::of(reaches.iter()), people, reaches }
+    }
+}
+
+impl Tally {
+    fn of<'a>(outcomes: impl Iterator<Item = &'a Outcome> + Clone) -> Self {
+        let reaches = outcomes.clone().count();
+        let right = outcomes.clone().filter(|outcome| outcome.is_right()).count();
+        let undecided = outcomes.clone().filter(|outcome| outcome.decision.is_none()).count();
+        let share = |count: usize| count as f64 / reaches.max(1) as f64;
+        let stood = |at: usize| outcomes.clone().filter(|outcome| outcome.standing[at] == Some(true)).count();
+        let leads = outcomes.clone().filter_map(|outcome| outcome.decision.map(|decided| decided.lead_ms));
+        Self {
+            reaches,
+            right,
+            wrong: reaches - right - undecided,
+            undecided,
+            right_share: share(right),
+            standing_right: std::array::from_fn::<_, { FRACTIONS.len() }, _>(|at| share(stood(at))),
+            lead_ms: percentiles(leads.collect()),
+            onset_ms: percentiles(outcomes.clone().filter_map(|outcome| outcome.onset_ms).collect()),
+            onset_missed: outcomes.filter(|outcome| outcome.onset_ms.is_none()).count(),
+        }
+    }
+}
+
+/// Nearest-rank percentiles 5, 50 and 95.
+fn percentiles(mut values: Vec<i64>) -> Option<[i64; 3]> {
+    values.sort_unstable();
+    let rank = |share: f64| ((share * values.len() as f64).ceil() as usize).clamp(1, values.len()) - 1;
+    (!values.is_empty()).then(|| [0.05, 0.5, 0.95].map(|share| values[rank(share)]))
+}

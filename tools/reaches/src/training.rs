@@ -1,0 +1,103 @@
+use crate::extraction::{Labelled, extract};
+use crate::fit::{Person, level, rounded};
+use crate::order::Order;
+use coact_joint_task::Task;
+use coact_perception::{CLASSES, FEATURES, PreshapeModel, READ, ReachRecord, SingularModel};
+use coact_recordings::{Reach, Size};
+use nalgebra::DVector;
+
+/// Why no model could be made.
+#[derive(Debug, thiserror::Error)]
+pub enum TrainError {
+    /// The recordings do not suffice.
+    #[error(
+        "{people} people with {reaches} usable reaches: expected at least three people, each with two or more reaches for \
+         every size"
+    )]
+    TooFew {
+        /// How many people.
+        people: usize,
+        /// How many reaches.
+        reaches: usize,
+    },
+    /// A model could not be used.
+    #[error(transparent)]
+    Singular(#[from] SingularModel),
+}
+
+/// The model that the recordings of some people make. Repeatable bit by bit.
+///
+/// # Errors
+/// [`TrainError`] when the recordings do not suffice.
+pub fn train(task: &Task, reaches: &[Reach], order: Order) -> Result<PreshapeModel, TrainError> {
+    let mut labelled = Vec::new();
+    for person in order.people(reaches) {
+        labelled.extend(extract(task, &person)?);
+    }
+    fit(&labelled)
+}
+
+/// The model that these reaches make.
+pub(crate) fn fit(labelled: &[Labelled]) -> Result<PreshapeModel, TrainError> {
+    let mut people: Vec<u32> = labelled.iter().map(|reach| reach.participant).collect();
+    people.sort_unstable();
+    people.dedup();
+    let too_few = || TrainError::TooFew { people: people.len(), reaches: labelled.len() };
+    let make = |features: &dyn Fn(&ReachRecord) -> Vec<f64>| {
+        let all: Vec<Person> = people.iter().map(|person| by_class(labelled, *person, features)).collect();
+        level(&all).ok_or_else(too_few)
+    };
+    let phase = (0..READ).map(|at| make(&|record| record.features[at].to_vec())).collect::<Result<_, _>>()?;
+    let whole = make(&|record| record.whole().to_vec())?;
+    Ok(PreshapeModel {
+        sizes: Size::ALL.map(Size::width),
+        tempo: rounded(median_tempo(labelled)),
+        phase,
+        whole,
+    })
+}
+
+fn by_class(labelled: &[Labelled], participant: u32, features: &dyn Fn(&ReachRecord) -> Vec<f64>) -> Person {
+    let of_class = |class: usize| {
+        let own = labelled.iter().filter(|reach| reach.participant == participant && reach.class == class);
+        own.map(|reach| DVector::from_vec(features(&reach.record))).collect()
+    };
+    std::array::from_fn::<_, CLASSES, _>(of_class)
+}
+
+fn median_tempo(labelled: &[Labelled]) -> f64 {
+    let mut tempos: Vec<f64> = labelled.iter().map(|reach| reach.record.tempo).collect();
+    tempos.sort_unstable_by(f64::total_cmp);
+    tempos.get(tempos.len() / 2).copied().unwrap_or(0.45)
+}
+
+/// The text of a model file: the numbers, and where they come from. `source` names the recordings.
+///
+/// # Errors
+/// When the model cannot be written as TOML, which a trained one can.
+pub fn model_file(
+    model: &PreshapeModel,
+    reaches: &[Reach],
+    source: &str,
+) -> Result<String, toml::ser::Error> {
+    let mut people: Vec<u32> = reaches.iter().map(|reach| reach.participant).collect();
+    people.dedup();
+    let people: Vec<String> = people.iter().map(u32::to_string).collect();
+    let numbers = toml::to_string(model)?;
+    Ok(format!(
+        "# How people shape their hand on the way to small, medium and large objects: made by `coact train`, read by\n\
+         # perception. Not to be edited: make it anew from the recordings.\n\
+         #\n\
+         # source     {source}: {count} reaches of {number} people (participants {people})\n\
+         # features   {FEATURES} lengths in m: thumb to middle tip, thumb to index tip, wrist to thumb tip, displacement\n\
+         #            of the wrist; read at times 0.3, 0.5, 0.65, 0.8 and 0.95 of the person's usual time from onset\n\
+         #            to the slow phase (tempo, s); and at 0.8, 1.1 and 1.8 together, when the reach is over (whole)\n\
+         # method     Fisher's discriminants; Gaussian hierarchy of size class, person, person's class, and reach, by\n\
+         #            moments in closed form. sizes: widths of the classes, m\n\
+         # licence    the recordings are under the MIT licence (Dagioglou, Soulounias, Giannakopoulos 2022)\n\n\
+         {numbers}",
+        count = reaches.len(),
+        number = people.len(),
+        people = people.join(", "),
+    ))
+}
