@@ -6,7 +6,7 @@ use rustix::thread::{CapabilitySet, capabilities};
 use std::hint::black_box;
 
 /// Heap that is kept present for allocations in steady cycles: iceoryx2 makes one for each loan.
-const HEAP_RESERVE: usize = 4 << 20;
+const HEAP_RESERVE: usize = 1 << 20;
 /// Stack that steady cycles may use.
 const STACK_RESERVE: usize = 256 << 10;
 
@@ -47,7 +47,11 @@ fn lock() -> Result<(), String> {
     if let (false, Some(limit)) = (may_lock, getrlimit(Resource::Memlock).current) {
         return Err(format!("memory lock: limit is {} KiB (expected memlock unlimited)", limit >> 10));
     }
-    mlockall(MlockAllFlags::CURRENT | MlockAllFlags::FUTURE).map_err(|error| format!("memory lock: {error}"))
+    // Later mappings are buffers of peers that join or come again. Making all their megabytes present at once would hold
+    // up a cycle for more than its period; on first use, it costs some microseconds for each of the first few messages.
+    mlockall(MlockAllFlags::CURRENT)
+        .and_then(|()| mlockall(MlockAllFlags::FUTURE | MlockAllFlags::ONFAULT))
+        .map_err(|error| format!("memory lock: {error}"))
 }
 
 /// Makes every present mapping's pages present without locking them.

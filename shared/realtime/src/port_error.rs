@@ -5,8 +5,8 @@ use std::fmt::Debug;
 pub enum PortError {
     /// iceoryx2 refused an operation.
     #[error(
-        "topic {topic}: {operation} failed: {problem}; expected a running set whose supervisor holds the topic, \
-         and room in shared memory"
+        "topic {topic}: {operation} failed: {problem}; expected programs that were built together, a supervisor that \
+         holds the topic, and room in shared memory"
     )]
     Refused {
         /// The topic.

@@ -47,7 +47,7 @@ impl Process {
         let pipeline = Pipeline::load(&run.settings().pipeline)?;
         let entry = pipeline.process(name)?.clone();
         if entry.realtime {
-            scheduling::hurry();
+            scheduling::hurry(entry.core);
         }
         let bus = Bus::open(&run, name, generation)?;
         Ok(Self { run, pipeline, entry, generation, bus, signals, resumed: false })
@@ -103,7 +103,7 @@ impl Process {
 
     /// Goes real time as far as the process table asks and the machine grants, and reports readiness.
     ///
-    /// What was refused is written to standard error in red and to the report; the process runs all the same.
+    /// What was refused stands in the report, which the supervisor shows in red; the process runs all the same.
     ///
     /// # Errors
     /// [`ProcessError::Run`] when the report cannot be written.
@@ -112,10 +112,6 @@ impl Process {
         let memory_locked = lock.is_ok();
         let mut why_not: Vec<_> = lock.err().into_iter().filter(|reason| !reason.is_empty()).collect();
         why_not.extend(scheduling::request(&self.entry));
-        if !why_not.is_empty() {
-            let (name, reasons) = (&self.entry.name, why_not.join("; "));
-            eprintln!("\x1b[31m{name} is not real time: {reasons}; see rt-config/system/README.md\x1b[0m");
-        }
         let mut ready = Ready {
             process: self.entry.name.clone(),
             generation: self.generation,

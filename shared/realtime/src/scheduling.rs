@@ -8,11 +8,16 @@ use std::num::NonZeroU64;
 /// Priority of a real-time process that is not ready yet.
 const STARTING: u8 = 1;
 
-/// Lets a process start before everything that is not real time, and behind every process that is ready: a replacement
-/// is wanted soon, but its start takes many cycles and must not delay a survivor's cycle.
-pub(crate) fn hurry() {
-    // Refused, it starts as slowly as any program; what is refused for good is told when it is ready.
+/// Lets a process start before everything that is not real time, behind every process that is ready, and on other cores
+/// than its own: a replacement is wanted soon, but locking its memory must not hold up a survivor on that core.
+pub(crate) fn hurry(core: Option<usize>) {
+    // Refused, it starts as any program does; what is refused for good is told when it is ready.
     let _ = fifo(STARTING);
+    let mut elsewhere = sched_getaffinity(None).unwrap_or_default();
+    if let Some(core) = core.filter(|&core| core < CpuSet::MAX_CPU) {
+        elsewhere.unset(core);
+        let _ = sched_setaffinity(None, &elsewhere);
+    }
 }
 
 /// Asks for what `entry` wants; returns what was refused, with the reasons.
