@@ -38,7 +38,8 @@ impl PartialEq for SceneFrame {
 }
 
 const WORDS: usize = size_of::<Memory>() / 8;
-const _: () = assert!(size_of::<Memory>().is_multiple_of(8) && WORDS <= 768, "memory outgrew WorldState::memory");
+const _: () =
+    assert!(size_of::<Memory>().is_multiple_of(8) && WORDS <= 768, "memory outgrew WorldState::memory");
 
 impl Memory {
     pub fn save(&self, state: &mut WorldState) {

@@ -92,7 +92,8 @@ impl Parts {
 
     /// Centre of the part's body, m: where the person's fingers close.
     pub fn centre(&self, part: usize, task: &Task) -> DVec3 {
-        self.position(part) + self.orientation(part) * (0.5 * height(task.kinds[self.kind(part)].shape) * DVec3::Z)
+        self.position(part)
+            + self.orientation(part) * (0.5 * height(task.kinds[self.kind(part)].shape) * DVec3::Z)
     }
 
     /// Distance of `point` from the part's own axis, between its underside and its top, m.
@@ -148,7 +149,8 @@ impl Parts {
     /// Whether a free part lies where neither of the two can take it from.
     pub fn is_stray(&self, part: usize, task: &Task) -> bool {
         let at = self.state[part].position;
-        let within = |[low, high]: &[[f64; 2]; 2]| (0..2).all(|axis| at[axis] >= low[axis] && at[axis] <= high[axis]);
+        let within =
+            |[low, high]: &[[f64; 2]; 2]| (0..2).all(|axis| at[axis] >= low[axis] && at[axis] <= high[axis]);
         let fallen = at[2] < task.scene.table_height - 0.05;
         self.is(part, Holder::Nobody) && (fallen || !task.scene.workspace.iter().any(within))
     }

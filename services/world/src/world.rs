@@ -5,10 +5,10 @@ use crate::parts::Parts;
 use crate::person::{HandModel, Person, Plan, Surroundings};
 use crate::robot_hand::{Palm, RobotHand};
 use crate::sensors::{Capture, read_joints, recognise, track};
+use crate::slot::Slot;
 use crate::{BodyKind, Partner, Settings, WorldError};
 use bytemuck::Zeroable;
 use coact_joint_task::Task;
-use crate::slot::Slot;
 use coact_messages::{ARM_JOINTS, Command, JOINTS, NONE, PartnerPhase, SensorSample, Truth, WorldState};
 use coact_robot::Robot;
 use glam::DVec3;
@@ -50,7 +50,7 @@ impl World {
         let parts = Parts::new(task);
         let joints = parked(robot);
         let body = match settings.body {
-            BodyKind::Kinematic => Body::Kinematic(Kinematic::new(task)),
+            BodyKind::Kinematic => Body::Kinematic(Kinematic::new()),
             BodyKind::Physics => Body::Physics(Box::new(Physics::new(task, robot, &joints, &parts)?)),
         };
         Ok(Self {
@@ -78,7 +78,11 @@ impl World {
         let influence = Influence {
             elapsed: self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, 1000)),
             command,
-            stop: FingerStop { base: self.hand.stop(&self.memory.robot, &self.parts), coupling: self.coupling },
+            task: &self.task,
+            stop: FingerStop {
+                base: self.hand.stop(&self.memory.robot, &self.parts),
+                coupling: self.coupling,
+            },
             person: self.memory.person.hand.wrist(),
         };
         self.body.advance(&influence, &mut self.joints, &mut self.parts);

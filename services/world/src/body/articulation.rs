@@ -48,14 +48,17 @@ impl Articulation {
         }
         let mut joints = Vec::new();
         let mut waiting: Vec<&urdf_rs::Joint> = model.joints.iter().collect();
-        while let Some(next) = waiting.iter().position(|joint| places.contains_key(joint.parent.link.as_str())) {
+        while let Some(next) =
+            waiting.iter().position(|joint| places.contains_key(joint.parent.link.as_str()))
+        {
             let joint = waiting.swap_remove(next);
             let (body, within) = places[joint.parent.link.as_str()];
             let origin = within * isometry(&joint.origin);
             let place = if joint.joint_type == urdf_rs::JointType::Fixed {
                 (body, origin)
             } else {
-                let child = world.insert_body(RigidBodyBuilder::dynamic().gravity_scale(0.0).can_sleep(false));
+                let child =
+                    world.insert_body(RigidBodyBuilder::dynamic().gravity_scale(0.0).can_sleep(false));
                 joints.push(drive(world, robot, joint, (body, child), origin)?);
                 (child, Isometry3::identity())
             };
@@ -77,7 +80,7 @@ impl Articulation {
         world.multibody_joints.get_mut(first.handle).map(|(body, _)| body)
     }
 
-    /// Puts the joints where they are said to be, at rest in all links that move with them.
+    /// Puts the joints where they are said to be; the motors hold them there until there is a command.
     pub fn place(&self, world: &mut PhysicsWorld, joints: &Joints) {
         let PhysicsWorld { multibody_joints, bodies, .. } = world;
         for driven in &self.joints {
@@ -88,6 +91,9 @@ impl Articulation {
             let wanted = driven.factor * joints.position[driven.source];
             displacement[at] = wanted as f32 - link.joint().coords()[3];
             body.apply_displacements(&displacement);
+            if let Some(link) = body.link_mut(id) {
+                link.joint.data.set_motor(JointAxis::AngX, wanted as f32, 0.0, STIFFNESS, DAMPING);
+            }
             body.generalized_velocity_mut()[at] = (driven.factor * joints.velocity[driven.source]) as f32;
             body.forward_kinematics(bodies, false);
             body.update_rigid_bodies(bodies, true);
@@ -130,11 +136,11 @@ fn drive(
     let fault = |message: &str| WorldError::Robot { joint: joint.name.clone(), message: message.to_owned() };
     let named = |name: &str| (0..ROBOT_JOINTS).find(|&index| name_of(robot, index) == name);
     let own = named(&joint.name);
-    let mimicked = joint.mimic.as_ref().and_then(|mimic| Some((named(&mimic.joint)?, mimic.multiplier.unwrap_or(1.0))));
-    let (source, factor) = own
-        .map(|index| (index, 1.0))
-        .or(mimicked)
-        .ok_or_else(|| fault("is not fixed, not in the robot file, and mimics no joint that is; name it there"))?;
+    let mimicked =
+        joint.mimic.as_ref().and_then(|mimic| Some((named(&mimic.joint)?, mimic.multiplier.unwrap_or(1.0))));
+    let (source, factor) = own.map(|index| (index, 1.0)).or(mimicked).ok_or_else(|| {
+        fault("is not fixed, not in the robot file, and mimics no joint that is; name it there")
+    })?;
     let axis = Vector3::from(joint.axis.xyz.0);
     let align = UnitQuaternion::rotation_between(&Vector3::x(), &axis)
         .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI));
@@ -182,13 +188,25 @@ fn mass_properties(inertial: &urdf_rs::Inertial, within: &Isometry3<f64>) -> Mas
     let place = within * isometry(&inertial.origin);
     let inertia = &inertial.inertia;
     let tensor = nalgebra::Matrix3::new(
-        inertia.ixx, inertia.ixy, inertia.ixz, inertia.ixy, inertia.iyy, inertia.iyz, inertia.ixz, inertia.iyz, inertia.izz,
+        inertia.ixx,
+        inertia.ixy,
+        inertia.ixz,
+        inertia.ixy,
+        inertia.iyy,
+        inertia.iyz,
+        inertia.ixz,
+        inertia.iyz,
+        inertia.izz,
     );
     let turn = place.rotation.to_rotation_matrix();
     let turned = (turn * tensor * turn.transpose()).map(|entry| entry as f32);
     let matrix = Matrix::from_cols_array(&turned.as_slice().try_into().unwrap_or([0.0; 9]));
     let centre = place.translation.vector.map(|entry| entry as f32);
-    MassProperties::with_inertia_matrix(Vector::new(centre.x, centre.y, centre.z), inertial.mass.value as f32, matrix)
+    MassProperties::with_inertia_matrix(
+        Vector::new(centre.x, centre.y, centre.z),
+        inertial.mass.value as f32,
+        matrix,
+    )
 }
 
 fn isometry(origin: &urdf_rs::Pose) -> Isometry3<f64> {

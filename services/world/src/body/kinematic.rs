@@ -1,6 +1,5 @@
 use super::{Influence, Joints};
 use crate::parts::Parts;
-use coact_joint_task::Task;
 use coact_robot::ROBOT_JOINTS;
 
 /// Time constant of the servo, s: joints follow their setpoints with this lag.
@@ -9,14 +8,13 @@ const LAG: f64 = 0.004;
 /// Joints that follow their setpoints, and parts that rest where they are put: no contact forces.
 #[derive(Debug, Clone)]
 pub(crate) struct Kinematic {
-    task: Task,
     /// How much of the way to the setpoint is covered in one tick.
     gain: f64,
 }
 
 impl Kinematic {
-    pub fn new(task: &Task) -> Self {
-        Self { task: task.clone(), gain: 1.0 - (-1e-3 / LAG).exp() }
+    pub fn new() -> Self {
+        Self { gain: 1.0 - (-1e-3 / LAG).exp() }
     }
 
     pub fn advance(&self, influence: &Influence, joints: &mut Joints, parts: &mut Parts) {
@@ -30,9 +28,7 @@ impl Kinematic {
             }
         }
         let seconds = 1e-3 * elapsed as f64;
-        for joint in 0..ROBOT_JOINTS {
-            joints.velocity[joint] = (joints.position[joint] - before[joint]) / seconds;
-        }
-        parts.rest_free(&self.task);
+        joints.velocity = std::array::from_fn(|joint| (joints.position[joint] - before[joint]) / seconds);
+        parts.rest_free(influence.task);
     }
 }

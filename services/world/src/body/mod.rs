@@ -12,6 +12,7 @@ pub(crate) use kinematic::Kinematic;
 pub(crate) use physics::Physics;
 
 use crate::parts::Parts;
+use coact_joint_task::Task;
 use coact_messages::{Command, JOINTS};
 use glam::DVec3;
 
@@ -35,6 +36,7 @@ pub(crate) struct Influence<'a> {
     pub elapsed: u64,
     pub command: Option<&'a Command>,
     pub stop: FingerStop,
+    pub task: &'a Task,
     /// The person's hand, m.
     pub person: DVec3,
 }

@@ -157,5 +157,8 @@ impl Physics {
 
 fn pose_of(part: &PartState) -> Pose {
     let [x, y, z, w] = part.orientation.map(|entry| entry as f32);
-    Pose::from_parts(part.position.map(|entry| entry as f32).into(), Rotation::from_xyzw(x, y, z, w).normalize())
+    Pose::from_parts(
+        part.position.map(|entry| entry as f32).into(),
+        Rotation::from_xyzw(x, y, z, w).normalize(),
+    )
 }

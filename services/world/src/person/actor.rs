@@ -62,7 +62,9 @@ impl Person {
             Stage::Dwell if over => self.lift(memory, around),
             Stage::Dwell => {}
             Stage::Carry | Stage::Return => self.carry_on(memory, around),
-            Stage::AwaitHold if over || around.robot.holding_since > 0 => self.begin_mounting(memory, around.tick),
+            Stage::AwaitHold if over || around.robot.holding_since > 0 => {
+                self.begin_mounting(memory, around.tick)
+            }
             Stage::AwaitHold => {}
             Stage::Mount if over => self.put_down(memory, around),
             Stage::Mount => {}
@@ -98,7 +100,8 @@ impl Person {
     fn choose_recording(&self, intention: Intention, around: &Surroundings) -> Slot {
         let (Some(recorded), Some(part)) = (&self.recorded, intention.part) else { return Slot::EMPTY };
         let width = around.task.kinds[around.parts.kind(part)].width;
-        let turn = self.noise.at(Stream::Choice, around.tick).random_range(0..recorded.count_for(width).max(1));
+        let turn =
+            self.noise.at(Stream::Choice, around.tick).random_range(0..recorded.count_for(width).max(1));
         recorded.nth_for(width, turn).map_or(Slot::EMPTY, Slot::of)
     }
 

@@ -30,7 +30,8 @@ impl HandModel {
 
     /// The hand at rest: flat, the fingers half bent, thumb near index.
     pub fn rest(&self) -> HandPose {
-        HandPose { wrist: self.rest.into(), heading: 0.0, pitch: REST_PITCH, aperture: 0.03, extension: 0.14 }
+        let wrist = self.rest.into();
+        HandPose { wrist, pitch: REST_PITCH, aperture: 0.03, extension: 0.14, ..HandPose::default() }
     }
 
     /// Heading of a hand that reaches to `point`, rad: along the line from the shoulder.
@@ -40,11 +41,17 @@ impl HandModel {
         turn.sin().atan2(turn.cos()).clamp(-1.0, 1.0)
     }
 
-    /// The pose that has `point` in the middle between the finger tips.
-    pub fn grasping(&self, point: DVec3, pitch: f64, aperture: f64, extension: f64) -> HandPose {
+    /// The pose that has `point` in the middle between the finger tips, which is (`extension`, `aside`) from the wrist.
+    pub fn grasping(
+        &self,
+        point: DVec3,
+        pitch: f64,
+        aperture: f64,
+        (extension, aside): (f64, f64),
+    ) -> HandPose {
         let heading = self.heading_to(point);
-        let mut pose = HandPose { wrist: [0.0; 3], heading, pitch, aperture, extension };
-        pose.wrist = (point - extension * self.direction(&pose)).into();
+        let mut pose = HandPose { wrist: [0.0; 3], heading, pitch, aperture, extension, aside };
+        pose.wrist = (point - extension * self.direction(&pose) - aside * self.thumb_side(&pose)).into();
         pose
     }
 
@@ -62,23 +69,24 @@ impl HandModel {
 
     /// The middle between the finger tips, m: what the hand grasps lies there.
     pub fn centre(&self, pose: &HandPose) -> DVec3 {
-        pose.wrist() + pose.extension * self.direction(pose)
+        pose.wrist() + pose.extension * self.direction(pose) + pose.aside * self.thumb_side(pose)
     }
 
     /// All keypoints in the order of [`KeypointName`], m.
     pub fn keypoints(&self, pose: &HandPose) -> [DVec3; 9] {
         let (ahead, thumb, wrist) = (self.direction(pose), self.thumb_side(pose), pose.wrist());
         let on_hand = |along: f64, aside: f64| wrist + along * ahead + aside * thumb;
-        let half = pose.aperture / 2.0;
+        let (thumb_tip, index_tip) = (pose.aside + pose.aperture / 2.0, pose.aside - pose.aperture / 2.0);
         let mut points = [DVec3::ZERO; 9];
         points[KeypointName::Shoulder as usize] = self.shoulder;
         points[KeypointName::Elbow as usize] = self.elbow(wrist, thumb);
         points[KeypointName::Wrist as usize] = wrist;
         points[KeypointName::PalmBase as usize] = on_hand(0.020, 0.020);
-        points[KeypointName::ThumbTip as usize] = on_hand(pose.extension, half);
+        points[KeypointName::ThumbTip as usize] = on_hand(pose.extension, thumb_tip);
         points[KeypointName::IndexKnuckle as usize] = on_hand(0.092, 0.025);
-        points[KeypointName::IndexTip as usize] = on_hand(pose.extension, -half);
-        points[KeypointName::MiddleTip as usize] = on_hand(pose.extension + 0.012, -half - 0.08 * pose.aperture);
+        points[KeypointName::IndexTip as usize] = on_hand(pose.extension, index_tip);
+        points[KeypointName::MiddleTip as usize] =
+            on_hand(pose.extension + 0.012, index_tip - 0.08 * pose.aperture);
         points[KeypointName::LittleKnuckle as usize] = on_hand(0.080, -0.040);
         points
     }

@@ -15,6 +15,8 @@ pub(crate) struct HandPose {
     pub aperture: f64,
     /// Distance from the wrist to the middle between the finger tips, m: the less, the more the fingers are bent.
     pub extension: f64,
+    /// How far that middle is off the line from wrist to knuckles, towards the thumb's side, m.
+    pub aside: f64,
 }
 
 impl HandPose {
@@ -31,6 +33,7 @@ impl HandPose {
             pitch: mix(self.pitch, end.pitch),
             aperture: mix(self.aperture, end.aperture),
             extension: mix(self.extension, end.extension),
+            aside: mix(self.aside, end.aside),
         }
     }
 }

@@ -124,7 +124,9 @@ impl PersonMemory {
             Stage::Rest | Stage::Prepare => PartnerPhase::Idle,
             Stage::Reach => PartnerPhase::Reach,
             Stage::Dwell | Stage::Carry | Stage::Return => PartnerPhase::Transport,
-            Stage::AwaitHold | Stage::Mount | Stage::Offer | Stage::Show | Stage::AwaitRelease => PartnerPhase::Act,
+            Stage::AwaitHold | Stage::Mount | Stage::Offer | Stage::Show | Stage::AwaitRelease => {
+                PartnerPhase::Act
+            }
             Stage::Withdraw => PartnerPhase::Withdraw,
         }
     }

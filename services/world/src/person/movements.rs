@@ -52,7 +52,7 @@ impl Person {
         let place = DVec3::from(task.scene.handover);
         let flat = HandPose { heading: self.model.heading_to(place), ..HandPose::default() };
         let tips = place - SHORT * self.model.direction(&flat);
-        self.model.grasping(tips, pitch, OPEN_APERTURE, OPEN)
+        self.model.grasping(tips, pitch, OPEN_APERTURE, (OPEN, 0.0))
     }
 
     /// Corrects the end of the reach for where the part is now.
@@ -63,16 +63,18 @@ impl Person {
 
     /// The hand that has grasped what is at `centre`; a recorded hand holds it where its finger tips are.
     fn grasp_of(&self, memory: &PersonMemory, centre: DVec3, pitch: f64, aperture: f64) -> HandPose {
-        let Some(reach) = self.recording(memory) else {
-            return self.model.grasping(centre, pitch, aperture, GRASPING);
-        };
-        let mut pose = self.model.grasping(centre, pitch, aperture, reach.centre.x);
-        pose.wrist = (pose.wrist() - reach.centre.y * self.model.thumb_side(&pose)).into();
-        pose
+        let tips = self.recording(memory).map_or((GRASPING, 0.0), |reach| reach.centre.into());
+        self.model.grasping(centre, pitch, aperture, tips)
     }
 
     /// Plans the way of the held part to `place`, where its own z axis points along `axis`.
-    pub(super) fn carry_to(&self, memory: &mut PersonMemory, around: &Surroundings, place: DVec3, axis: DVec3) {
+    pub(super) fn carry_to(
+        &self,
+        memory: &mut PersonMemory,
+        around: &Surroundings,
+        place: DVec3,
+        axis: DVec3,
+    ) {
         let Some(part) = memory.grip.get() else { return };
         let (tick, hand) = (around.tick, memory.hand);
         let from = around.parts.orientation(part);
@@ -86,7 +88,7 @@ impl Person {
         let distance = centre.distance(self.model.centre(&hand));
         memory.movement = Movement {
             from: hand,
-            to: self.model.grasping(centre, hand.pitch, hand.aperture, hand.extension),
+            to: self.model.grasping(centre, hand.pitch, hand.aperture, (GRASPING, 0.0)),
             start: tick,
             end: tick + 500 + (900.0 * distance) as u64,
             arch: CARRY_ARCH,
@@ -100,7 +102,8 @@ impl Person {
         memory.hand = memory.movement.pose(around.tick);
         let Some(part) = memory.grip.get() else { return };
         let along = super::profile::minimum_jerk(memory.movement.time(around.tick));
-        let turn = DQuat::from_array(memory.turn_from).slerp(DQuat::from_array(memory.turn_to), along).normalize();
+        let turn =
+            DQuat::from_array(memory.turn_from).slerp(DQuat::from_array(memory.turn_to), along).normalize();
         let half = 0.5 * height(around.task.kinds[around.parts.kind(part)].shape);
         let centre = self.model.centre(&memory.hand) + (1.0 - along) * DVec3::from(memory.offset);
         around.parts.place(part, centre - turn * (half * DVec3::Z), turn);

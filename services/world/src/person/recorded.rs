@@ -55,7 +55,8 @@ impl Recorded {
         let mut people: Vec<u32> = all.iter().map(|reach| reach.participant).collect();
         people.sort_unstable();
         people.dedup();
-        let lacking = |message: &str| WorldError::Recordings { path: folder.to_owned(), message: message.to_owned() };
+        let lacking =
+            |message: &str| WorldError::Recordings { path: folder.to_owned(), message: message.to_owned() };
         let person = *people
             .get((seed % people.len().max(1) as u64) as usize)
             .ok_or_else(|| lacking("holds no reach; expected CSV files as in shared/data/reaches"))?;
@@ -106,7 +107,9 @@ impl RecordedReach {
         let frames: Vec<_> = (0..reach.frames.len())
             .map(|index| {
                 let (frame, moved) = (&reach.frames[index], wrists[index] - wrists[onset]);
-                for (place, joint) in shape.iter_mut().zip(&frame.joints).filter(|(_, joint)| joint.confidence > 0.0) {
+                for (place, joint) in
+                    shape.iter_mut().zip(&frame.joints).filter(|(_, joint)| joint.confidence > 0.0)
+                {
                     let reached = DVec2::new(joint.x, joint.y) - wrists[index];
                     *place = scale * DVec2::new(reached.dot(ahead), reached.dot(across));
                 }
@@ -182,7 +185,8 @@ fn metres_per_pixel(reaches: &[&Reach]) -> Option<f64> {
         .filter_map(|frame| {
             let (elbow, wrist) =
                 (frame.joints[KeypointName::Elbow as usize], frame.joints[KeypointName::Wrist as usize]);
-            (elbow.confidence > 0.0 && wrist.confidence > 0.0).then(|| (elbow.x - wrist.x).hypot(elbow.y - wrist.y))
+            (elbow.confidence > 0.0 && wrist.confidence > 0.0)
+                .then(|| (elbow.x - wrist.x).hypot(elbow.y - wrist.y))
         })
         .collect();
     lengths.sort_by(f64::total_cmp);

@@ -42,7 +42,10 @@ impl Script {
         let source = Source { path, text: &text, task };
         let file: File = toml::from_str(&text).map_err(|error| {
             let at = error.span().map_or(0, |span| span.start);
-            source.fault(at, format!("{}; expected [[action]] entries as in rt-config/scenarios", error.message()))
+            source.fault(
+                at,
+                format!("{}; expected [[action]] entries as in rt-config/scenarios", error.message()),
+            )
         })?;
         let entries = file.action.iter().map(|line| source.entry(line)).collect::<Result<_, _>>()?;
         Ok(Self { entries })
@@ -58,7 +61,8 @@ impl Source<'_> {
             (None, Some(after)) => Start::After(self.ticks("after", after)?),
             (None, None) => Start::After(0),
             (Some(at), Some(_)) => {
-                return Err(self.fault(at.span().start, "keys \"at\" and \"after\": expected only one of them".into()));
+                return Err(self
+                    .fault(at.span().start, "keys \"at\" and \"after\": expected only one of them".into()));
             }
         };
         let deed = match (idle, chain, kind) {
@@ -90,13 +94,17 @@ impl Source<'_> {
         names.sort_unstable();
         names.dedup();
         let unknown = |key: &str, given: &Spanned<String>, known: &[&str]| {
-            let message = format!("key \"{key}\": \"{}\" is unknown; expected one of {known:?}", given.as_ref());
+            let message =
+                format!("key \"{key}\": \"{}\" is unknown; expected one of {known:?}", given.as_ref());
             self.fault(given.span().start, message)
         };
         if !names.contains(&chain.as_ref().as_str()) {
             return Err(unknown("chain", chain, &names));
         }
-        let index = kinds.iter().position(|name| name == kind.as_ref()).ok_or_else(|| unknown("kind", kind, &kinds))?;
+        let index = kinds
+            .iter()
+            .position(|name| name == kind.as_ref())
+            .ok_or_else(|| unknown("kind", kind, &kinds))?;
         let fits = |known: &coact_joint_task::Chain| known.name == *chain.as_ref() && known.kind == index;
         task.chains.iter().position(fits).ok_or_else(|| {
             let message = format!("key \"kind\": the task has no chain \"{}\" for it", chain.as_ref());

@@ -1,7 +1,7 @@
 //! A correct partner: chooses at random among what the plan allows now.
 
-use super::intention::{Choice, Intention, View};
 use super::Errand;
+use super::intention::{Choice, Intention, View};
 use coact_joint_task::Agent;
 use rand::{Rng, RngExt};
 
@@ -55,11 +55,23 @@ fn valid(view: &View, chain: usize, subgoal: usize) -> Option<(Intention, f64)> 
         Errand::Mount if rule.from == Agent::Person => 1.0,
         Errand::HandOver if rule.from == Agent::Person && robot_is_empty => {
             let robot_has_own = view.nearest(rule.kind, Agent::Robot).is_some();
-            if robot_has_own { return None } else if asked { 4.0 } else { 0.4 }
+            if robot_has_own {
+                return None;
+            } else if asked {
+                4.0
+            } else {
+                0.4
+            }
         }
         Errand::Request if rule.from == Agent::Robot && robot_is_empty => {
             let person_has_own = view.own_part(rule.kind).is_some();
-            if person_has_own { return None } else if asked { 0.2 } else { 0.8 }
+            if person_has_own {
+                return None;
+            } else if asked {
+                0.2
+            } else {
+                0.8
+            }
         }
         _ => return None,
     };

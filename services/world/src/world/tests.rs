@@ -2,8 +2,11 @@
 
 mod fake_robot;
 mod partner;
+mod physics;
 mod profiles;
+mod recorded;
 mod resume;
+mod script;
 
 use super::World;
 use crate::parts::Holder;
@@ -47,7 +50,8 @@ pub(super) fn task() -> Task {
     let mut placed = [0, 0];
     for part in &mut task.parts {
         let side = part.workspace.index();
-        part.at = [if part.workspace == Agent::Robot { -0.3 } else { -0.85 }, -0.3 + 0.15 * placed[side] as f64];
+        part.at =
+            [if part.workspace == Agent::Robot { -0.3 } else { -0.85 }, -0.3 + 0.15 * placed[side] as f64];
         placed[side] += 1;
     }
     for (index, goal) in task.subgoals.iter_mut().enumerate() {

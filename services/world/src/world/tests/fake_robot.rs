@@ -1,6 +1,7 @@
 use super::super::World;
 use super::Out;
 use crate::parts::Holder;
+use crate::person::Stage;
 use crate::robot_hand::Palm;
 use coact_joint_task::{Agent, Task};
 use glam::{DQuat, DVec3};
@@ -52,7 +53,9 @@ impl FakeRobot {
         match (self.errand, held) {
             (Errand::None, _) => self.errand = self.choose(world),
             (Errand::Receive(part), None) if !world.parts.is(part, Holder::Person) => self.abandon(),
-            (Errand::Insert(part, _) | Errand::Give(part) | Errand::Receive(part), None) => self.grasp(part, world),
+            (Errand::Insert(part, _) | Errand::Give(part) | Errand::Receive(part), None) => {
+                self.grasp(part, world)
+            }
             (Errand::Receive(part), Some(_)) if world.parts.is(part, Holder::Robot) => {
                 let goal = goal(world, world.parts.kind(part), Agent::Robot);
                 self.errand = goal.map_or(Errand::None, |goal| Errand::Insert(part, goal));
@@ -76,7 +79,9 @@ impl FakeRobot {
                 return Errand::Insert(part, goal);
             }
         }
-        for goal in open_goals(world, Agent::Person) {
+        // It gives when it is asked, and now and then unasked.
+        let gives = world.memory.person.stage() == Stage::Show || world.memory.tick / 10_000 % 2 == 1;
+        for goal in open_goals(world, Agent::Person).into_iter().filter(|_| gives) {
             if let Some(part) = lying(world, task.subgoals[goal].kind) {
                 return Errand::Give(part);
             }
@@ -102,10 +107,14 @@ impl FakeRobot {
     }
 
     fn give(&mut self, part: usize, world: &World) {
-        self.at = world.task.scene.handover.into();
-        if world.memory.person.grip.get() == Some(part) {
+        let home = DVec3::new(world.task.parts[part].at[0], world.task.parts[part].at[1], 0.95);
+        let taken = world.memory.person.grip.get() == Some(part);
+        let wanted = goal(world, world.parts.kind(part), Agent::Person).is_some();
+        if taken || self.at == home {
             self.abandon();
             self.pause = 1500;
+        } else {
+            self.at = if wanted { world.task.scene.handover.into() } else { home };
         }
     }
 

@@ -36,7 +36,10 @@ fn person_begins_only_actions_that_the_plan_allows() {
             let subgoal = &world.task.subgoals[goal];
             assert_eq!((chain.kind, chain.side), (subgoal.kind, subgoal.side), "seed {seed} tick {tick}");
             let achieved = |index: usize| before.achieved & (1 << index) != 0;
-            assert!(!achieved(goal) && subgoal.after.iter().all(|index| achieved(*index)), "seed {seed} tick {tick}");
+            assert!(
+                !achieved(goal) && subgoal.after.iter().all(|index| achieved(*index)),
+                "seed {seed} tick {tick}"
+            );
         });
         assert!(begun >= 10, "seed {seed}: only {begun} actions in two minutes");
     }
@@ -52,7 +55,8 @@ fn every_kind_of_action_occurs() {
             }
         });
     }
-    let names: std::collections::BTreeSet<_> = super::task().chains.iter().map(|chain| chain.name.clone()).collect();
+    let names: std::collections::BTreeSet<_> =
+        super::task().chains.iter().map(|chain| chain.name.clone()).collect();
     assert_eq!(kinds, names);
 }
 
@@ -67,7 +71,10 @@ fn grasp_is_told_before_the_part_moves() {
                 let old: &coact_messages::PartState = old;
                 let moved = part.position != old.position && part.state == Holder::Person as u32;
                 if moved {
-                    assert!(out.truth.grasp_cycle > 0 && out.truth.grasp_cycle < tick, "seed {seed} tick {tick}");
+                    assert!(
+                        out.truth.grasp_cycle > 0 && out.truth.grasp_cycle < tick,
+                        "seed {seed} tick {tick}"
+                    );
                 }
             }
             last = parts;
@@ -91,7 +98,8 @@ fn gesture_is_answered_by_taking_what_is_offered() {
                 return;
             }
             let gesture = matches!(world.task.chains[out.truth.chain as usize].act, Act::Gesture(_));
-            taken += u32::from(asked && !gesture && world.memory.person.errand() == crate::person::Errand::Take);
+            taken +=
+                u32::from(asked && !gesture && world.memory.person.errand() == crate::person::Errand::Take);
             asked = gesture;
         });
     }

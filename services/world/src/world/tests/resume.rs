@@ -37,7 +37,13 @@ fn resumed_world_goes_on_as_if_it_had_not_died() {
                 other.resume(&out.state);
             }
             if tick > killed_at {
-                other.step(tick, Some(&command), &mut other_out.sample, &mut other_out.truth, &mut other_out.state);
+                other.step(
+                    tick,
+                    Some(&command),
+                    &mut other_out.sample,
+                    &mut other_out.truth,
+                    &mut other_out.state,
+                );
                 assert!(bytes_of(&*out.sample) == bytes_of(&*other_out.sample), "{killed_at}, tick {tick}");
                 assert!(bytes_of(&*out.truth) == bytes_of(&*other_out.truth), "{killed_at}, tick {tick}");
                 assert!(bytes_of(&*out.state) == bytes_of(&*other_out.state), "{killed_at}, tick {tick}");

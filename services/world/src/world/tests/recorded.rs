@@ -1,0 +1,112 @@
+use super::fake_robot::FakeRobot;
+use super::{Out, robot, task};
+use crate::{BodyKind, Partner, Settings, World};
+use coact_messages::{KeypointName, PartnerPhase};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// A made-up recording of two people: the wrist goes 60 px to the right in 0.6 s, the thumb opens with the size.
+fn folder(spoil: impl Fn(&mut String)) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for person in 1..=2 {
+        let mut text = String::from("participant,size,trial,t_rel_onset_s,mt_s,rtg");
+        for joint in coact_recordings::JOINTS {
+            write!(text, ",{joint}.x,{joint}.y,{joint}.p").unwrap();
+        }
+        for (size, width) in [("S", 5.0), ("M", 10.0), ("L", 14.0)] {
+            for frame in -30..60 {
+                let time = f64::from(frame) / 60.0;
+                let x = 100.0 + 60.0 * (time / 0.6).clamp(0.0, 1.0);
+                write!(text, "\n{person},{size},1,{time},0.6,0").unwrap();
+                let hand: [(f64, f64); 9] = [
+                    (-60.0, 0.0),
+                    (-32.0, 0.0),
+                    (0.0, 0.0),
+                    (3.0, 3.0),
+                    (18.0, width),
+                    (12.0, 4.0),
+                    (18.0, 0.0),
+                    (20.0, -2.0),
+                    (10.0, -5.0),
+                ];
+                for (joint, (dx, dy)) in hand.iter().enumerate() {
+                    let confidence = if joint == 7 && frame % 5 == 0 { 0.0 } else { 0.8 };
+                    write!(text, ",{},{},{confidence}", x + dx, 50.0 + dy).unwrap();
+                }
+            }
+        }
+        text.push('\n');
+        spoil(&mut text);
+        std::fs::write(folder.path().join(format!("p{person}.csv")), text).unwrap();
+    }
+    folder
+}
+
+fn load(folder: &Path) -> Result<Partner, crate::WorldError> {
+    Partner::load(&format!("recorded:{}", folder.display()), &task(), 1)
+}
+
+#[test]
+fn broken_recordings_are_refused_with_file_and_line() {
+    let spoils: [fn(&mut String); 3] = [
+        |text| *text = text.replacen("0.8", "NaN", 1),
+        |text| *text = text.replace("RWrist.x", "RWrist.z"),
+        |text| text.push_str("1,S,1,0.1\n"),
+    ];
+    for spoil in spoils {
+        let folder = folder(spoil);
+        let message = load(folder.path()).unwrap_err().to_string();
+        assert!(message.contains(".csv"), "{message}");
+    }
+    assert!(load(Path::new("no/such/folder")).unwrap_err().to_string().contains("no/such/folder"));
+    let empty = tempfile::tempdir().unwrap();
+    assert!(load(empty.path()).is_err());
+}
+
+/// Runs two minutes; gives movement times, and mean share of lost middle-finger tips while reaching.
+fn run(partner: Partner) -> (Vec<u64>, f64, u64) {
+    let settings = Settings { seed: 2, partner, body: BodyKind::Kinematic };
+    let (mut world, mut robot) = (World::new(&task(), &robot(), settings).unwrap(), FakeRobot::new());
+    let mut out = Out::new();
+    let (mut times, mut lost, mut frames) = (Vec::new(), 0.0, 0.0);
+    for tick in 1..=200_000 {
+        let before = *out.truth;
+        let frame = out.sample.hand.frame;
+        robot.step(tick, &mut world, &mut out);
+        let grasped = out.truth.grasp_cycle != before.grasp_cycle && out.truth.grasp_cycle > 0;
+        if grasped && let Some(part) = world.memory.person.grip.get() {
+            times.push(out.truth.grasp_cycle - out.truth.onset_cycle);
+            let missed = world
+                .parts
+                .centre(part, &world.task)
+                .distance(world.person.model.centre(&world.memory.person.hand));
+            assert!(missed < 0.001, "fingers closed {missed} m beside the part");
+        }
+        if out.truth.phase == PartnerPhase::Reach as u32 && out.sample.hand.frame != frame {
+            frames += 1.0;
+            lost += f64::from(out.sample.hand.keypoints[KeypointName::MiddleTip as usize].confidence == 0.0);
+        }
+    }
+    (times, lost / frames, out.truth.assemblies)
+}
+
+#[test]
+fn recorded_hand_keeps_its_time_course_and_its_drop_outs_and_the_team_still_finishes() {
+    let folder = folder(|_| ());
+    let (times, lost, assemblies) = run(load(folder.path()).unwrap());
+    assert!(assemblies >= 1);
+    assert!(times.len() > 10 && times.iter().all(|time| *time == 600), "{times:?}");
+    assert!((0.12..0.28).contains(&lost), "{lost} of the middle finger's tips lost, 0.2 in the recording");
+}
+
+#[test]
+fn real_recordings_drive_the_partner() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/reaches");
+    if !folder.is_dir() {
+        eprintln!("skipped: the recordings of real people are not here");
+        return;
+    }
+    let (times, _, assemblies) = run(load(&folder).unwrap());
+    assert!(assemblies >= 1);
+    assert!(times.iter().all(|time| (340..=900).contains(time)), "{times:?}");
+}
