@@ -8,7 +8,9 @@ mod latency;
 mod launch;
 mod lockstep;
 mod partner;
+mod reaches;
 mod task;
+mod train;
 
 use clap::{Parser, Subcommand};
 use owo_colors::{OwoColorize, Stream};
@@ -32,6 +34,10 @@ enum Command {
     Latency(latency::Args),
     /// Show what is made of a task file
     Task(task::Args),
+    /// Measure anticipation on recorded reaches of real people
+    Reaches(reaches::Args),
+    /// Train the model of preshaping from recorded reaches
+    Train(train::Args),
 }
 
 /// Bad usage, configuration or input.
@@ -53,6 +59,8 @@ fn main() -> ExitCode {
         Command::Inject(args) => inject::run(args),
         Command::Latency(args) => latency::run(args),
         Command::Task(args) => task::run(args),
+        Command::Reaches(args) => reaches::run(args),
+        Command::Train(args) => train::run(args),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("{} {error:#}", "error:".if_supports_color(Stream::Stderr, |text| text.red()));

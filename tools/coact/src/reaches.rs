@@ -77,7 +77,7 @@ fn print(report: &Report, unseen: &str) {
     let Tally { reaches, .. } = report.overall;
     println!("\n{}: {} goals possible, {reaches} reaches, {unseen}", report.task, report.goals);
     let mut table = Table::new();
-    table.load_preset(presets::UTF8_HORIZONTAL_ONLY);
+    table.load_style(presets::UTF8_HORIZONTAL_ONLY);
     table.set_header([
         "person", "reaches", "right", "wrong", "none", "20 %", "40 %", "60 %", "80 %", "100 %", "lead p5 p50 p95", "onset p5 p50 p95",
     ]);
