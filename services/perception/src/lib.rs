@@ -29,6 +29,6 @@ mod targets;
 
 pub use perception::{Perception, SingularModel};
 pub use preshape::{
-    CLASSES, DIRECTIONS, FEATURES, Features, Level, ModelError, PreshapeModel, READ, ReachRecord, SNAPSHOTS,
-    WHOLE, WHOLE_LENGTH,
+    CLASSES, FEATURES, Features, Level, ModelError, PreshapeModel, READ, ReachRecord, SNAPSHOTS, WHOLE,
+    WHOLE_LENGTH,
 };

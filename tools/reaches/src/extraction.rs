@@ -1,8 +1,7 @@
 use crate::playback::Playback;
 use coact_joint_task::Task;
 use coact_perception::{
-    CLASSES, DIRECTIONS, FEATURES, Level, Perception, PreshapeModel, READ, ReachRecord, SingularModel,
-    WHOLE_LENGTH,
+    CLASSES, FEATURES, Level, Perception, PreshapeModel, READ, ReachRecord, SingularModel, WHOLE_LENGTH,
 };
 use coact_recordings::Reach;
 
@@ -35,13 +34,12 @@ pub(crate) fn extract(task: &Task, person: &[&Reach]) -> Result<Vec<Labelled>, S
 
 /// A model that knows nothing: features are read alike under every model.
 fn blank() -> PreshapeModel {
-    let unit = [[1.0, 0.0], [0.0, 1.0]];
     let level = |length: usize| Level {
-        directions: std::array::from_fn::<_, DIRECTIONS, _>(|_| vec![0.0; length]),
-        mean: [[0.0; DIRECTIONS]; CLASSES],
-        within: unit,
-        contrast: unit,
-        person: unit,
+        direction: vec![0.0; length],
+        mean: [0.0; CLASSES],
+        within: 1.0,
+        contrast: 1.0,
+        person: 1.0,
     };
     PreshapeModel {
         sizes: [0.025, 0.055, 0.075],

@@ -1,11 +1,11 @@
-use coact_perception::{CLASSES, DIRECTIONS, Level};
+use coact_perception::{CLASSES, Level};
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
 /// Share of a covariance that is moved onto its diagonal: from reach to reach, and of people's classes, of which there
 /// are few.
 const WITHIN_SHRINKAGE: f64 = 0.1;
 const CONTRAST_SHRINKAGE: f64 = 0.3;
-/// Share of the covariance from reach to reach that every covariance between people has at least.
+/// Share of the variance from reach to reach that every variance between people has at least.
 const LEAST: f64 = 0.02;
 /// Significant digits of the numbers of a model.
 const DIGITS: usize = 6;
@@ -31,20 +31,16 @@ pub(crate) fn level(people: &[Person]) -> Option<Level> {
         return None;
     }
     let moments = moments(people);
-    let directions = directions(&moments)?;
-    let project = |vector: &DVector<f64>| directions.transpose() * vector;
-    let squeeze = |matrix: &DMatrix<f64>| directions.transpose() * matrix * &directions;
-    let within = squeeze(&moments.within);
-    let floor = DMatrix::from_diagonal(&(within.diagonal() * LEAST));
+    let direction = direction(&moments)?;
+    let along = |matrix: &DMatrix<f64>| direction.dot(&(matrix * &direction));
+    let within = along(&moments.within);
+    let mean = |class: usize| direction.dot(&(&moments.contrast[class] + &moments.centre));
     Some(Level {
-        directions: std::array::from_fn(|axis| directions.column(axis).iter().map(|v| rounded(*v)).collect()),
-        mean: std::array::from_fn(|class| {
-            let mean = project(&(&moments.contrast[class] + &moments.centre));
-            std::array::from_fn(|axis| rounded(mean[axis]))
-        }),
-        contrast: square(&(squeeze(&moments.deviation) + &floor)),
-        person: square(&(squeeze(&moments.person) + &floor)),
-        within: square(&within),
+        direction: direction.iter().map(|value| rounded(*value)).collect(),
+        mean: std::array::from_fn(|class| rounded(mean(class))),
+        within: rounded(within),
+        contrast: rounded(along(&moments.deviation) + LEAST * within),
+        person: rounded(along(&moments.person) + LEAST * within),
     })
 }
 
@@ -99,32 +95,17 @@ fn shrunk(matrix: DMatrix<f64>, share: f64) -> DMatrix<f64> {
     matrix * (1.0 - share) + diagonal * share
 }
 
-/// Directions in which classes differ most, compared with how reaches of one person and people's classes scatter
-/// (Fisher's discriminants). The larger the class, the greater its coordinate.
-fn directions(moments: &Moments) -> Option<DMatrix<f64>> {
+/// The direction in which classes differ most, compared with how reaches of one person and people's classes scatter
+/// (Fisher's discriminant). The larger the class, the greater its coordinate.
+fn direction(moments: &Moments) -> Option<DVector<f64>> {
     let scatter = &moments.within + shrunk(moments.deviation.clone(), CONTRAST_SHRINKAGE);
-    let root = Cholesky::new(scatter)?.l();
-    let whiten = root.try_inverse()?;
+    let whiten = Cholesky::new(scatter)?.l().try_inverse()?;
     let mut between = DMatrix::zeros(whiten.nrows(), whiten.nrows());
     moments.contrast.iter().for_each(|contrast| add_square(&mut between, &(&whiten * contrast)));
     let eigen = SymmetricEigen::new(between);
-    let mut ranks: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
-    ranks.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let direction = whiten.transpose() * eigen.eigenvectors.column(eigen.eigenvalues.imax());
     let span = &moments.contrast[CLASSES - 1] - &moments.contrast[0];
-    let columns: Vec<DVector<f64>> = ranks[..DIRECTIONS]
-        .iter()
-        .map(|rank| {
-            let direction = whiten.transpose() * eigen.eigenvectors.column(*rank);
-            if direction.dot(&span) < 0.0 { -direction } else { direction }
-        })
-        .collect();
-    Some(DMatrix::from_columns(&columns))
-}
-
-fn square(matrix: &DMatrix<f64>) -> [[f64; DIRECTIONS]; DIRECTIONS] {
-    let symmetric =
-        |row: usize, column: usize| rounded(0.5 * (matrix[(row, column)] + matrix[(column, row)]));
-    std::array::from_fn(|row| std::array::from_fn(|column| symmetric(row, column)))
+    Some(if direction.dot(&span) < 0.0 { -direction } else { direction })
 }
 
 /// The number with [`DIGITS`] significant digits, for a file that people can read.

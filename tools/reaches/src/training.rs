@@ -2,7 +2,9 @@ use crate::extraction::{Labelled, extract};
 use crate::fit::{Person, level, rounded};
 use crate::order::Order;
 use coact_joint_task::Task;
-use coact_perception::{CLASSES, FEATURES, PreshapeModel, READ, ReachRecord, SingularModel};
+use coact_perception::{
+    CLASSES, FEATURES, PreshapeModel, READ, ReachRecord, SNAPSHOTS, SingularModel, WHOLE,
+};
 use coact_recordings::{Reach, Size};
 use nalgebra::DVector;
 
@@ -89,13 +91,16 @@ pub fn model_file(
          # perception. Not to be edited: make it anew from the recordings.\n\
          #\n\
          # source     {source}: {count} reaches of {number} people (participants {people})\n\
-         # features   {FEATURES} lengths in m: thumb to middle tip, thumb to index tip, wrist to thumb tip, displacement\n\
-         #            of the wrist; read at times 0.3, 0.5, 0.65, 0.8 and 0.95 of the person's usual time from onset\n\
-         #            to the slow phase (tempo, s); and at 0.8, 1.1 and 1.8 together, when the reach is over (whole)\n\
-         # method     Fisher's discriminants; Gaussian hierarchy of size class, person, person's class, and reach, by\n\
+         # features   {FEATURES} lengths in m: thumb to middle tip, wrist to thumb tip, displacement of the\n\
+         #            wrist; read at {read:?} of the person's tempo\n\
+         #            (s: time to 80 % of the way to the slow phase; contact comes at about 1.8); and at\n\
+         #            {whole:?} together when the reach is over (whole)\n\
+         # method     Fisher's discriminant; Gaussian hierarchy of size class, person, person's class, and reach, by\n\
          #            moments in closed form. sizes: widths of the classes, m\n\
          # licence    the recordings are under the MIT licence (Dagioglou, Soulounias, Giannakopoulos 2022)\n\n\
          {numbers}",
+        read = &SNAPSHOTS[..READ],
+        whole = WHOLE.map(|at| SNAPSHOTS[at]),
         count = reaches.len(),
         number = people.len(),
         people = people.join(", "),

@@ -1,7 +1,7 @@
 use super::blend::Blend;
 use super::features::features;
 use super::hierarchy::{Counts, Hierarchy};
-use super::model::{CLASSES, DIRECTIONS, PreshapeModel, READ, SNAPSHOTS};
+use super::model::{CLASSES, PreshapeModel, READ, SNAPSHOTS};
 use super::person::{OwnLevel, PastReach, Person};
 use super::reach::ON_THE_WAY;
 use super::{FEATURES, Features, PreshapeMemory, ReachRecord};
@@ -112,30 +112,22 @@ impl Classifier {
         let between = Blend::of(phase, &SNAPSHOTS[..READ]);
         let (low, high) = (&self.model.phase[between.low], &self.model.phase[between.high]);
         let own = if person.adapted == 1 { &person.own } else { &self.anyone };
-        let (a, b) = (low.project(features.iter()), high.project(features.iter()));
-        let at: [f64; DIRECTIONS] = std::array::from_fn(|axis| between.mix(a[axis], b[axis]));
+        let at = between.mix(low.project(features.iter()), high.project(features.iter()));
         for (kind, size) in self.kinds.iter().enumerate() {
             fit[kind] = self.fit(at, &between, size, own);
         }
         fit
     }
 
-    /// Logarithm of the density of the features `at`, between two phases, for a width between two size classes.
-    fn fit(&self, at: [f64; DIRECTIONS], between: &Blend, size: &Blend, own: &[OwnLevel; READ]) -> f64 {
-        let mixed = |of: &dyn Fn(&OwnLevel, usize) -> f64| {
-            let level = |level: usize| size.mix(of(&own[level], size.low), of(&own[level], size.high));
+    /// Logarithm of the density of the coordinate `at`, between two phases, for a width between two size classes.
+    fn fit(&self, at: f64, between: &Blend, size: &Blend, own: &[OwnLevel; READ]) -> f64 {
+        let mixed = |of: fn(&OwnLevel) -> &[f64; CLASSES]| {
+            let level = |level: usize| size.mix(of(&own[level])[size.low], of(&own[level])[size.high]);
             between.mix(level(between.low), level(between.high))
         };
-        let within = |row: usize, column: usize| {
-            let of = |level: usize| self.phases[level].within[(row, column)];
-            between.mix(of(between.low), of(between.high))
-        };
-        let xx = within(0, 0) + mixed(&|level, class| level.variance[class][0]);
-        let xy = within(0, 1) + mixed(&|level, class| level.variance[class][1]);
-        let yy = within(1, 1) + mixed(&|level, class| level.variance[class][2]);
-        let x = at[0] - mixed(&|level, class| level.mean[class][0]);
-        let y = at[1] - mixed(&|level, class| level.mean[class][1]);
-        let determinant = (xx * yy - xy * xy).max(1e-12);
-        -0.5 * ((yy * x * x - 2.0 * xy * x * y + xx * y * y) / determinant + determinant.ln())
+        let within = between.mix(self.phases[between.low].within, self.phases[between.high].within);
+        let variance = within + mixed(|level| &level.variance);
+        let miss = at - mixed(|level| &level.mean);
+        -0.5 * (miss * miss / variance + variance.ln())
     }
 }

@@ -1,7 +1,8 @@
-use super::hierarchy::{Counts, Hierarchy, Pair, Stack};
-use super::model::{CLASSES, DIRECTIONS, READ};
+use super::hierarchy::{Counts, Hierarchy};
+use super::model::{CLASSES, READ};
 use super::person::{OwnLevel, Person};
 use bytemuck::{Pod, Zeroable};
+use nalgebra::Vector3;
 
 /// Sweeps of expectation maximisation from each start.
 const SWEEPS: u64 = 15;
@@ -16,9 +17,9 @@ pub(crate) struct Fitting {
     /// Steps that remain; 0 = idle.
     remaining: u64,
     /// Class means of the present start.
-    means: [f64; CLASSES * DIRECTIONS],
+    means: [f64; CLASSES],
     /// The best start's means, and how well they fit.
-    best: [f64; CLASSES * DIRECTIONS],
+    best: [f64; CLASSES],
     score: f64,
 }
 
@@ -54,13 +55,12 @@ impl Fitting {
         if done.is_multiple_of(SWEEPS) {
             self.means = start(done / SWEEPS, whole, person).into();
         }
-        let means = Stack::from(self.means);
+        let means = Vector3::from(self.means);
         let mut counts = Counts::default();
         let mut score = whole.prior(&means);
         for reach in person.past() {
-            let at = Pair::from(reach.whole);
-            let (responsibility, evidence) = responsibilities(whole.fit(&at, &means), possible);
-            counts.add(&responsibility, &at);
+            let (responsibility, evidence) = responsibilities(whole.fit(reach.whole, &means), possible);
+            counts.add(&responsibility, reach.whole);
             score += evidence;
         }
         if done % SWEEPS == SWEEPS - 1 && score > self.score {
@@ -78,11 +78,11 @@ impl Fitting {
         possible: [bool; CLASSES],
         person: &mut Person,
     ) {
-        let means = Stack::from(self.best);
+        let means = Vector3::from(self.best);
         let mut counts = Counts::default();
         for reach in person.past() {
-            let (responsibility, _) = responsibilities(whole.fit(&Pair::from(reach.whole), &means), possible);
-            counts.add(&responsibility, &Pair::from(reach.phase[level]));
+            let (responsibility, _) = responsibilities(whole.fit(reach.whole, &means), possible);
+            counts.add(&responsibility, reach.phase[level]);
         }
         person.own[level] = OwnLevel::of(&phases[level], &counts);
         person.adapted = 1;
@@ -92,33 +92,19 @@ impl Fitting {
 impl OwnLevel {
     /// The posterior of one person's class means.
     pub fn of(prior: &Hierarchy, counts: &Counts) -> Self {
-        let (mean, covariance) = prior.posterior(counts);
-        let at = |class: usize| class * DIRECTIONS;
-        Self {
-            mean: std::array::from_fn(|class| [mean[at(class)], mean[at(class) + 1]]),
-            variance: std::array::from_fn(|class| {
-                let first = at(class);
-                [
-                    covariance[(first, first)],
-                    covariance[(first, first + 1)],
-                    covariance[(first + 1, first + 1)],
-                ]
-            }),
-        }
+        let (mean, variance) = prior.posterior(counts);
+        Self { mean: mean.into(), variance: variance.into() }
     }
 }
 
 /// Where a fit starts.
-fn start(index: u64, whole: &Hierarchy, person: &Person) -> Stack {
+fn start(index: u64, whole: &Hierarchy, person: &Person) -> Vector3<f64> {
     let past = person.past();
     if index == 0 || past.is_empty() {
         return whole.mean;
     }
-    let sum: Pair = past.iter().map(|reach| Pair::from(reach.whole)).sum();
-    let centre: Pair =
-        (0..CLASSES).map(|class| whole.mean.fixed_rows::<DIRECTIONS>(class * DIRECTIONS).into_owned()).sum();
-    let offset = sum / past.len() as f64 - centre / CLASSES as f64;
-    Stack::from_fn(|row, _| whole.mean[row] + offset[row % DIRECTIONS])
+    let own = past.iter().map(|reach| reach.whole).sum::<f64>() / past.len() as f64;
+    whole.mean.add_scalar(own - whole.mean.mean())
 }
 
 /// Shares of the possible classes in explaining one reach, and the logarithm of how well they explain it together.

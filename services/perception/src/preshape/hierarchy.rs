@@ -1,92 +1,57 @@
-use super::model::{CLASSES, DIRECTIONS, Level};
-use nalgebra::{SMatrix, SVector};
+use super::model::{CLASSES, Level};
+use nalgebra::{Matrix3, Vector3};
 
-pub(crate) const STACKED: usize = CLASSES * DIRECTIONS;
-pub(crate) type Pair = SVector<f64, DIRECTIONS>;
-pub(crate) type Square = SMatrix<f64, DIRECTIONS, DIRECTIONS>;
-pub(crate) type Stack = SVector<f64, STACKED>;
-pub(crate) type StackSquare = SMatrix<f64, STACKED, STACKED>;
-
-/// The prior of one person's class means at one level: all classes stacked, correlated by the person's offset.
+/// The prior of one person's class means at one level: correlated by the person's offset.
 #[derive(Debug, Clone)]
 pub(crate) struct Hierarchy {
-    pub mean: Stack,
-    pub covariance: StackSquare,
-    pub precision: StackSquare,
-    /// Covariance from reach to reach, and its inverse.
-    pub within: Square,
-    pub within_precision: Square,
+    pub mean: Vector3<f64>,
+    covariance: Matrix3<f64>,
+    precision: Matrix3<f64>,
+    /// Variance from reach to reach.
+    pub within: f64,
 }
 
-/// How much of each class has been seen: responsibilities and responsibility-weighted sums.
-#[derive(Debug, Clone, Copy)]
+/// How much of each class has been seen: responsibilities, and responsibility-weighted sums.
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Counts {
-    pub weight: [f64; CLASSES],
-    pub sum: [Pair; CLASSES],
-}
-
-impl Default for Counts {
-    fn default() -> Self {
-        Self { weight: [0.0; CLASSES], sum: [Pair::zeros(); CLASSES] }
-    }
+    weight: Vector3<f64>,
+    sum: Vector3<f64>,
 }
 
 impl Counts {
-    pub fn add(&mut self, responsibility: &[f64; CLASSES], at: &Pair) {
-        for class in 0..CLASSES {
-            self.weight[class] += responsibility[class];
-            self.sum[class] += at * responsibility[class];
-        }
+    pub fn add(&mut self, responsibility: &[f64; CLASSES], at: f64) {
+        let responsibility = Vector3::from(*responsibility);
+        self.weight += responsibility;
+        self.sum += responsibility * at;
     }
 }
 
 impl Hierarchy {
-    /// `None` when a covariance is singular, which a checked model's is not.
+    /// `None` when the covariance is singular, which a checked model's is not.
     pub fn new(level: &Level) -> Option<Self> {
-        let square = |rows: [[f64; DIRECTIONS]; DIRECTIONS]| Square::from_fn(|row, column| rows[row][column]);
-        let (within, contrast, person) = (square(level.within), square(level.contrast), square(level.person));
-        let covariance = StackSquare::from_fn(|row, column| {
-            let (a, b) = (row % DIRECTIONS, column % DIRECTIONS);
-            let same = if row / DIRECTIONS == column / DIRECTIONS { contrast[(a, b)] } else { 0.0 };
-            person[(a, b)] + same
-        });
-        Some(Self {
-            mean: Stack::from_fn(|row, _| level.mean[row / DIRECTIONS][row % DIRECTIONS]),
-            covariance,
-            precision: covariance.try_inverse()?,
-            within,
-            within_precision: within.try_inverse()?,
-        })
+        let covariance = Matrix3::from_element(level.person) + Matrix3::identity() * level.contrast;
+        let precision = covariance.try_inverse()?;
+        Some(Self { mean: level.mean.into(), covariance, precision, within: level.within })
     }
 
-    /// Posterior mean and covariance of this person's class means.
-    pub fn posterior(&self, counts: &Counts) -> (Stack, StackSquare) {
-        let mut precision = self.precision;
-        let mut pull = self.precision * self.mean;
-        for class in 0..CLASSES {
-            let at = class * DIRECTIONS;
-            let mut block = precision.fixed_view_mut::<DIRECTIONS, DIRECTIONS>(at, at);
-            block += self.within_precision * counts.weight[class];
-            let mut part = pull.fixed_rows_mut::<DIRECTIONS>(at);
-            part += self.within_precision * counts.sum[class];
-        }
+    /// Posterior mean and variance of each of this person's class means.
+    pub fn posterior(&self, counts: &Counts) -> (Vector3<f64>, Vector3<f64>) {
+        let precision = self.precision + Matrix3::from_diagonal(&(counts.weight / self.within));
+        let pull = self.precision * self.mean + counts.sum / self.within;
         match precision.try_inverse() {
-            Some(covariance) => (covariance * pull, covariance),
-            None => (self.mean, self.covariance),
+            Some(covariance) => (covariance * pull, covariance.diagonal()),
+            None => (self.mean, self.covariance.diagonal()),
         }
     }
 
     /// Logarithm of how well `at` fits each class with means `means`, up to a constant.
-    pub fn fit(&self, at: &Pair, means: &Stack) -> [f64; CLASSES] {
-        std::array::from_fn(|class| {
-            let miss = at - means.fixed_rows::<DIRECTIONS>(class * DIRECTIONS);
-            -0.5 * (miss.transpose() * self.within_precision * miss)[0]
-        })
+    pub fn fit(&self, at: f64, means: &Vector3<f64>) -> [f64; CLASSES] {
+        means.map(|mean| -0.5 * (at - mean).powi(2) / self.within).into()
     }
 
     /// Logarithm of the prior density of `means`, up to a constant.
-    pub fn prior(&self, means: &Stack) -> f64 {
+    pub fn prior(&self, means: &Vector3<f64>) -> f64 {
         let miss = means - self.mean;
-        -0.5 * (miss.transpose() * self.precision * miss)[0]
+        -0.5 * miss.dot(&(self.precision * miss))
     }
 }

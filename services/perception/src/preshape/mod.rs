@@ -10,7 +10,7 @@
 //!
 //! all Gaussian, with covariances learned from other people. For the person at hand, the mixture of all classes is
 //! fitted to the reaches so far, whose sizes nobody tells: their responsibilities and the person's own class means,
-//! by expectation maximisation under the learned priors. Everything happens in the two discriminant directions.
+//! by expectation maximisation under the learned priors. Everything happens along Fisher's discriminant.
 
 mod blend;
 mod classifier;
@@ -26,7 +26,7 @@ mod reach;
 
 pub use error::ModelError;
 pub use features::{FEATURES, Features};
-pub use model::{CLASSES, DIRECTIONS, Level, PreshapeModel, READ, SNAPSHOTS, WHOLE, WHOLE_LENGTH};
+pub use model::{CLASSES, Level, PreshapeModel, READ, SNAPSHOTS, WHOLE, WHOLE_LENGTH};
 pub use pace::Pace;
 pub use reach::ReachRecord;
 

@@ -4,8 +4,6 @@ use std::path::Path;
 
 /// Size classes.
 pub const CLASSES: usize = 3;
-/// Discriminant directions: one less than classes.
-pub const DIRECTIONS: usize = 2;
 /// Phases of a reach at which features are kept: time since onset, in units of the person's tempo. Contact comes at
 /// about 1.8.
 pub const SNAPSHOTS: [f64; 6] = [0.65, 0.9, 1.1, 1.3, 1.5, 2.4];
@@ -30,20 +28,20 @@ pub struct PreshapeModel {
     pub whole: Level,
 }
 
-/// Discriminant directions at one phase, and the Gaussians of the hierarchy in them.
+/// The discriminant at one phase, and the Gaussians of the hierarchy along it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Level {
-    /// Directions in the space of features, 1/m.
-    pub directions: [Vec<f64>; DIRECTIONS],
+    /// Direction in the space of features in which classes differ most, 1/m.
+    pub direction: Vec<f64>,
     /// Mean of each class over all people.
-    pub mean: [[f64; DIRECTIONS]; CLASSES],
-    /// Covariance within a person's class: from reach to reach.
-    pub within: [[f64; DIRECTIONS]; DIRECTIONS],
-    /// Covariance of a person's deviation in one class.
-    pub contrast: [[f64; DIRECTIONS]; DIRECTIONS],
-    /// Covariance of a person's offset in all classes.
-    pub person: [[f64; DIRECTIONS]; DIRECTIONS],
+    pub mean: [f64; CLASSES],
+    /// Variance within a person's class: from reach to reach.
+    pub within: f64,
+    /// Variance of a person's deviation in one class.
+    pub contrast: f64,
+    /// Variance of a person's offset in all classes.
+    pub person: f64,
 }
 
 impl PreshapeModel {
@@ -93,27 +91,24 @@ impl PreshapeModel {
 
 impl Level {
     fn check(&self, length: usize) -> Result<(), String> {
-        if let Some(direction) = self.directions.iter().find(|direction| direction.len() != length) {
-            return Err(format!("directions: expected {length} numbers each, found {}", direction.len()));
+        if self.direction.len() != length {
+            return Err(format!("direction: expected {length} numbers, found {}", self.direction.len()));
         }
-        let finite =
-            self.directions.iter().flatten().chain(self.mean.iter().flatten()).all(|v| v.is_finite());
-        if !finite {
-            return Err("directions and mean: expected finite numbers".into());
+        if !self.direction.iter().chain(&self.mean).all(|value| value.is_finite()) {
+            return Err("direction and mean: expected finite numbers".into());
         }
-        for (name, matrix) in [("within", self.within), ("contrast", self.contrast), ("person", self.person)]
+        for (name, variance) in
+            [("within", self.within), ("contrast", self.contrast), ("person", self.person)]
         {
-            let [[xx, xy], [yx, yy]] = matrix;
-            if !(xx > 0.0 && yy > 0.0 && xx * yy - xy * yx > 0.0 && xy == yx) {
-                return Err(format!("{name}: expected a positive definite 2 x 2 matrix, found {matrix:?}"));
+            if !(variance > 0.0 && variance.is_finite()) {
+                return Err(format!("{name}: expected a variance above 0, found {variance}"));
             }
         }
         Ok(())
     }
 
-    /// Coordinates of `features` in the discriminant directions.
-    pub(crate) fn project<'a>(&self, features: impl Iterator<Item = &'a f64> + Clone) -> [f64; DIRECTIONS] {
-        let along = |direction: &Vec<f64>| direction.iter().zip(features.clone()).map(|(a, b)| a * b).sum();
-        [along(&self.directions[0]), along(&self.directions[1])]
+    /// Coordinate of `features` along the discriminant.
+    pub(crate) fn project<'a>(&self, features: impl Iterator<Item = &'a f64>) -> f64 {
+        self.direction.iter().zip(features).map(|(a, b)| a * b).sum()
     }
 }

@@ -1,29 +1,29 @@
-use super::model::{CLASSES, DIRECTIONS, READ};
+use super::model::{CLASSES, READ};
 use bytemuck::{Pod, Zeroable};
 
 /// Reaches that are remembered.
-pub(crate) const REACHES: usize = 34;
+pub(crate) const REACHES: usize = 60;
 /// Reaches that the usual tempo of people counts for.
 const PRIOR_REACHES: usize = 3;
 
-/// One earlier reach, in discriminant directions.
+/// One earlier reach, along the discriminants.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(crate) struct PastReach {
     /// As a whole.
-    pub whole: [f64; DIRECTIONS],
+    pub whole: f64,
     /// At each phase that is read on the way.
-    pub phase: [[f64; DIRECTIONS]; READ],
+    pub phase: [f64; READ],
     /// Its tempo, s.
     pub tempo: f64,
 }
 
-/// One person's own class means at one phase: mean, and variance xx, xy, yy of that mean.
+/// One person's own class means at one phase, and how uncertain they are.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(crate) struct OwnLevel {
-    pub mean: [[f64; DIRECTIONS]; CLASSES],
-    pub variance: [[f64; 3]; CLASSES],
+    pub mean: [f64; CLASSES],
+    pub variance: [f64; CLASSES],
 }
 
 /// What is known of this person: the last reaches, and what was learned from them.
