@@ -95,7 +95,13 @@ fn wait_until_ready(run: &Run) -> Outcome<()> {
                 None => std::thread::sleep(Duration::from_millis(5)),
             }
         };
-        println!("{name:12} {} {} core {:?}", ready.scheduler, ready.priority, ready.core);
+        println!(
+            "{name:12} {} {} core {:?} {}",
+            ready.scheduler,
+            ready.priority,
+            ready.core,
+            ready.why_not.join("; ")
+        );
     }
     Ok(())
 }
