@@ -1,0 +1,116 @@
+//! Process tables: what is read, what is refused and in which words, and what the reference table shows.
+#![allow(clippy::unwrap_used)]
+
+use coact_pipeline::{Pipeline, Trigger};
+use std::time::Duration;
+
+const GOOD: &str = r#"period_us = 1000
+[restart]
+intensity = 3
+period_s = 10
+[[process]]
+name = "fields"
+program = "coact-fields"
+order = 3
+realtime = true
+priority = 81
+trigger = "coact/percept"
+latest_start_us = 600
+[[process]]
+name = "world"
+program = "coact-world"
+order = 1
+trigger = "timer"
+"#;
+
+fn refused(from: &str, to: &str) -> String {
+    assert!(GOOD.contains(from), "the test replaces nothing");
+    Pipeline::parse(&GOOD.replacen(from, to, 1), "p.toml".as_ref()).unwrap_err().to_string()
+}
+
+#[test]
+fn processes_are_sorted_by_order_and_defaults_apply() {
+    let pipeline = Pipeline::parse(GOOD, "p.toml".as_ref()).unwrap();
+    let names: Vec<_> = pipeline.processes.iter().map(|entry| entry.name.as_str()).collect();
+    assert_eq!(names, ["world", "fields"]);
+    assert_eq!((pipeline.deadline_us, pipeline.restart.intensity), (1000, 3));
+    let fields = pipeline.process("fields").unwrap();
+    assert_eq!(fields.trigger, Trigger::Topic("coact/percept".to_owned()));
+    assert_eq!(fields.stop_grace, Duration::from_millis(1000));
+}
+
+#[test]
+fn every_mistake_names_file_line_key_and_what_was_expected() {
+    let cases = [
+        ("priority = 81", "priority = 100", "p.toml:10: priority: is 100; expected 1 to 99"),
+        (
+            "latest_start_us = 600",
+            "latest_start_us = 1000",
+            "p.toml:12: latest_start_us: is 1000; expected less",
+        ),
+        (
+            "name = \"world\"",
+            "name = \"fields\"",
+            "p.toml:14: name: is fields; expected a name that no process",
+        ),
+        ("name = \"world\"", "name = \"My World\"", "p.toml:14: name: is My World; expected 1 to 32 of"),
+        ("period_us = 1000", "period_us = 0", "p.toml:1: period_us: is 0; expected 100 to 1000000"),
+        ("period_s = 10", "period_s = 0", "p.toml:4: period_s: is 0; expected seconds"),
+        ("order = 3", "order = \"x\"", "p.toml:8: order: invalid type: string \"x\"; expected u32"),
+        (
+            "realtime = true",
+            "real_time = true",
+            "p.toml:9: real_time: unknown field `real_time`; expected one of",
+        ),
+        ("priority = 81\n", "", "p.toml:6: name: is fields; expected a key \"priority\""),
+        ("latest_start_us = 600\n", "", "p.toml:6: name: is fields; expected a key \"latest_start_us\""),
+        ("[restart]", "[restart", "p.toml:2: "),
+    ];
+    for (from, to, message) in cases {
+        let found = refused(from, to);
+        assert!(found.starts_with(message), "{from} -> {to}:\n{found}\nshould start with\n{message}");
+    }
+}
+
+#[test]
+fn missing_key_names_the_entry_that_lacks_it() {
+    let found = refused("program = \"coact-world\"\n", "");
+    assert!(found.contains("p.toml:13: ") && found.contains("missing field `program`"), "{found}");
+}
+
+#[test]
+fn unknown_process_is_told_the_known_ones() {
+    let pipeline = Pipeline::parse(GOOD, "p.toml".as_ref()).unwrap();
+    let found = pipeline.process("field").unwrap_err().to_string();
+    assert_eq!(found, "no process is called \"field\"; expected one of: world, fields");
+}
+
+const REFERENCE: &str = include_str!("../../../rt-config/pipeline.toml");
+
+#[test]
+fn reference_table_is_read_and_shows_the_defaults_of_the_restart_policy() {
+    let pipeline = Pipeline::parse(REFERENCE, "pipeline.toml".as_ref()).unwrap();
+    let started_by_the_timer = pipeline.processes.iter().filter(|entry| entry.trigger == Trigger::Timer);
+    assert_eq!(started_by_the_timer.count(), 1);
+    let defaults = Pipeline::parse("process = []", "defaults".as_ref()).unwrap();
+    assert_eq!((pipeline.period_us, pipeline.deadline_us), (defaults.period_us, defaults.deadline_us));
+    assert_eq!(pipeline.restart, defaults.restart);
+}
+
+#[test]
+fn reference_table_explains_every_key() {
+    let process = "[[process]]\nunknown = 1";
+    for text in ["unknown = 1\nprocess = []", "process = []\n[restart]\nunknown = 1", process] {
+        let refusal = Pipeline::parse(text, "p.toml".as_ref()).unwrap_err().to_string();
+        let (_, keys) = refusal.split_once("expected one of ").unwrap();
+        for key in keys.split('`').filter(|part| part.chars().any(char::is_alphabetic)) {
+            let explained = |line: &str| {
+                let in_comment =
+                    line.strip_prefix("# ").is_some_and(|text| text.starts_with(&format!("{key} ")));
+                in_comment || (line.starts_with(&format!("{key} = ")) && line.contains(" # "))
+            };
+            let is_table = REFERENCE.contains(&format!("[{key}]"));
+            assert!(is_table || REFERENCE.lines().any(explained), "{key} is not explained");
+        }
+    }
+}
