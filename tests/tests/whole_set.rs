@@ -16,6 +16,9 @@ fn a_set_builds_at_its_rate_and_reports() {
     let verdict = if finished.code == Some(0) { "pass" } else { "fail" };
     assert_eq!(finished.summary["verdict"], verdict, "{}", finished.stderr);
     assert!(finished.achieved() >= 1, "{}", finished.stderr);
+    for shown in ["decides: ", "says: ", "achieved: "] {
+        assert!(finished.stderr.contains(shown), "{shown} is not in {}", finished.stderr);
+    }
     for process in CHAIN {
         let cycles = finished.cycles(process);
         assert!((13_500..=15_100).contains(&cycles), "{process}: {cycles} cycles in 15 s");

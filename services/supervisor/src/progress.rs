@@ -135,3 +135,67 @@ impl Progress {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use coact_messages::NONE;
+
+    fn progress() -> Progress {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/tasks/toy-vehicle.toml");
+        Progress::new(&Task::load(file.as_ref()).unwrap())
+    }
+
+    /// A frame whose subgoal populations have these signals.
+    fn frame(signals: &[f64], action: u32) -> Box<FieldFrame> {
+        let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
+        frame.layers.count = 1;
+        frame.layers.kind[0] = LayerKind::SubgoalsAchieved as u32;
+        frame.layers.populations[0] = signals.len() as u32;
+        frame.signal[..signals.len()].copy_from_slice(signals);
+        frame.decision.action = action;
+        frame
+    }
+
+    fn texts(progress: &mut Progress) -> Vec<String> {
+        progress.take_notes().into_iter().map(|note| note.text).collect()
+    }
+
+    #[test]
+    fn each_achieved_subgoal_and_each_new_decision_is_told_once() {
+        let mut progress = progress();
+        let (subgoal, action) = (progress.subgoals[1].clone(), progress.actions[2].clone());
+        for _ in 0..3 {
+            progress.frame(&frame(&[0.4, 0.9], 2));
+        }
+        assert_eq!(texts(&mut progress), [format!("achieved: {subgoal}"), format!("decides: {action}")]);
+        assert!(!progress.all_achieved());
+        progress.frame(&frame(&[0.4, 0.9], NONE));
+        assert_eq!(texts(&mut progress), [""; 0]);
+        progress.frame(&frame(&[0.4, 0.9], 2));
+        assert_eq!(texts(&mut progress), [format!("decides: {action}")]);
+    }
+
+    #[test]
+    fn all_is_achieved_when_every_population_is_above_threshold() {
+        let mut progress = progress();
+        let count = progress.subgoals.len();
+        progress.frame(&frame(&vec![0.6; count], NONE));
+        assert!(progress.all_achieved());
+        progress.frame(&frame(&vec![0.0; count], NONE));
+        assert!(!progress.all_achieved(), "the scene was laid out again");
+    }
+
+    #[test]
+    fn misses_of_a_dead_generation_still_count() {
+        let mut progress = progress();
+        for (generation, missed) in [(0, 3), (0, 5), (1, 0), (1, 2)] {
+            let mut pulse = Pulse { missed, ..Pulse::default() };
+            pulse.header.generation = generation;
+            progress.pulse("fields", &pulse);
+        }
+        progress.pulse("world", &Pulse { missed: 1, ..Pulse::default() });
+        assert!(progress.status(Duration::ZERO).contains("missed 8"), "{}", progress.status(Duration::ZERO));
+    }
+}

@@ -80,7 +80,7 @@ impl<'a> Session<'a> {
         self.terminal.status("stopping".into());
         let Self { set, kept, .. } = &mut self;
         set.stop(|| kept.poll());
-        self.show();
+        self.show_news();
         ending
     }
 
@@ -117,7 +117,9 @@ impl<'a> Session<'a> {
         for entry in &self.launch.pipeline.processes {
             let Ok(Some(ready)) = self.run.ready(&entry.name, 0) else { continue };
             if !ready.why_not.is_empty() {
-                let text = format!("{} runs without: {}", entry.name, ready.why_not.join("; "));
+                let refused = ready.why_not.join("; ");
+                let text =
+                    format!("{} is not real time: {refused}; see rt-config/system/README.md", entry.name);
                 self.progress.note(Note::new(Tone::Alarm, text));
             }
         }
@@ -148,22 +150,26 @@ impl<'a> Session<'a> {
     }
 
     fn show(&mut self) {
+        if self.show_news() || clock::now() >= self.status_at {
+            self.status_at = clock::now() + Duration::from_secs(1);
+            let status = self.elapsed().map(|elapsed| self.progress.status(elapsed));
+            self.terminal.status(status.unwrap_or_else(|| self.waiting()));
+        }
+    }
+
+    /// Answers whether anything happened to a process.
+    fn show_news(&mut self) -> bool {
         let news = self.set.take_news();
         for event in &news {
             self.progress.event(event);
         }
-        let changed = !news.is_empty();
         for note in self.progress.take_notes() {
             self.terminal.note(match self.elapsed() {
                 Some(elapsed) => note.at(elapsed),
                 None => note,
             });
         }
-        if changed || clock::now() >= self.status_at {
-            self.status_at = clock::now() + Duration::from_secs(1);
-            let status = self.elapsed().map(|elapsed| self.progress.status(elapsed));
-            self.terminal.status(status.unwrap_or_else(|| self.waiting()));
-        }
+        !news.is_empty()
     }
 
     /// For whom the start of the run waits.

@@ -91,7 +91,8 @@ struct Screen {
 impl Screen {
     fn open() -> Self {
         let spinner = stderr().is_terminal().then(ProgressBar::new_spinner);
-        if let (Some(spinner), Ok(style)) = (&spinner, ProgressStyle::with_template("{spinner:.cyan} {msg}"))
+        if let (Some(spinner), Ok(style)) =
+            (&spinner, ProgressStyle::with_template("{spinner:.cyan} {wide_msg}"))
         {
             spinner.set_style(style);
         }

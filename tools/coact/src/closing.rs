@@ -39,8 +39,11 @@ fn render(summary: &Value, report: &Path) -> String {
     let order = list(&summary["task"]["order"]).enumerate();
     lines.extend(order.map(|(index, name)| format!("  {:>2}. {}", index + 1, words(name))));
     lines.push(anticipation(&summary["anticipation"]));
-    lines.push(latency(summary));
-    lines.push(privileges(&summary["environment"]));
+    // In lockstep no process runs and no clock.
+    if values(&summary["processes"]).next().is_some() {
+        lines.push(latency(summary));
+        lines.push(privileges(&summary["environment"]));
+    }
     lines.extend(list(&summary["faults"]).map(fault));
     lines.push(format!("report        {}", report.display()));
     lines.join("\n") + "\n"
@@ -79,8 +82,10 @@ fn anticipation(anticipation: &Value) -> String {
 fn latency(summary: &Value) -> String {
     let times = &summary["end_to_end_ns"];
     let micros = |key: &str| format!("{key} {:.0} µs", number(&times[key]) / 1e3);
-    let missed: f64 = values(&summary["processes"]).map(|process| number(&process["missed"])).sum();
-    let cycles: f64 = values(&summary["processes"]).map(|process| number(&process["cycles"])).sum();
+    let total = |key: &str| -> u64 {
+        values(&summary["processes"]).filter_map(|process| process[key].as_u64()).sum()
+    };
+    let (missed, cycles) = (total("missed"), total("cycles"));
     let percentiles = ["p50", "p99", "p999", "max"].map(micros).join(", ");
     format!("end to end    {percentiles}; {missed} of {cycles} cycles missed their deadline")
 }
@@ -162,6 +167,14 @@ mod tests {
         ] {
             assert!(text.contains(part), "{part} is not in {text}");
         }
+    }
+
+    #[test]
+    fn a_run_in_lockstep_shows_no_latencies() {
+        let mut summary = summary("pass");
+        summary["processes"] = json!({});
+        let text = render(&summary, Path::new("reports/x"));
+        assert!(!text.contains("end to end") && !text.contains("locked"), "{text}");
     }
 
     #[test]
