@@ -63,7 +63,9 @@ impl Acts {
                 Act::Rest => (resting, REST),
                 Act::Idle => ((memory.dwell as f64 / LONG).min(1.0), REST),
                 Act::Reach => (f64::from(u8::from(reaches)), REACH),
-                Act::Gesture(gesture) => (self.gestures.evidence(gesture, tick, memory, out), GESTURE),
+                Act::Gesture(gesture) => {
+                    (self.gestures.evidence(gesture, tick, movement.as_ref(), memory, out), GESTURE)
+                }
                 Act::Grasp { grip, kind } => {
                     (self.grasps.evidence(grip, kind, &preparing, memory, out), GRASP)
                 }

@@ -14,3 +14,12 @@ pub(crate) fn smooth_step(value: f64, low: f64, high: f64) -> f64 {
     let x = ((value - low) / (high - low)).clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
 }
+
+/// What a share of one among `possible` alternatives is more than mere chance, in [0, 1]: 0 when nothing speaks for it.
+pub(crate) fn beyond_chance(share: f64, possible: usize) -> f64 {
+    if possible < 2 {
+        return share;
+    }
+    let chance = 1.0 / possible as f64;
+    ((share - chance) / (1.0 - chance)).max(0.0)
+}

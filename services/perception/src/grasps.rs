@@ -1,4 +1,4 @@
-use crate::evidence::smooth_step;
+use crate::evidence::{beyond_chance, smooth_step};
 use crate::grips::resemblance;
 use crate::memory::Memory;
 use crate::movement::Movement;
@@ -8,8 +8,10 @@ use coact_joint_task::{Grip, Kind, Task};
 use coact_messages::{MAX_KINDS, PERSON, Percept};
 use nalgebra::Vector3;
 
-/// Phases of a reach (see [`crate::SNAPSHOTS`]) between which evidence for a grasp opens: an early decision is a wrong one.
-const OPENS: (f64, f64) = (0.6, 1.1);
+/// Phase of contact (see [`crate::SNAPSHOTS`]).
+const CONTACT: f64 = 1.8;
+/// Phases of a reach between which the hand takes the shape that tells what it is for: before, it misleads.
+const SHAPES: (f64, f64) = (0.6, 1.1);
 /// Phases between which evidence is sharpened, as contact comes near, and the exponent that is reached.
 const SHARPENS: (f64, f64) = (1.0, 1.4);
 const SHARPNESS: f64 = 6.0;
@@ -72,17 +74,29 @@ impl Grasps {
         for (kind, slot) in way.iter_mut().enumerate().take(self.kinds.len()) {
             *slot = self.best_way(kind, movement, memory, places);
         }
-        let best = way.iter().flatten().fold(0.0, |best: f64, way: &Way| best.max(way.leads));
+        let Some(best) = way.iter().flatten().copied().max_by(|a, b| a.leads.total_cmp(&b.leads)) else {
+            return preparing;
+        };
+        let near = smooth_step(best.distance, ARRIVES.0, ARRIVES.1);
         let (gate, sharpness, fit) = match movement.phase {
             Some(phase) => {
+                let phase = phase_of(phase, &best, memory);
                 preparing.trust = smooth_step(phase, TURNS.0, TURNS.1);
                 let sharp = 1.0 + (SHARPNESS - 1.0) * smooth_step(phase, SHARPENS.0, SHARPENS.1);
-                let gate = smooth_step(phase, OPENS.0, OPENS.1) * smooth_step(best, LEADS.0, LEADS.1);
-                (gate, sharp, size_fit(phase, memory, classifier))
+                let trust = smooth_step(phase, SHAPES.0, SHAPES.1);
+                (
+                    smooth_step(best.leads, LEADS.0, LEADS.1),
+                    sharp,
+                    size_fit(memory, classifier).map(|fit| trust * fit),
+                )
             }
-            None => (self.arrival(&way), SHARPNESS, [0.0; MAX_KINDS]),
+            None => {
+                preparing.trust = near;
+                (best.leads * near, SHARPNESS, [0.0; MAX_KINDS])
+            }
         };
-        preparing.kind = shares(&way, &fit, sharpness).map(|share| gate * share);
+        let possible = way.iter().flatten().count();
+        preparing.kind = shares(&way, &fit, sharpness).map(|share| gate * beyond_chance(share, possible));
         preparing
     }
 
@@ -100,12 +114,6 @@ impl Grasps {
         });
         ways.max_by(|a, b| a.leads.total_cmp(&b.leads))
     }
-
-    /// How clearly a movement that did not begin at rest arrives at a part.
-    fn arrival(&self, way: &[Option<Way>; MAX_KINDS]) -> f64 {
-        let clear = |way: &Way| way.leads * smooth_step(way.distance, ARRIVES.0, ARRIVES.1);
-        way.iter().flatten().map(clear).fold(0.0, f64::max)
-    }
 }
 
 /// How a movement relates to one part.
@@ -116,20 +124,24 @@ struct Way {
     distance: f64,
 }
 
+/// Phase of a reach: the mean of what the time that it has taken says, and the way that is left to the part that it
+/// leads to. The share of the way goes with the square root of the phase, nearly so in all people.
+fn phase_of(time: f64, way: &Way, memory: &Memory) -> f64 {
+    let shape = memory.hand.shape();
+    let covered = (Vector3::from(shape.wrist) - Vector3::from(memory.preshape.reach.departure)).norm();
+    let share = covered / (covered + way.distance).max(1e-6);
+    0.5 * (time + CONTACT * share * share)
+}
+
 /// Logarithm of how well the hand's shape fits each kind. Beyond the last phase that the model reads, what was seen
 /// then counts.
-fn size_fit(phase: f64, memory: &Memory, classifier: &Classifier) -> [f64; MAX_KINDS] {
-    let reach = &memory.preshape.reach;
-    let last = crate::SNAPSHOTS[LAST_READ];
+fn size_fit(memory: &Memory, classifier: &Classifier) -> [f64; MAX_KINDS] {
+    let (hand, reach, person) = (&memory.hand, &memory.preshape.reach, &memory.preshape.person);
     if reach.passed as usize > LAST_READ {
-        return classifier.likelihoods(&reach.features[LAST_READ], last, &memory.preshape.person);
+        return classifier.likelihoods(&reach.features[LAST_READ], crate::SNAPSHOTS[LAST_READ], person);
     }
-    let age = memory.hand.captured.saturating_sub(reach.onset);
-    if age == 0 {
-        return [0.0; MAX_KINDS];
-    }
-    let seen = classifier.phase(&memory.preshape, memory.hand.captured).min(phase);
-    classifier.likelihoods(&classifier.features(&memory.hand, reach), seen, &memory.preshape.person)
+    let seen = classifier.phase(&memory.preshape, hand.captured);
+    classifier.likelihoods(&classifier.features(hand, reach), seen, person)
 }
 
 /// Shares of the kinds in explaining movement and shape, sharpened.

@@ -15,18 +15,18 @@ pub(crate) struct Heading {
 }
 
 impl Heading {
-    /// How well the movement leads to `target`, in (0, 1]: the nearer the hand, the sharper.
+    /// How well the movement leads to `target`, in (0, 1]: the nearer the hand, the sharper; not at all when it leads away.
     pub fn leads_to(&self, target: Vector3<f64>) -> f64 {
         let way = (target - self.centre).xy();
         let velocity = self.velocity.xy();
         let distance = way.norm();
-        let miss = if velocity.norm() < DIRECTED {
-            distance
-        } else {
-            let ahead = way.dot(&velocity.normalize());
-            if ahead > 0.0 { (distance * distance - ahead * ahead).max(0.0).sqrt() } else { distance }
+        let ahead = velocity.try_normalize(DIRECTED).map(|direction| way.dot(&direction));
+        let (miss, left) = match ahead {
+            Some(ahead) if ahead > 0.0 => ((distance * distance - ahead * ahead).max(0.0).sqrt(), distance),
+            Some(_) => (distance, 0.0),
+            None => (distance, distance),
         };
-        let scatter = SCATTER.0 + SCATTER.1 * distance;
+        let scatter = SCATTER.0 + SCATTER.1 * left;
         (-0.5 * (miss / scatter).powi(2)).exp()
     }
 }

@@ -1,6 +1,6 @@
 use super::PersonHand;
 use super::Surroundings;
-use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack};
+use super::part_track::{BY_PERSON, BY_ROBOT, FREE, PartTrack};
 use nalgebra::Vector3;
 
 /// Distance of the finger tips' middle from the centre of a part that they close on, m.
@@ -15,8 +15,9 @@ const CLOSED: f64 = 0.02;
 const OPENED: f64 = 0.05;
 /// Speed of a hand that closes on a part, m/s.
 const SLOW: f64 = 0.15;
-/// How long a part must lie still to show that a hand that leaves has let go of it, cycles.
-const LEFT: u32 = 60;
+/// A hand that moves off from a part that has lain still for so long (cycles) has let go of it, once it is so far away.
+const SETTLED: u32 = 60;
+const LEFT: f64 = 0.035;
 /// Force that tells that the robot's fingers hold something, N.
 const TOUCH: f64 = 0.2;
 /// Distance of the robot's grasp point from the axis of the part that it holds, m; beyond twice that, it holds it not.
@@ -32,33 +33,55 @@ pub(crate) struct Body {
 }
 
 impl PartTrack {
-    /// Finds out anew who has the part. `airborne`: it hangs in the air, on nothing that could carry it.
-    pub(super) fn find_holder(&mut self, body: Body, around: &Surroundings, airborne: bool) {
-        let person = match around.person {
-            Some(hand) => self.is_with_person(body, &hand),
-            None => self.holder & BY_PERSON != 0,
-        };
-        let robot = around.touch > TOUCH && self.is_with_robot(body, around, airborne && !person);
-        self.holder = u32::from(robot) * BY_ROBOT | u32::from(person) * BY_PERSON;
+    /// Finds out whether a hand still has the part that it had.
+    pub(super) fn let_go(&mut self, body: Body, around: &Surroundings) {
+        if let Some(hand) = around.person
+            && self.holder & BY_PERSON != 0
+            && !self.stays_with_person(body, &hand)
+        {
+            self.holder &= !BY_PERSON;
+        }
+        if self.holder & BY_ROBOT != 0 && !self.stays_with_robot(body, around) {
+            self.holder &= !BY_ROBOT;
+        }
     }
 
-    fn is_with_person(&self, body: Body, hand: &PersonHand) -> bool {
-        let away = (self.above_underside(0.5 * body.height) - hand.centre).norm();
-        if self.holder & BY_PERSON != 0 {
-            let left = away > CARRIED && self.still >= LEFT;
-            return !(away > OUT || left || hand.aperture > body.width + OPENED);
+    /// Finds out whether a hand that is `free` takes the part: bits [`BY_ROBOT`] and [`BY_PERSON`]. A hand holds one part.
+    /// `airborne`: the part hangs in the air, on nothing that could carry it.
+    pub(super) fn take(&mut self, free: u32, body: Body, around: &Surroundings, airborne: bool) {
+        if let Some(hand) = around.person.filter(|_| free & BY_PERSON != 0)
+            && self.is_taken_by_person(body, &hand)
+        {
+            self.holder |= BY_PERSON;
         }
+        let reached = around
+            .grasp_point
+            .map_or(airborne && self.holder == FREE, |point| self.distance_to_axis(body, point) < GRASPED);
+        if free & BY_ROBOT != 0 && around.touch > TOUCH && reached {
+            self.holder |= BY_ROBOT;
+        }
+    }
+
+    fn stays_with_person(&self, body: Body, hand: &PersonHand) -> bool {
+        let away = self.away_from(body, hand);
+        let left = away > LEFT && self.still >= SETTLED && hand.speed > SLOW;
+        !(away > OUT || left || hand.aperture > body.width + OPENED)
+    }
+
+    fn is_taken_by_person(&self, body: Body, hand: &PersonHand) -> bool {
+        let away = self.away_from(body, hand);
         let closed = away < CLOSED_ON && hand.aperture < body.width + CLOSED && hand.speed < SLOW;
         let carried = away < CARRIED && self.still == 0 && hand.speed > SLOW && self.holder & BY_ROBOT == 0;
         closed || carried
     }
 
-    fn is_with_robot(&self, body: Body, around: &Surroundings, airborne: bool) -> bool {
-        let had = self.holder & BY_ROBOT != 0;
-        match around.grasp_point {
-            Some(point) => self.distance_to_axis(body, point) < if had { 2.0 * GRASPED } else { GRASPED },
-            None => had || airborne,
-        }
+    fn stays_with_robot(&self, body: Body, around: &Surroundings) -> bool {
+        let near = around.grasp_point.is_none_or(|point| self.distance_to_axis(body, point) < 2.0 * GRASPED);
+        around.touch > TOUCH && near
+    }
+
+    fn away_from(&self, body: Body, hand: &PersonHand) -> f64 {
+        (self.above_underside(0.5 * body.height) - hand.centre).norm()
     }
 
     /// Distance of `point` from the part's axis, between its underside and its top, m.

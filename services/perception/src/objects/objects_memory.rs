@@ -1,4 +1,4 @@
-use super::part_track::PartTrack;
+use super::part_track::{FREE, PartTrack};
 use super::places::is_hidden;
 use super::{Places, Surroundings};
 use bytemuck::{Pod, Zeroable};
@@ -45,10 +45,24 @@ impl ObjectsMemory {
         self.captured = view.captured_cycle;
         self.associate(view, cycles, places);
         self.miss(view, cycles);
+        self.find_holders(around, places);
+    }
+
+    /// Finds out who has which part: first what was let go, then what was taken.
+    fn find_holders(&mut self, around: &Surroundings, places: &Places) {
+        let mut busy = FREE;
         for track in &mut self.tracks {
-            let Some(kind) = track.kind() else { continue };
-            let airborne = places.is_airborne(kind, track.position);
-            track.find_holder(places.body(kind), around, airborne);
+            if let Some(kind) = track.kind() {
+                track.let_go(places.body(kind), around);
+                busy |= track.holder;
+            }
+        }
+        for track in &mut self.tracks {
+            if let Some(kind) = track.kind() {
+                let airborne = places.is_airborne(kind, track.position);
+                track.take(!busy, places.body(kind), around, airborne);
+                busy |= track.holder;
+            }
         }
     }
 

@@ -9,6 +9,10 @@ use crate::hand::HandMemory;
 use coact_joint_task::Kind;
 use coact_messages::MAX_KINDS;
 
+/// Degrees of freedom of the Student distribution by which shapes scatter: a hand unlike all that were recorded says
+/// little.
+const TAILS: f64 = 5.0;
+
 /// Reads from the hand's shape which kinds of part it prepares for.
 #[derive(Debug, Clone)]
 pub(crate) struct Classifier {
@@ -128,6 +132,6 @@ impl Classifier {
         let within = between.mix(self.phases[between.low].within, self.phases[between.high].within);
         let variance = within + mixed(|level| &level.variance);
         let miss = at - mixed(|level| &level.mean);
-        -0.5 * (miss * miss / variance + variance.ln())
+        -0.5 * ((TAILS + 1.0) * (1.0 + miss * miss / (TAILS * variance)).ln() + variance.ln())
     }
 }
