@@ -1,4 +1,3 @@
-use super::playback::LEAD;
 use super::{Choice, Errand, HandModel, Intention, PersonMemory, Plan, Recorded, Stage, View};
 use crate::noise::{Noise, Stream};
 use crate::parts::{Holder, Parts};
@@ -57,7 +56,7 @@ impl Person {
             Stage::Rest if over => self.decide(memory, around),
             Stage::Rest => {}
             Stage::Prepare if over => self.set_out(memory, around),
-            Stage::Prepare => {}
+            Stage::Prepare => self.move_towards(memory, around),
             Stage::Reach => self.reach(memory, around),
             Stage::Dwell if over => self.lift(memory, around),
             Stage::Dwell => {}
@@ -90,10 +89,8 @@ impl Person {
         memory.part = intention.part.map_or(Slot::EMPTY, Slot::of);
         memory.set_errand(intention.errand);
         memory.recording = self.choose_recording(intention, around);
-        match memory.recording.get() {
-            Some(_) => memory.enter(Stage::Prepare, around.tick + LEAD),
-            None => self.set_out(memory, around),
-        }
+        memory.movement = self.reach_movement(memory, around);
+        memory.enter(Stage::Prepare, memory.movement.onset);
     }
 
     /// One of the recorded reaches for a part of this width.
@@ -105,17 +102,25 @@ impl Person {
         recorded.nth_for(width, turn).map_or(Slot::EMPTY, Slot::of)
     }
 
-    /// Reach onset.
+    /// Reach onset: an action begins.
     fn set_out(&self, memory: &mut PersonMemory, around: &Surroundings) {
         memory.actions += 1;
         memory.onset = around.tick;
         memory.grasped = 0;
-        let movement = self.reach_movement(memory, around);
-        memory.movement = movement;
-        memory.enter(Stage::Reach, movement.end);
+        memory.enter(Stage::Reach, memory.movement.end);
+        self.move_towards(memory, around);
     }
 
     fn reach(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        self.move_towards(memory, around);
+        if memory.stage() == Stage::Reach && memory.movement.is_over(around.tick) {
+            memory.hand = memory.movement.to;
+            self.arrive(memory, around);
+        }
+    }
+
+    /// Moves the empty hand towards its goal, wherever that is now; gives up when the part cannot be had any more.
+    fn move_towards(&self, memory: &mut PersonMemory, around: &Surroundings) {
         if let Some(part) = memory.part.get() {
             if !can_grasp(memory.errand(), part, around) {
                 return self.withdraw(memory, around);
@@ -126,10 +131,6 @@ impl Person {
             None => memory.movement.pose(around.tick),
             Some(_) => self.recorded_pose(memory, around.tick).unwrap_or(memory.hand),
         };
-        if memory.movement.is_over(around.tick) {
-            memory.hand = memory.movement.to;
-            self.arrive(memory, around);
-        }
     }
 
     /// The fingers close on the part, or the gesture is fully shown.

@@ -61,7 +61,7 @@ pub(crate) enum Errand {
 #[repr(u64)]
 pub(crate) enum Stage {
     Rest = 0,
-    /// Still at rest, but a recorded reach, which begins before its onset, already moves the hand.
+    /// Under way, but not yet so fast that an observer would speak of a reach.
     Prepare = 1,
     Reach = 2,
     /// Fingers closed, part not yet lifted.

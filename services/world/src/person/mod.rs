@@ -23,5 +23,7 @@ pub(crate) use intention::{Choice, Intention, View};
 pub(crate) use memory::{Errand, PersonMemory, Stage};
 pub(crate) use movement::Movement;
 pub(crate) use plan::Plan;
+#[cfg(test)]
+pub(crate) use profile::FINGERS;
 pub use recorded::Recorded;
 pub use script::Script;

@@ -1,8 +1,8 @@
 use super::HandPose;
-use super::profile::{minimum_jerk, reach_progress};
+use super::profile::minimum_jerk;
 use bytemuck::{Pod, Zeroable};
 
-/// Fraction of movement time in which the hand's pitch reaches that of the grip.
+/// Fraction of a grasping movement in which the hand's pitch reaches that of the grip.
 const PITCH_TIME: f64 = 0.7;
 /// How much the fingers stretch while they open, m.
 const STRETCH: f64 = 0.015;
@@ -14,17 +14,19 @@ pub(crate) struct Movement {
     pub from: HandPose,
     pub to: HandPose,
     pub start: u64,
+    /// Where an observer sees it begin: movement time counts from here.
+    pub onset: u64,
     pub end: u64,
     /// How far the path arches above the straight line, m.
     pub arch: f64,
     /// Largest aperture, m; 0 for a movement that does not grasp.
     pub peak_aperture: f64,
-    /// Fraction of movement time at which it is reached.
+    /// Fraction of the movement at which it is reached.
     pub peak_time: f64,
 }
 
 impl Movement {
-    /// Fraction of movement time that has passed at `tick`, in [0, 1].
+    /// Fraction of the movement that has passed at `tick`, in [0, 1].
     pub fn time(&self, tick: u64) -> f64 {
         let span = self.end.saturating_sub(self.start).max(1);
         (tick.saturating_sub(self.start) as f64 / span as f64).min(1.0)
@@ -37,11 +39,10 @@ impl Movement {
     /// The hand at `tick`.
     pub fn pose(&self, tick: u64) -> HandPose {
         let time = self.time(tick);
-        let grasping = self.peak_aperture > 0.0;
-        let along = if grasping { reach_progress(time) } else { minimum_jerk(time) };
+        let along = minimum_jerk(time);
         let mut pose = self.from.towards(&self.to, along);
         pose.wrist[2] += self.arch * 16.0 * along * along * (1.0 - along) * (1.0 - along);
-        if grasping {
+        if self.peak_aperture > 0.0 {
             self.shape(time, &mut pose);
         }
         pose
@@ -56,9 +57,7 @@ impl Movement {
         pose.aperture = self.from.aperture
             + (self.peak_aperture - self.from.aperture) * opened
             + (self.to.aperture - self.peak_aperture) * closed;
-        let stretched = minimum_jerk(time / self.peak_time);
-        pose.extension = self.from.extension
-            + (self.to.extension - self.from.extension + STRETCH) * stretched
+        pose.extension = self.from.extension + (self.to.extension - self.from.extension + STRETCH) * opened
             - STRETCH * closed;
     }
 }

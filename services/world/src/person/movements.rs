@@ -1,5 +1,6 @@
 use super::actor::{Person, Surroundings};
-use super::profile::{movement_time, peak_aperture, peak_time};
+use super::playback::LEAD;
+use super::profile::{FINGERS, minimum_jerk, movement_time, peak_aperture, peak_time, time_before_onset};
 use super::{Errand, HandPose, Movement, PersonMemory, Stage};
 use crate::noise::Stream;
 use crate::parts::{height, upright_along};
@@ -17,6 +18,8 @@ const OPEN: f64 = 0.18;
 const OPEN_APERTURE: f64 = 0.11;
 /// How far short of the handover place the open hand is shown, m.
 const SHORT: f64 = 0.10;
+/// How far a reach is lifted above the straight line, m.
+const REACH_ARCH: f64 = 0.015;
 /// How far carried parts are lifted above the straight line, m.
 const CARRY_ARCH: f64 = 0.06;
 
@@ -25,14 +28,17 @@ impl Person {
     pub(super) fn reach_movement(&self, memory: &PersonMemory, around: &Surroundings) -> Movement {
         let mut rng = self.noise.at(Stream::Movement, around.tick);
         let drawn = movement_time(&mut rng);
-        let time = self.recording(memory).map_or(drawn, |reach| reach.movement_time);
+        let (before, time) = match self.recording(memory) {
+            Some(reach) => (LEAD, reach.movement_time),
+            None => (time_before_onset(drawn), drawn),
+        };
         let deviate: f64 = StandardNormal.sample(&mut rng);
         let pitch = pitch(memory, around.task) + PITCH_SCATTER * deviate.clamp(-2.0, 2.0);
         let (to, peak) = match memory.part.get() {
             Some(part) => {
                 let width = around.task.kinds[around.parts.kind(part)].width;
                 let centre = around.parts.centre(part, around.task);
-                (self.grasp_of(memory, centre, pitch, width), peak_aperture(width, &mut rng))
+                (self.grasp_of(memory, centre, pitch, width + FINGERS), peak_aperture(width, &mut rng))
             }
             None => (self.shown(pitch, around.task), 0.0),
         };
@@ -40,8 +46,9 @@ impl Person {
             from: memory.hand,
             to,
             start: around.tick,
-            end: around.tick + if peak > 0.0 { time } else { time * 4 / 3 },
-            arch: 0.02 + 0.05 * (-pitch.sin()).max(0.0),
+            onset: around.tick + before,
+            end: around.tick + before + if peak > 0.0 { time } else { time * 4 / 3 },
+            arch: REACH_ARCH,
             peak_aperture: peak,
             peak_time: peak_time(&mut rng),
         }
@@ -90,6 +97,7 @@ impl Person {
             from: hand,
             to: self.model.grasping(centre, hand.pitch, hand.aperture, (GRASPING, 0.0)),
             start: tick,
+            onset: tick,
             end: tick + 500 + (900.0 * distance) as u64,
             arch: CARRY_ARCH,
             peak_aperture: 0.0,
@@ -101,7 +109,7 @@ impl Person {
     pub(super) fn carry(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
         memory.hand = memory.movement.pose(around.tick);
         let Some(part) = memory.grip.get() else { return };
-        let along = super::profile::minimum_jerk(memory.movement.time(around.tick));
+        let along = minimum_jerk(memory.movement.time(around.tick));
         let turn =
             DQuat::from_array(memory.turn_from).slerp(DQuat::from_array(memory.turn_to), along).normalize();
         let half = 0.5 * height(around.task.kinds[around.parts.kind(part)].shape);
@@ -116,6 +124,7 @@ impl Person {
             from: memory.hand,
             to: self.model.rest(),
             start: around.tick,
+            onset: around.tick,
             end: around.tick + time,
             arch: 0.03,
             peak_aperture: 0.0,

@@ -21,7 +21,7 @@ impl Person {
     pub(super) fn recorded_pose(&self, memory: &PersonMemory, tick: u64) -> Option<HandPose> {
         let reach = self.recording(memory)?;
         let movement = &memory.movement;
-        let frame = reach.at((tick - movement.start) as f64 * 1e-3)?;
+        let frame = reach.at((tick as f64 - movement.onset as f64) * 1e-3)?;
         let mut pose = movement.pose(tick);
         let (from, to) = (movement.from.wrist(), movement.to.wrist());
         let along = frame.progress.clamp(0.0, 1.0);
@@ -34,9 +34,10 @@ impl Person {
     /// What a tracker of the recorded person would report at `tick`; `None` when the model alone shapes the hand.
     pub fn recorded_keypoints(&self, memory: &PersonMemory, tick: u64) -> Option<[Keypoint; 9]> {
         let reach = self.recording(memory)?;
+        let begins = memory.movement.onset;
         let (onset, share) = match memory.stage() {
-            Stage::Prepare => (memory.until, 1.0 - memory.until.saturating_sub(tick) as f64 / LEAD as f64),
-            Stage::Reach => (memory.onset, 1.0),
+            Stage::Prepare => (begins, 1.0 - begins.saturating_sub(tick) as f64 / LEAD as f64),
+            Stage::Reach => (begins, 1.0),
             _ => (memory.onset, 1.0 - tick.saturating_sub(memory.grasped) as f64 / TRAIL as f64),
         };
         if share <= 0.0 {

@@ -1,4 +1,5 @@
 use super::FOREARM;
+use super::playback::LEAD;
 use crate::WorldError;
 use coact_messages::KeypointName;
 use coact_recordings::{Frame, Reach, read_folder};
@@ -88,15 +89,15 @@ impl Recorded {
 }
 
 impl RecordedReach {
-    /// `None` when the wrist cannot be followed from onset to grasp.
+    /// `None` when the wrist cannot be followed from before the onset to the grasp.
     fn new(reach: &Reach, scale: f64) -> Option<Self> {
         let wrists = followed(reach)?;
         let at_time = |time: f64| {
             let distance = |index: &usize| (reach.frames[*index].time - time).abs();
             (0..reach.frames.len()).min_by(|one, other| distance(one).total_cmp(&distance(other)))
         };
-        let (onset, end) = (at_time(0.0)?, at_time(reach.movement_time)?);
-        let way = wrists[end] - wrists[onset];
+        let (start, end) = (at_time(-1e-3 * LEAD as f64)?, at_time(reach.movement_time)?);
+        let way = wrists[end] - wrists[start];
         let (ahead, across) = hand_axes(&reach.frames[end], wrists[end])?;
         if way.length() < SHORTEST_WAY {
             return None;
@@ -106,7 +107,7 @@ impl RecordedReach {
         let mut shape = [DVec2::ZERO; 9];
         let frames: Vec<_> = (0..reach.frames.len())
             .map(|index| {
-                let (frame, moved) = (&reach.frames[index], wrists[index] - wrists[onset]);
+                let (frame, moved) = (&reach.frames[index], wrists[index] - wrists[start]);
                 for (place, joint) in
                     shape.iter_mut().zip(&frame.joints).filter(|(_, joint)| joint.confidence > 0.0)
                 {

@@ -91,7 +91,7 @@ fn grasp_is_told_before_the_part_moves() {
 #[test]
 fn gesture_is_answered_by_taking_what_is_offered() {
     let mut taken = 0;
-    for seed in 60..66 {
+    for seed in 60..72 {
         let mut asked = false;
         run(seed, 120, |_, world, out, before| {
             if out.truth.actions == before.actions {
