@@ -1,6 +1,6 @@
 use crate::expectation::Expectation;
 use crate::{ActionEvent, Event, Intentions};
-use coact_joint_task::Task;
+use coact_joint_task::{Agent, Motion, Task};
 use coact_messages::{FieldFrame, PartnerPhase, Truth};
 
 /// Finds for each of the partner's actions whether the robot had decided on the right answer before the grasp
@@ -10,7 +10,8 @@ use coact_messages::{FieldFrame, PartnerPhase, Truth};
 /// before and has stayed until then still shows the cycle at which it crossed. So frames may be missing now and
 /// then, and a peak that rose and fell again does not count. A wrong peak counts only if it rose during the
 /// reach: what the robot was doing anyway is no answer. An action that is unanswered when the fingers close may
-/// still be answered, late, until the partner's hand rests or reaches again.
+/// still be answered, late, until the partner's hand rests or reaches again. Where the partner takes the very part
+/// that the robot is giving, the robot's hand is full until then: the inferred goal is what counts.
 #[derive(Debug)]
 pub struct Anticipation {
     task: Task,
@@ -69,7 +70,12 @@ impl Anticipation {
 
     /// Looks at the fields; an action that is answered is appended to `events`.
     pub fn frame(&mut self, frame: &FieldFrame, events: &mut Vec<Event>) {
-        let Some(open) = self.open else { return };
+        let Some(mut open) = self.open else { return };
+        if open.grasp.is_none() && self.is_given(&open, frame) {
+            let goal = self.intentions.population(open.chain, open.subgoal);
+            open.expectation = goal.map(Expectation::Intention).or(open.expectation);
+            self.open = Some(open);
+        }
         let Some(grasp) = open.grasp.filter(|&grasp| frame.header.cycle >= grasp) else { return };
         let Some(expectation) = open.expectation else { return self.close(open, None, events) };
         let right = expectation.since(frame).map(|since| (expectation, since));
@@ -89,6 +95,13 @@ impl Anticipation {
         if let Some(open) = self.open {
             self.close(open, None, events);
         }
+    }
+
+    /// Whether the robot is handing over the very part: its hand is full, so that it answers by understanding alone.
+    fn is_given(&self, open: &OpenAction, frame: &FieldFrame) -> bool {
+        let action = self.task.actions.get(frame.decision.action as usize);
+        action.is_some_and(|action| action.motion == Motion::Give && action.subgoal == Some(open.subgoal))
+            && self.task.chains.get(open.chain).is_some_and(|chain| chain.from == Agent::Person)
     }
 
     fn begin(&mut self, truth: &Truth) {
