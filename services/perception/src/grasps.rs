@@ -21,6 +21,8 @@ const TURNS: (f64, f64) = (0.25, 0.80);
 const LEADS: (f64, f64) = (0.05, 0.35);
 /// Distance from its target at which a movement that did not begin at rest tells where it goes, m: no, full evidence.
 const ARRIVES: (f64, f64) = (0.15, 0.05);
+/// Least that a movement leads anywhere: its logarithm is finite.
+const LEAST: f64 = 1e-12;
 /// A part in the robot's hand is offered when it is this near to the handover place, m.
 pub(crate) const OFFERED: f64 = 0.25;
 
@@ -30,6 +32,7 @@ pub(crate) struct Grasps {
     kinds: Vec<Kind>,
     grips: Vec<Grip>,
     handover: Vector3<f64>,
+    rest: Vector3<f64>,
 }
 
 /// Evidence for each kind of part, and how far the grip shows.
@@ -41,7 +44,12 @@ pub(crate) struct Preparing {
 
 impl Grasps {
     pub fn new(task: &Task) -> Self {
-        Self { kinds: task.kinds.clone(), grips: task.grips.clone(), handover: task.scene.handover.into() }
+        Self {
+            kinds: task.kinds.clone(),
+            grips: task.grips.clone(),
+            handover: task.scene.handover.into(),
+            rest: task.scene.person_rest.into(),
+        }
     }
 
     /// Evidence in [0, 1] that the hand prepares for or holds a part of `kind` with `grip`.
@@ -96,8 +104,19 @@ impl Grasps {
             }
         };
         let possible = way.iter().flatten().count();
-        preparing.kind = shares(&way, &fit, sharpness).map(|share| gate * beyond_chance(share, possible));
+        let elsewhere = self.elsewhere(movement, &way);
+        preparing.kind =
+            shares(&way, &fit, elsewhere, sharpness).map(|share| gate * beyond_chance(share, possible));
         preparing
+    }
+
+    /// How well the movement leads to a place where nothing is taken: an empty hand is shown at the handover place, and
+    /// returns to rest.
+    fn elsewhere(&self, movement: &Movement, way: &[Option<Way>; MAX_KINDS]) -> f64 {
+        let offered = way.iter().flatten().any(|way| way.offered);
+        let shows = if offered { 0.0 } else { movement.heading.leads_to(self.handover) };
+        let returns = if movement.phase.is_some() { 0.0 } else { movement.heading.leads_to(self.rest) };
+        shows.max(returns)
     }
 
     /// The part of `kind` that the movement leads to best, among those that the person could take.
@@ -110,7 +129,8 @@ impl Grasps {
         let ways = parts.map(|(_, part)| {
             let centre = part.above_underside(0.5 * places.body(kind).height);
             let heading = &movement.heading;
-            Way { leads: heading.leads_to(centre), distance: (centre - heading.centre).norm() }
+            let distance = (centre - heading.centre).norm();
+            Way { leads: heading.leads_to(centre), distance, offered: part.is_with_the_robot() }
         });
         ways.max_by(|a, b| a.leads.total_cmp(&b.leads))
     }
@@ -122,6 +142,8 @@ struct Way {
     leads: f64,
     /// m.
     distance: f64,
+    /// Whether the robot holds it out.
+    offered: bool,
 }
 
 /// Phase of a reach: the mean of what the time that it has taken says, and the way that is left to the part that it
@@ -144,15 +166,21 @@ fn size_fit(memory: &Memory, classifier: &Classifier) -> [f64; MAX_KINDS] {
     classifier.likelihoods(&classifier.features(hand, reach), seen, person)
 }
 
-/// Shares of the kinds in explaining movement and shape, sharpened.
-fn shares(way: &[Option<Way>; MAX_KINDS], fit: &[f64; MAX_KINDS], sharpness: f64) -> [f64; MAX_KINDS] {
+/// Shares of the kinds in explaining movement and shape, sharpened. What leads `elsewhere` as well, with no shape that
+/// would tell, takes its own share.
+fn shares(
+    way: &[Option<Way>; MAX_KINDS],
+    fit: &[f64; MAX_KINDS],
+    elsewhere: f64,
+    sharpness: f64,
+) -> [f64; MAX_KINDS] {
     let score =
-        |kind: usize| way[kind].map_or(f64::NEG_INFINITY, |way| fit[kind] + way.leads.max(1e-12).ln());
-    let best = (0..MAX_KINDS).map(score).fold(f64::NEG_INFINITY, f64::max);
-    if !best.is_finite() {
-        return [0.0; MAX_KINDS];
-    }
+        |kind: usize| way[kind].map_or(f64::NEG_INFINITY, |way| fit[kind] + way.leads.max(LEAST).ln());
+    let fits = || fit.iter().zip(way).filter(|(_, way)| way.is_some()).map(|(fit, _)| *fit);
+    let usual = fits().sum::<f64>() / fits().count().max(1) as f64;
+    let other = usual + elsewhere.max(LEAST).ln();
+    let best = (0..MAX_KINDS).map(score).fold(other, f64::max);
     let weights: [f64; MAX_KINDS] = std::array::from_fn(|kind| (sharpness * (score(kind) - best)).exp());
-    let sum: f64 = weights.iter().sum();
+    let sum = weights.iter().sum::<f64>() + (sharpness * (other - best)).exp();
     weights.map(|weight| weight / sum)
 }

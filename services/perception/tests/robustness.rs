@@ -1,0 +1,150 @@
+//! Whatever arrives, or does not arrive, and whenever perception dies.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod support;
+use bytemuck::bytes_of;
+use coact_joint_task::Act;
+use coact_messages::{HandView, Keypoint, Percept, SceneView};
+use support::{Stage, perception, resting};
+
+const TOP: usize = 0;
+
+/// Reaches for a wheel, carries it off and comes back; `watch` is called after each cycle.
+fn episode(stage: &mut Stage, mut watch: impl FnMut(&mut Stage)) {
+    let wheel = stage.part("wheel");
+    stage.move_to(stage.grasping(wheel, TOP), 550, |_| {});
+    let ways = [(stage.grasping(wheel, TOP), 550), (resting(&stage.task), 600)];
+    for (end, ticks) in ways {
+        let start = stage.hand;
+        for time in 1..=ticks {
+            stage.hand = start.towards(&end, support::smooth(time as f64 / ticks as f64));
+            stage.run(1, |_, _| {});
+            watch(stage);
+        }
+    }
+}
+
+#[test]
+fn the_same_samples_make_the_same_bits() {
+    let record = || {
+        let mut stage = Stage::new();
+        let mut all: Vec<u8> = Vec::new();
+        episode(&mut stage, |stage| all.extend_from_slice(bytes_of(&*stage.percept)));
+        all
+    };
+    assert!(record() == record());
+}
+
+#[test]
+fn a_replacement_goes_on_as_if_nothing_had_happened() {
+    let (mut whole, mut killed) = (Stage::new(), Stage::new());
+    let mut expected: Vec<Percept> = Vec::new();
+    episode(&mut whole, |stage| expected.push(*stage.percept));
+    let mut at = 0;
+    episode(&mut killed, |stage| {
+        assert!(bytes_of(&*stage.percept) == bytes_of(&expected[at]), "cycle {at}");
+        if at % 97 == 0 {
+            stage.perception = perception(&stage.task);
+            stage.perception.resume(&stage.percept);
+        }
+        at += 1;
+    });
+    assert_eq!(at, expected.len());
+}
+
+fn assert_sound(percept: &Percept) {
+    let evidence =
+        [&percept.act[..], &percept.achieved, &percept.open, &percept.robot_holds, &percept.person_holds];
+    let seen = percept.workspace.iter().flat_map(|place| place.seen.iter().chain(&place.gone));
+    for value in evidence.into_iter().flatten().chain(seen) {
+        assert!((0.0..=1.0).contains(value), "evidence of {value}");
+    }
+    let hand = percept.hand;
+    let numbers = hand.wrist.iter().chain(&hand.velocity).chain([&hand.aperture]);
+    let positions = percept.workspace.iter().flat_map(|place| place.position.iter().flatten());
+    assert!(numbers.chain(positions).all(|value| value.is_finite()));
+}
+
+#[test]
+fn garbage_makes_no_garbage() {
+    let bad = [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e300, -1e300, f64::MIN_POSITIVE, 0.0];
+    let mut stage = Stage::new();
+    for round in 0..4000_usize {
+        let pick = |offset: usize| bad[(round / 3 + offset) % bad.len()];
+        stage.run(1, |_, _| {});
+        stage.sample.joints.touch = pick(1);
+        stage.sample.hand = HandView {
+            frame: round as u64 * 7,
+            captured_cycle: if round % 5 == 0 { u64::MAX } else { stage.tick },
+            keypoints: std::array::from_fn(|point| Keypoint {
+                position: std::array::from_fn(|axis| pick(point + axis)),
+                confidence: pick(point),
+            }),
+        };
+        let scene: &mut SceneView = &mut stage.sample.scene;
+        scene.frame = round as u64 * 3;
+        scene.captured_cycle = if round % 7 == 0 { u64::MAX } else { stage.tick };
+        scene.sightings = u32::MAX;
+        scene.occluders = u32::MAX;
+        for (index, sighting) in scene.sighting.iter_mut().enumerate() {
+            sighting.kind = (index as u32).wrapping_mul(0x9E37_79B9);
+            sighting.position = std::array::from_fn(|axis| pick(index + axis));
+            sighting.orientation = std::array::from_fn(|axis| pick(index + 2 * axis));
+        }
+        stage.perception.step(stage.tick, Some(&stage.sample), &mut stage.percept);
+        stage.tick += 1;
+        assert_sound(&stage.percept);
+    }
+}
+
+#[test]
+fn without_any_sample_nothing_is_seen() {
+    let mut stage = Stage::empty();
+    for tick in 1..100 {
+        stage.perception.step(tick, None, &mut stage.percept);
+        assert_sound(&stage.percept);
+    }
+    assert_eq!(stage.percept.hand.tracked, 0);
+    assert!(stage.percept.act.iter().all(|value| *value == 0.0));
+}
+
+#[test]
+fn a_gap_in_the_tracking_is_bridged_and_a_long_one_is_told() {
+    let act = |stage: &Stage| stage.act(Act::Grasp { grip: TOP, kind: stage.kind("wheel") });
+    let reach = |gap: std::ops::Range<u64>| {
+        let mut stage = Stage::new();
+        let end = stage.grasping(stage.part("wheel"), TOP);
+        let start = stage.hand;
+        stage.run(560, |stage, time| {
+            stage.tracking = !gap.contains(&time);
+            stage.hand = start.towards(&end, support::smooth(time as f64 / 600.0));
+        });
+        stage
+    };
+    let (clean, gappy) = (reach(0..0), reach(330..430));
+    assert!(act(&gappy) > 0.8 * act(&clean), "{:.2} instead of {:.2}", act(&gappy), act(&clean));
+
+    let mut lost = reach(400..560);
+    lost.run(400, |stage, _| stage.tracking = false);
+    assert_eq!(lost.percept.hand.tracked, 0);
+    assert!(lost.percept.hand.age > 400 && act(&lost) < 0.05);
+}
+
+#[test]
+fn a_lost_keypoint_is_held() {
+    let mut stage = Stage::new();
+    let before = stage.percept.hand.aperture;
+    stage.run(100, |stage, _| stage.sample.hand.keypoints[4] = Keypoint::default());
+    assert!((stage.percept.hand.aperture - before).abs() < 1e-3);
+}
+
+#[test]
+fn a_stale_sample_ages() {
+    let mut stage = Stage::new();
+    let rest = stage.act(Act::Rest);
+    for _ in 0..600 {
+        stage.perception.step(stage.tick, Some(&stage.sample), &mut stage.percept);
+        stage.tick += 1;
+    }
+    assert!(rest > 0.9 && stage.act(Act::Rest) < 0.05 && stage.percept.hand.tracked == 0);
+}
