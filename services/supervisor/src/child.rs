@@ -1,4 +1,4 @@
-use crate::{ProcessSpec, StderrTail};
+use crate::{ProcessSpec, StderrTail, scheduling};
 use coact_pipeline::GENERATION_VARIABLE;
 use rustix::process::{
     Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal, set_parent_process_death_signal,
@@ -38,9 +38,9 @@ impl RunningChild {
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
         // A group of its own: Ctrl-C in the terminal reaches the supervisor alone, which stops the set in order.
         command.process_group(0);
-        let supervisor = rustix::process::getpid();
+        let (supervisor, realtime) = (rustix::process::getpid(), spec.realtime);
         // SAFETY: between fork and exec only async-signal-safe system calls are made, and nothing is allocated.
-        unsafe { command.pre_exec(move || die_with(supervisor)) };
+        unsafe { command.pre_exec(move || prepare(supervisor, realtime)) };
         let mut child = command.spawn()?;
         let pid = Pid::from_child(&child);
         let pidfd = match pidfd_open(pid, PidfdFlags::empty()) {
@@ -93,8 +93,11 @@ impl Drop for RunningChild {
     }
 }
 
-/// In the forked child: be killed when `supervisor` dies, also when it just did.
-fn die_with(supervisor: Pid) -> io::Result<()> {
+/// In the forked child: be killed when `supervisor` dies, also when it just did; be ordinary unless `realtime`.
+fn prepare(supervisor: Pid, realtime: bool) -> io::Result<()> {
+    if !realtime {
+        scheduling::stand_down();
+    }
     set_parent_process_death_signal(Some(Signal::KILL))?;
     if rustix::process::getppid() != Some(supervisor) {
         return Err(io::ErrorKind::NotFound.into());

@@ -95,6 +95,7 @@ impl Launch {
         let spec = |entry: &ProcessEntry| ProcessSpec {
             name: entry.name.clone(),
             order: entry.order,
+            realtime: entry.realtime,
             program: self.program(entry),
             arguments: vec!["--run".into(), run.directory().into()],
             ready_directory: run.directory().join("ready"),

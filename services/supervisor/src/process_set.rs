@@ -44,20 +44,32 @@ impl ProcessSet {
         poll(&mut deaths, Some(&limit)).ok();
     }
 
-    /// Does all that is due: buries the dead, greets the ready, kills the hung, starts and restarts.
+    /// Buries the dead and starts those whose turn has come, replacements first of all: to be called right after
+    /// [`ProcessSet::wait`].
     ///
     /// # Errors
     /// The set was given up; what still runs is stopped by [`ProcessSet::stop`].
-    pub fn advance(&mut self, survivors: &mut dyn Survivors) -> Result<(), GaveUp> {
+    pub fn replace_dead(&mut self, survivors: &mut dyn Survivors) -> Result<(), GaveUp> {
         for index in 0..self.processes.len() {
             if let Some(death) = self.processes[index].died(clock::now()) {
                 self.bury(index, death)?;
             }
+            self.start_if_due(index, survivors)?;
+        }
+        Ok(())
+    }
+
+    /// Does all that is due: replaces the dead, greets the ready, kills the hung.
+    ///
+    /// # Errors
+    /// As [`ProcessSet::replace_dead`].
+    pub fn advance(&mut self, survivors: &mut dyn Survivors) -> Result<(), GaveUp> {
+        self.replace_dead(survivors)?;
+        for index in 0..self.processes.len() {
             if self.processes[index].becomes_ready(clock::now()) {
                 self.greet(index, survivors);
             }
             self.processes[index].discipline(clock::now(), self.pulses_from);
-            self.start_if_due(index, survivors)?;
         }
         Ok(())
     }

@@ -9,6 +9,8 @@ pub struct ProcessSpec {
     pub name: String,
     /// Started in ascending order, stopped in descending order; equal ones together.
     pub order: u32,
+    /// Started before all ordinary load, as the supervisor itself runs; it finds its own place when it is up.
+    pub realtime: bool,
     /// The program to run.
     pub program: PathBuf,
     /// Its arguments.

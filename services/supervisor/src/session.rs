@@ -87,6 +87,7 @@ impl<'a> Session<'a> {
     fn watch(&mut self) -> Result<Ending, LaunchError> {
         loop {
             self.set.wait(LOOK_EVERY);
+            self.set.replace_dead(&mut self.kept)?;
             self.kept.poll();
             self.observer.poll(&mut self.set, &mut self.progress);
             self.set.advance(&mut self.kept)?;

@@ -1,3 +1,4 @@
+use crate::scheduling;
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Read};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -23,6 +24,7 @@ impl StderrTail {
         let lines = Arc::new(Mutex::new(VecDeque::with_capacity(Self::KEPT)));
         let kept = Arc::clone(&lines);
         let reader = std::thread::spawn(move || {
+            scheduling::stand_down();
             for line in BufReader::new(stderr).split(b'\n').map_while(Result::ok) {
                 let line = String::from_utf8_lossy(&line);
                 pass_on(&line);

@@ -39,6 +39,7 @@ fn script(folder: &Path, name: &str, script: &str) -> ProcessSpec {
         program: "/bin/sh".into(),
         arguments: vec!["-c".into(), script.into()],
         order: 0,
+        realtime: false,
         ready_directory: folder.to_owned(),
         stop_grace: Duration::from_millis(300),
         ready_within: Duration::from_secs(60),
