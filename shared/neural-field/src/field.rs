@@ -33,7 +33,8 @@ impl Field {
         let reach = (excited.max(kernel.range.unwrap_or(0.0)) / spacing).ceil() as usize;
         let interaction = |site: usize| {
             let d = site as f64 * spacing;
-            let inhibition = if kernel.range.is_some_and(|range| d <= range) { kernel.inhibition } else { 0.0 };
+            let inhibition =
+                if kernel.range.is_some_and(|range| d <= range) { kernel.inhibition } else { 0.0 };
             (kernel.amplitude * gauss(d, kernel.sigma) - inhibition) * spacing
         };
         let sites = populations * width;

@@ -58,7 +58,8 @@ pub fn run(args: Args) -> anyhow::Result<ExitCode> {
     let mut reports = Vec::new();
     for path in &tasks {
         let (task, plan) = NetworkPlan::load(path)?;
-        let outcomes = evaluate(Evaluation { task: &task, plan: &plan, model: model.as_ref(), order }, &reaches)?;
+        let outcomes =
+            evaluate(Evaluation { task: &task, plan: &plan, model: model.as_ref(), order }, &reaches)?;
         if outcomes.is_empty() {
             bail!("{}: no recorded reach is for a part of this task's widths", path.display());
         }
@@ -67,7 +68,11 @@ pub fn run(args: Args) -> anyhow::Result<ExitCode> {
     if args.json {
         println!("{}", serde_json::to_string_pretty(&reports)?);
     } else {
-        let unseen = if model.is_some() { "the model file is of other people" } else { "one person left out at a time" };
+        let unseen = if model.is_some() {
+            "the model file is of other people"
+        } else {
+            "one person left out at a time"
+        };
         reports.iter().for_each(|report| print(report, unseen));
     }
     Ok(ExitCode::SUCCESS)
@@ -79,7 +84,18 @@ fn print(report: &Report, unseen: &str) {
     let mut table = Table::new();
     table.load_style(presets::UTF8_HORIZONTAL_ONLY);
     table.set_header([
-        "person", "reaches", "right", "wrong", "none", "20 %", "40 %", "60 %", "80 %", "100 %", "lead p5 p50 p95", "onset p5 p50 p95",
+        "person",
+        "reaches",
+        "right",
+        "wrong",
+        "none",
+        "20 %",
+        "40 %",
+        "60 %",
+        "80 %",
+        "100 %",
+        "lead p5 p50 p95",
+        "onset p5 p50 p95",
     ]);
     for (person, tally) in &report.people {
         table.add_row(row(&format!("p{person}"), tally));

@@ -18,7 +18,11 @@ fn vehicle_is_built_with_every_partner() {
         }
         let achieved = stages.truth.achieved;
         assert!(stages.complete(), "partner {seed}: only {achieved:09b} after {LONGEST} ms");
-        assert_eq!(achieved.count_ones() as usize, stages.task().subgoals.len(), "the robot knows what is true");
+        assert_eq!(
+            achieved.count_ones() as usize,
+            stages.task().subgoals.len(),
+            "the robot knows what is true"
+        );
     }
 }
 
@@ -46,7 +50,12 @@ fn same_seed_gives_the_same_bits() {
     for _ in 0..20_000 {
         pair.iter_mut().for_each(Lockstep::step);
         let [one, other] = &pair;
-        assert_eq!(bytemuck::bytes_of(&*one.command), bytemuck::bytes_of(&*other.command), "tick {}", one.ticks());
+        assert_eq!(
+            bytemuck::bytes_of(&*one.command),
+            bytemuck::bytes_of(&*other.command),
+            "tick {}",
+            one.ticks()
+        );
     }
     let [one, other] = &pair;
     assert_eq!(bytemuck::bytes_of(&*one.frame), bytemuck::bytes_of(&*other.frame));
