@@ -35,7 +35,7 @@ pub struct Args {
     /// Seconds; without it, until all subgoals are achieved, 300 s at most
     #[arg(long, value_name = "S", value_parser = seconds)]
     duration: Option<Duration>,
-    /// Where the report goes [default: reports/<date-time>]
+    /// Where the report goes [default: reports/DATE-TIME]
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     /// All stages in one process, as fast as possible, with the same decisions
