@@ -1,9 +1,10 @@
 use crate::acts::Acts;
+use crate::hand::HandMemory;
 use crate::memory::Memory;
 use crate::objects::{PersonHand, Places, Surroundings};
 use crate::preshape::{Classifier, PreshapeModel, ReachRecord};
 use coact_joint_task::Task;
-use coact_messages::{HandPercept, Percept, SensorSample};
+use coact_messages::{HandPercept, JointReading, Percept, SensorSample};
 use coact_robot::Robot;
 
 /// Sensor samples become a percept: what the person's hand does, what lies where, how far the construction is.
@@ -86,17 +87,10 @@ impl Perception {
                 memory.keep_pitch(pitch);
             }
         }
-        let hand = memory.hand.is_tracked(tick).then(|| PersonHand {
-            centre: memory.hand.centre(),
-            aperture: memory.hand.aperture(),
-            speed: memory.hand.motion.speed,
-        });
-        let around = Surroundings {
-            person: hand,
-            grasp_point: self.robot.as_ref().map(|robot| robot.grasp_point(&sample.joints.position).coords),
-            touch: sample.joints.touch,
-        };
-        memory.objects.observe(tick, &sample.scene, &around, &self.places);
+        if memory.objects.is_news(tick, &sample.scene) {
+            let around = surroundings(tick, &memory.hand, self.robot.as_ref(), &sample.joints);
+            memory.objects.observe(&sample.scene, &around, &self.places);
+        }
     }
 
     fn report_hand(&mut self, tick: u64) {
@@ -113,4 +107,14 @@ impl Perception {
             age: hand.age(tick),
         };
     }
+}
+
+fn surroundings(tick: u64, hand: &HandMemory, robot: Option<&Robot>, joints: &JointReading) -> Surroundings {
+    let person = hand.is_tracked(tick).then(|| PersonHand {
+        centre: hand.centre(),
+        aperture: hand.aperture(),
+        speed: hand.motion.speed,
+    });
+    let grasp_point = robot.map(|robot| robot.grasp_point(&joints.position).coords);
+    Surroundings { person, grasp_point, touch: joints.touch }
 }

@@ -24,7 +24,7 @@ const LONGEST: f64 = 10.0;
 /// # Errors
 /// [`RecordingError`] when the folder holds none, or one of them is refused.
 pub fn read_folder(folder: &Path) -> Result<Vec<Reach>, RecordingError> {
-    let io = |source| RecordingError::Io { path: folder.to_path_buf(), source };
+    let io = |reason| RecordingError::Io { path: folder.to_path_buf(), reason };
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(io)? {
         let path = entry.map_err(io)?.path();
@@ -50,7 +50,7 @@ pub fn read_folder(folder: &Path) -> Result<Vec<Reach>, RecordingError> {
 /// line, frames out of order, or a reach that stands in two places.
 pub fn read_file(path: &Path) -> Result<Vec<Reach>, RecordingError> {
     let file = std::fs::File::open(path)
-        .map_err(|source| RecordingError::Io { path: path.to_path_buf(), source })?;
+        .map_err(|reason| RecordingError::Io { path: path.to_path_buf(), reason })?;
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
     let header = reader.headers().map_err(|error| broken(path, &error))?.clone();
     let columns = Columns::find(path, &header)?;

@@ -34,12 +34,14 @@ impl ObjectsMemory {
         self.seen > 0 && tick.saturating_sub(self.captured) < 2 * u64::from(ABSENT)
     }
 
-    /// Takes in the recogniser's newest frame, if it is new.
-    pub fn observe(&mut self, tick: u64, view: &SceneView, around: &Surroundings, places: &Places) {
+    /// Whether the recogniser's newest frame is a new and usable one.
+    pub fn is_news(&self, tick: u64, view: &SceneView) -> bool {
         let late = self.seen > 0 && view.captured_cycle <= self.captured;
-        if self.seen == view.frame.wrapping_add(1) || late || view.captured_cycle > tick {
-            return;
-        }
+        self.seen != view.frame.wrapping_add(1) && !late && view.captured_cycle <= tick
+    }
+
+    /// Takes in a new frame of the recogniser.
+    pub fn observe(&mut self, view: &SceneView, around: &Surroundings, places: &Places) {
         let cycles = view.captured_cycle - self.captured;
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 pub enum ModelError {
     /// It cannot be read or written.
-    #[error("{path}: {source}; make it with `coact train DIR --out {path}`", path = path.display())]
+    #[error("{path}: {reason}; make it with `coact train DIR --out {path}`", path = path.display())]
     File {
         /// The file.
         path: PathBuf,
         /// What the operating system said.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
     /// It is no model.
     #[error("{path}:{line}: {message}; make it anew with `coact train DIR --out {path}`", path = path.display())]
