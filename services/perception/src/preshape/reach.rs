@@ -13,7 +13,7 @@ pub struct ReachRecord {
     pub onset: u64,
     /// Phases that have passed.
     pub passed: u64,
-    /// Time from onset to [`ON_THE_WAY`] of the way that was covered when the slow phase began, s; 0 before that.
+    /// Time from onset to 80 % of the way that was covered when the slow phase began, s; 0 before that.
     pub tempo: f64,
     /// Where the wrist lay before, m.
     pub departure: [f64; 3],
