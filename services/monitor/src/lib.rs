@@ -30,6 +30,7 @@ mod summary;
 mod supervisor_log;
 mod task_report;
 mod task_watch;
+mod tracking;
 mod verdict;
 
 pub use account::{Account, Lapse};
@@ -54,3 +55,4 @@ pub use summary::{
 pub use supervisor_log::{SupervisorEvent, SupervisorEventKind, SupervisorLog};
 pub use task_report::{Decided, Said, TaskReport};
 pub use task_watch::TaskWatch;
+pub use tracking::{Tracking, TrackingReport};

@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use coact_joint_task::NetworkPlan;
-use coact_messages::{FieldFrame, Pulse, Speech, Truth, topic};
+use coact_messages::{Command, FieldFrame, Pulse, Speech, Truth, topic};
 use coact_monitor::{Environment, Intentions, Monitor, MonitorError, Rules, Watched, links};
 use coact_realtime::{Bus, Input, PortError, Process, Schedule, now};
 use std::time::{Duration, Instant, SystemTime};
@@ -72,6 +72,7 @@ struct Topics {
     pulses: Vec<(String, Input<Pulse>)>,
     truth: Input<Truth>,
     fields: Input<FieldFrame>,
+    command: Input<Command>,
     speech: Input<Speech>,
 }
 
@@ -82,18 +83,25 @@ impl Topics {
             let input = bus.input(&topic::pulse(&process))?;
             pulses.push((process, input));
         }
-        let truth = bus.input(topic::TRUTH)?;
-        Ok(Self { pulses, truth, fields: bus.input(topic::FIELDS)?, speech: bus.input(topic::SPEECH)? })
+        let (truth, fields) = (bus.input(topic::TRUTH)?, bus.input(topic::FIELDS)?);
+        Ok(Self {
+            pulses,
+            truth,
+            fields,
+            command: bus.input(topic::COMMAND)?,
+            speech: bus.input(topic::SPEECH)?,
+        })
     }
 
     fn drain(&mut self, monitor: &mut Monitor, refused: &mut Option<MonitorError>) -> Result<(), PortError> {
-        let Self { pulses, truth, fields, speech } = self;
+        let Self { pulses, truth, fields, command, speech } = self;
         let mut events = Vec::new();
         for (process, input) in pulses {
             input.each(|pulse| monitor.pulse(process, pulse))?;
         }
         truth.each(|truth| monitor.truth(truth, &mut events))?;
         fields.each(|frame| monitor.frame(frame, &mut events))?;
+        command.each(|command| monitor.command(command))?;
         speech.each(|speech| monitor.speech(speech, &mut events))?;
         warn_once(monitor.keep(now(), events), refused);
         Ok(())

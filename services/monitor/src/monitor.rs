@@ -1,10 +1,10 @@
 use crate::plots::{PlotError, anticipation_timeline, percentile_curve};
 use crate::{
     Anticipation, Environment, Event, Faults, Findings, Intentions, Journal, JournalError, Latencies,
-    LatencyError, Link, Rules, Summary, SupervisorLog, TaskWatch,
+    LatencyError, Link, Rules, Summary, SupervisorLog, TaskWatch, Tracking,
 };
 use coact_joint_task::Task;
-use coact_messages::{FieldFrame, NONE, Pulse, Speech, Truth};
+use coact_messages::{Command, FieldFrame, NONE, Pulse, Speech, Truth};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -26,6 +26,7 @@ pub struct Monitor {
     anticipation: Anticipation,
     watch: TaskWatch,
     faults: Faults,
+    tracking: Tracking,
     supervisor: SupervisorLog,
     /// Truths that are younger than the newest frame.
     waiting: VecDeque<Truth>,
@@ -101,6 +102,7 @@ impl Monitor {
             anticipation,
             watch,
             faults,
+            tracking: Tracking::new(),
             supervisor,
             waiting,
             truth,
@@ -151,6 +153,11 @@ impl Monitor {
         }
     }
 
+    /// What the arm was told to do.
+    pub fn command(&mut self, command: &Command) {
+        self.tracking.command(command);
+    }
+
     /// What the robot said.
     pub fn speech(&mut self, speech: &Speech, events: &mut Vec<Event>) {
         self.watch.speech(speech, events);
@@ -197,6 +204,7 @@ impl Monitor {
             environment,
             events: self.journal.events(),
             figures: Some(self.latencies.figures()),
+            tracking: self.tracking.report(),
             start_ns: self.start_ns,
             duration_s: now_ns.saturating_sub(self.start_ns) as f64 / 1e9,
             rules: &self.rules,

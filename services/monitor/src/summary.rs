@@ -1,5 +1,7 @@
 use crate::figures::{END_TO_END, execution_name, hop_name, wakeup_name};
-use crate::{ActionEvent, Environment, Event, FaultEvent, Figures, Rules, TaskReport, verdict};
+use crate::{
+    ActionEvent, Environment, Event, FaultEvent, Figures, Rules, TaskReport, TrackingReport, verdict,
+};
 use coact_joint_task::Task;
 use hdrhistogram::Histogram;
 use serde::Serialize;
@@ -16,6 +18,8 @@ pub struct Summary {
     pub hops: BTreeMap<String, Percentiles>,
     /// From the sensor sample's stamp to the publication of the command.
     pub end_to_end_ns: Percentiles,
+    /// How well the arm followed its commands.
+    pub tracking_error_rad: TrackingReport,
     /// Whether decisions came in time.
     pub anticipation: AnticipationReport,
     /// What was done and said.
@@ -50,6 +54,8 @@ pub struct ProcessReport {
     pub missed: u64,
     /// Longest run of them.
     pub longest_miss_run: u64,
+    /// Periods without a cycle, because the one before overran.
+    pub skipped: u64,
     /// How often it was restarted.
     pub restarts: u32,
     /// Actual minus scheduled start.
@@ -112,6 +118,8 @@ pub struct Findings<'a> {
     pub events: &'a [Event],
     /// Latencies and deadline accounts; none in lockstep, where no clock runs.
     pub figures: Option<&'a Figures>,
+    /// How well the arm followed its commands.
+    pub tracking: TrackingReport,
     /// Start of the run, ns of `CLOCK_MONOTONIC`.
     pub start_ns: u64,
     /// How long the run lasted, s.
@@ -123,12 +131,13 @@ pub struct Findings<'a> {
 impl Summary {
     /// Draws the conclusions.
     pub fn new(findings: Findings) -> Self {
-        let Findings { task, environment, events, figures, start_ns, duration_s, rules } = findings;
+        let Findings { task, environment, events, figures, tracking, start_ns, duration_s, rules } = findings;
         let mut summary = Self {
             environment,
             processes: figures.map(processes).unwrap_or_default(),
             hops: figures.map(hops).unwrap_or_default(),
             end_to_end_ns: figures.map(|own| percentiles(own, END_TO_END)).unwrap_or_default(),
+            tracking_error_rad: tracking,
             anticipation: AnticipationReport::new(events),
             task: TaskReport::new(task, events, duration_s),
             faults: faults(events, start_ns),
@@ -190,6 +199,7 @@ fn processes(figures: &Figures) -> BTreeMap<String, ProcessReport> {
         cycles: account.cycles,
         missed: account.missed,
         longest_miss_run: account.longest_miss_run,
+        skipped: account.skipped,
         restarts: account.restarts,
         wakeup_ns: percentiles(figures, &wakeup_name(name)),
         execution_ns: percentiles(figures, &execution_name(name)),

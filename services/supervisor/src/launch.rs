@@ -4,6 +4,7 @@ use coact_joint_task::Task;
 use coact_pipeline::{Pipeline, ProcessEntry, Run, RunSettings, Trigger};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// A run that is to be started: all that was asked for, read and checked.
@@ -56,7 +57,20 @@ impl Launch {
     /// # Errors
     /// [`LaunchError`]: what is missing or wrong, or why the set was given up.
     pub fn run(self) -> Result<Ending, LaunchError> {
+        self.run_beside(|_, _| ()).map(|(ending, ())| ending)
+    }
+
+    /// As [`Launch::run`], with a `guest` who looks on from a thread of its own: it gets the run, all of whose topics
+    /// exist by then, and a flag that is set once the set has ended.
+    ///
+    /// # Errors
+    /// As [`Launch::run`].
+    pub fn run_beside<T: Send>(
+        self,
+        guest: impl FnOnce(&Run, &AtomicBool) -> T + Send,
+    ) -> Result<(Ending, T), LaunchError> {
         self.check()?;
+        coact_realtime::keep_off_real_time_cores(&self.pipeline);
         remove_dead_runs();
         let report = self.settings.report.clone();
         let file_error = |path: &Path, source| LaunchError::File { path: path.to_owned(), source };
@@ -68,7 +82,15 @@ impl Launch {
         // Declared before all that lives in it: removed after all that has ended.
         let run = Owned(Run::create(self.settings.clone())?);
         let set = self.process_set(&run.0, log, terminal.notes());
-        Session::open(&self, &run.0, set, &terminal)?.attend()
+        let session = Session::open(&self, &run.0, set, &terminal)?;
+        let over = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            let guest = scope.spawn(|| guest(&run.0, &over));
+            let ending = session.attend();
+            over.store(true, Ordering::Relaxed);
+            let seen = guest.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            Ok((ending?, seen))
+        })
     }
 
     fn check(&self) -> Result<(), LaunchError> {

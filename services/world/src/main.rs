@@ -1,12 +1,19 @@
 //! The process that stands in for the hardware: released by the timer, it starts each cycle of the chain.
 
+use anyhow::Context;
 use coact_joint_task::Task;
 use coact_messages::{Command, Header, SensorSample, Truth, WorldState, topic};
 use coact_pipeline::{RunSettings, WorldMode};
 use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick, now};
+use coact_recordings::{Order, read_folder};
 use coact_robot::Robot;
-use coact_world::{BodyKind, Partner, Settings, World};
+use coact_world::{BodyKind, Partner, Replay, Settings, World, has_part_for};
+use std::path::Path;
 
+/// What `RunSettings::partner` begins with when recorded reaches are to be played.
+const REPLAY: &str = "replay:";
+
+/// The simulated world.
 struct Hardware {
     world: World,
     command: Input<Command>,
@@ -35,8 +42,61 @@ impl Cycle for Hardware {
     }
 }
 
+/// Recorded reaches in its place.
+struct Recording {
+    replay: Replay,
+    /// Nobody carries it out.
+    command: Input<Command>,
+    sample: Output<SensorSample>,
+    truth: Output<Truth>,
+}
+
+impl Cycle for Recording {
+    type Trigger = Command;
+
+    fn trigger(&mut self) -> &mut Input<Command> {
+        &mut self.command
+    }
+
+    fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
+        let (mut sample, mut truth) = (self.sample.loan()?, self.truth.loan()?);
+        self.replay.step(tick.cycle, &mut sample, &mut truth);
+        let sensor_ns = now();
+        let header = sample.send(tick.cycle, sensor_ns)?;
+        truth.send(tick.cycle, sensor_ns)?;
+        Ok(header)
+    }
+}
+
 fn main() -> anyhow::Result<()> {
-    let mut process = Process::from_arguments("world")?;
+    let process = Process::from_arguments("world")?;
+    match process.run().settings().partner.strip_prefix(REPLAY).map(str::to_owned) {
+        Some(recording) => play(process, &recording),
+        None => simulate(process),
+    }
+}
+
+/// Plays the reaches of one person; `recording` is `PARTICIPANT:DIR`.
+fn play(process: Process, recording: &str) -> anyhow::Result<()> {
+    let run = process.run().settings();
+    let (task, robot) = (Task::load(&run.task)?, Robot::load(&run.robot)?);
+    let (participant, folder) = recording
+        .split_once(':')
+        .and_then(|(participant, folder)| Some((participant.parse::<u32>().ok()?, Path::new(folder))))
+        .with_context(|| format!("partner {REPLAY}{recording}: expected {REPLAY}PARTICIPANT:DIR"))?;
+    let reaches = read_folder(folder)?;
+    let people = Order::Trial { seed: run.seed }.people(&reaches);
+    let person = people
+        .iter()
+        .find(|person| person[0].participant == participant)
+        .with_context(|| format!("{}: no reach of participant {participant}", folder.display()))?;
+    let replay = Replay::new(&task, &robot, person, |reach| has_part_for(&task, reach));
+    let command = process.bus().input(topic::COMMAND)?;
+    let (sample, truth) = (process.bus().output(topic::SENSORS)?, process.bus().output(topic::TRUTH)?);
+    Ok(process.run_cycles(Recording { replay, command, sample, truth })?)
+}
+
+fn simulate(mut process: Process) -> anyhow::Result<()> {
     let mut world = world(process.run().settings())?;
     let command = process.bus().input(topic::COMMAND)?;
     let mut sample: Output<SensorSample> = process.bus().output(topic::SENSORS)?;

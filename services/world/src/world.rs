@@ -199,7 +199,7 @@ impl World {
 }
 
 /// Joints at the park posture, hand open.
-fn parked(robot: &Robot) -> Joints {
+pub(crate) fn parked(robot: &Robot) -> Joints {
     let mut position = [0.0; JOINTS];
     position[..ARM_JOINTS].copy_from_slice(&robot.park);
     Joints { position, velocity: [0.0; JOINTS] }

@@ -62,8 +62,7 @@ impl Executor {
                 self.slow_cycles = SLOW_CYCLES;
             }
             self.cycle(cycle, scheduled_ns, work)?;
-            // A cycle that overran its period skips those that have passed meanwhile: there is no catching up.
-            cycle = (cycle + 1).max(self.schedule.tick_at(now()));
+            cycle = self.schedule.following(cycle, now(), self.latest_start_ns.unwrap_or(0));
         }
     }
 

@@ -35,3 +35,4 @@ pub use output::Output;
 pub use port_error::PortError;
 pub use process::Process;
 pub use process_error::ProcessError;
+pub use scheduling::keep_off_real_time_cores;

@@ -48,6 +48,8 @@ impl Process {
         let entry = pipeline.process(name)?.clone();
         if entry.realtime {
             scheduling::hurry(entry.core);
+        } else {
+            scheduling::keep_off_real_time_cores(&pipeline);
         }
         let bus = Bus::open(&run, name, generation)?;
         Ok(Self { run, pipeline, entry, generation, bus, signals, resumed: false })

@@ -1,6 +1,6 @@
 //! Scheduling class and core of the calling thread: asked for, and read back as obtained.
 
-use coact_pipeline::{ProcessEntry, Ready};
+use coact_pipeline::{Pipeline, ProcessEntry, Ready};
 use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity, set_current_timer_slack};
 use std::io;
 use std::num::NonZeroU64;
@@ -18,6 +18,17 @@ pub(crate) fn hurry(core: Option<usize>) {
         elsewhere.unset(core);
         let _ = sched_setaffinity(None, &elsewhere);
     }
+}
+
+/// Keeps the calling thread, and all that it starts, off the cores that the table's real-time processes are pinned to,
+/// where there are others: what is not real time is lent time there by the kernel, and then holds up the chain.
+pub fn keep_off_real_time_cores(pipeline: &Pipeline) {
+    let mut others = sched_getaffinity(None).unwrap_or_default();
+    for entry in pipeline.processes.iter().filter(|entry| entry.realtime) {
+        entry.core.filter(|&core| core < CpuSet::MAX_CPU).into_iter().for_each(|core| others.unset(core));
+    }
+    // Refused where no core is left: then it shares.
+    let _ = sched_setaffinity(None, &others);
 }
 
 /// Asks for what `entry` wants; returns what was refused, with the reasons.
@@ -62,5 +73,27 @@ fn fifo(priority: u8) -> Result<(), String> {
     match refused {
         true => Err(format!("SCHED_FIFO {priority}: {}", io::Error::last_os_error())),
         false => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    const TABLE: &str = "[[process]]\nname = \"world\"\nprogram = \"none\"\norder = 1\nrealtime = true\npriority = 7\n\
+                         core = 1\ntrigger = \"timer\"\n";
+
+    #[test]
+    fn what_is_not_real_time_stays_off_the_chain_s_core_unless_there_is_no_other() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), TABLE).unwrap();
+        let pipeline = Pipeline::load(file.path()).unwrap();
+        let before = sched_getaffinity(None).unwrap();
+        let mut expected = before;
+        expected.unset(1);
+        keep_off_real_time_cores(&pipeline);
+        let left = if expected.count() == 0 { before } else { expected };
+        assert_eq!(sched_getaffinity(None).unwrap(), left);
     }
 }

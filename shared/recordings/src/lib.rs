@@ -7,9 +7,11 @@
 //! A file is read whole or refused: every row ends up in a [`Reach`], or an error names file and line.
 
 mod error;
+mod order;
 mod reach;
 mod read;
 
 pub use error::RecordingError;
+pub use order::Order;
 pub use reach::{Frame, ImagePoint, Reach, Size};
 pub use read::{JOINTS, read_file, read_folder};

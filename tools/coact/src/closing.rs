@@ -85,9 +85,11 @@ fn latency(summary: &Value) -> String {
     let total = |key: &str| -> u64 {
         values(&summary["processes"]).filter_map(|process| process[key].as_u64()).sum()
     };
-    let (missed, cycles) = (total("missed"), total("cycles"));
+    let (missed, skipped, cycles) = (total("missed"), total("skipped"), total("cycles"));
     let percentiles = ["p50", "p99", "p999", "max"].map(micros).join(", ");
-    format!("end to end    {percentiles}; {missed} of {cycles} cycles missed their deadline")
+    format!(
+        "end to end    {percentiles}; {missed} of {cycles} cycles missed their deadline, {skipped} were skipped"
+    )
 }
 
 /// In red when the figures were taken without real-time privileges.
@@ -139,7 +141,7 @@ mod tests {
     fn summary(verdict: &str) -> Value {
         json!({
             "environment": { "memory_locked": false },
-            "processes": { "fields": { "cycles": 1000, "missed": 2 }, "world": { "cycles": 1001, "missed": 1 } },
+            "processes": { "fields": { "cycles": 1000, "missed": 2, "skipped": 4 }, "world": { "cycles": 1001, "missed": 1 } },
             "end_to_end_ns": { "count": 9, "p50": 210_000, "p99": 400_400, "p999": 512_600, "max": 900_000 },
             "anticipation": { "actions": 6, "decided_before_grasp": 5, "correct": 4,
                 "lead_ms": { "p5": 120, "p50": 350, "p95": 600 } },
@@ -160,7 +162,7 @@ mod tests {
             "2 of 9 achieved, 61.3 s",
             " 2. right wheel",
             "6 actions of the partner, 5 decided before the grasp, 4 rightly; lead p5 120 p50 350 p95 600 ms",
-            "p50 210 µs, p99 400 µs, p999 513 µs, max 900 µs; 3 of 2001 cycles",
+            "p50 210 µs, p99 400 µs, p999 513 µs, max 900 µs; 3 of 2001 cycles missed their deadline, 4 were skipped",
             "not locked",
             "fields: kill at 20.0 s, seen after 0.3 ms, recovered after 21.5 ms, others missed 1",
             "reports/x",

@@ -1,8 +1,10 @@
 //! `coact train`: recordings of people make the model of preshaping that perception reads.
 
+use crate::installation::Installation;
 use anyhow::Context;
-use coact_reaches::{Order, model_file, train};
-use coact_recordings::read_folder;
+use coact_reaches::{model_file, train};
+use coact_recordings::{Order, read_folder};
+use coact_robot::Robot;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -31,9 +33,10 @@ pub struct Args {
 /// When recordings or task are refused, the recordings do not suffice, or the file cannot be written.
 pub fn run(args: Args) -> anyhow::Result<ExitCode> {
     let task = coact_joint_task::Task::load(&args.task)?;
+    let robot = Robot::load(&Installation::find()?.configuration.join("robots/aros.toml"))?;
     let mut reaches = read_folder(&args.dir)?;
     reaches.retain(|reach| !args.without.contains(&reach.participant));
-    let model = train(&task, &reaches, Order::Trial { seed: 1 })?;
+    let model = train(&task, &robot, &reaches, Order::Trial { seed: 1 })?;
     let text = model_file(&model, &reaches, &args.source)?;
     if let Some(folder) = args.out.parent() {
         std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;

@@ -61,6 +61,7 @@ pub fn run(
             continue;
         }
         monitor.frame(&stages.frame, &mut events);
+        monitor.command(&stages.command);
         let sentence = voice.observe(&stages.frame);
         if let Some(sentence) = &sentence {
             monitor.speech(&speech(sentence), &mut events);

@@ -1,14 +1,15 @@
+use crate::course::Course;
 use crate::extraction::{Labelled, extract};
-use crate::order::Order;
 use crate::outcome::Outcome;
-use crate::playback::Playback;
-use crate::replay::Replay;
+use crate::subject::Subject;
 use crate::training::fit;
 use anyhow::Context;
 use coact_fields::Network;
 use coact_joint_task::{NetworkPlan, Task};
 use coact_perception::{Perception, PreshapeModel};
-use coact_recordings::Reach;
+use coact_recordings::{Order, Reach};
+use coact_robot::Robot;
+use coact_world::{Replay, has_part_for};
 
 /// What is evaluated.
 #[derive(Debug, Clone, Copy)]
@@ -17,62 +18,92 @@ pub struct Evaluation<'a> {
     pub task: &'a Task,
     /// The network that is made of it.
     pub plan: &'a NetworkPlan,
+    /// The robot that looks on.
+    pub robot: &'a Robot,
     /// Model of preshaping, from other people than the recorded ones; `None`: leave one person out.
     pub model: Option<&'a PreshapeModel>,
     /// In which order a person's reaches are replayed.
     pub order: Order,
+    /// Seed of the network's noise.
+    pub seed: u64,
 }
 
-/// Replays every reach for an object that the task has a part of, and judges what was decided. Outcomes stand person
-/// by person, in the order of the replay.
-///
-/// # Errors
-/// When no model can be made of the other people, or the network's parameters are refused.
-pub fn evaluate(evaluation: Evaluation, reaches: &[Reach]) -> anyhow::Result<Vec<Outcome>> {
-    let people = evaluation.order.people(reaches);
-    let labelled = match evaluation.model {
-        Some(_) => Vec::new(),
-        None => each_person(&people, |person| Ok(extract(evaluation.task, person)?))?,
-    };
-    let outcomes = each_person(&people, |person| evaluation.replay(person, &labelled))?;
-    Ok(outcomes.into_iter().flatten().collect())
+impl Evaluation<'_> {
+    /// Everybody who reached for something that the task has a part of, each with a model that knows nothing of them.
+    ///
+    /// # Errors
+    /// When no model can be made of the other people.
+    pub fn subjects(&self, reaches: &[Reach]) -> anyhow::Result<Vec<Subject>> {
+        let people = self.order.people(reaches);
+        let labelled = match self.model {
+            Some(_) => Vec::new(),
+            None => in_parallel(&people, |person| Ok(extract(self.task, self.robot, person)?))?,
+        };
+        let subject = |person: &Vec<&Reach>| {
+            let participant = person[0].participant;
+            let model = match self.model {
+                Some(model) => model.clone(),
+                None => without(participant, &labelled)?,
+            };
+            let replay = Replay::new(self.task, self.robot, person, |reach| has_part_for(self.task, reach));
+            Ok(Subject { participant, model, replay })
+        };
+        let subjects: anyhow::Result<Vec<_>> = people.iter().map(subject).collect();
+        Ok(subjects?.into_iter().filter(|subject| !subject.replay.reaches().is_empty()).collect())
+    }
+
+    /// Plays each subject's reaches through perception and the field network in lockstep, and judges what was decided.
+    /// Outcomes stand subject by subject, in the order of the replay.
+    ///
+    /// # Errors
+    /// The network's parameters are refused.
+    pub fn in_lockstep(&self, subjects: &[Subject]) -> anyhow::Result<Vec<Outcome>> {
+        let outcomes =
+            in_parallel(subjects, |subject| Ok(self.watch(subject)?.judge(self.task, &subject.replay)))?;
+        Ok(outcomes.into_iter().flatten().collect())
+    }
+
+    fn watch(&self, subject: &Subject) -> anyhow::Result<Course> {
+        let mut perception = Perception::new(self.task, &subject.model)?.with_robot(self.robot.clone());
+        let mut network = Network::new(self.plan.clone(), self.task.fingerprint, self.seed)?;
+        let (mut sample, mut truth) = (bytemuck::zeroed_box(), bytemuck::zeroed_box());
+        let mut percept = bytemuck::zeroed_box();
+        let (mut previous, mut next) = (bytemuck::zeroed_box(), bytemuck::zeroed_box());
+        network.rest(&mut previous);
+        let mut course = Course::default();
+        let end = subject.replay.spans().last().map_or(0, |span| span.end);
+        for tick in 1..end {
+            subject.replay.step(tick, &mut sample, &mut truth);
+            sample.header.cycle = tick;
+            perception.step(tick, Some(&sample), &mut percept);
+            percept.header.cycle = tick;
+            network.step(tick, Some(&percept), &previous, &mut next);
+            next.header.cycle = tick;
+            course.percept(&percept);
+            course.frame(self.plan, &next);
+            std::mem::swap(&mut previous, &mut next);
+        }
+        Ok(course)
+    }
 }
 
-/// Does `work` for every person, people in parallel, and gathers the results in their order.
-fn each_person<T: Send>(
-    people: &[Vec<&Reach>],
-    work: impl Fn(&[&Reach]) -> anyhow::Result<T> + Sync,
+/// A model of all people but one.
+fn without(participant: u32, labelled: &[Vec<Labelled>]) -> anyhow::Result<PreshapeModel> {
+    let others = labelled.iter().flatten().filter(|reach| reach.participant != participant);
+    let others: Vec<Labelled> = others.cloned().collect();
+    fit(&others).with_context(|| format!("leaving out participant {participant}"))
+}
+
+/// Does `work` for every one of `items` at the same time, and gathers the results in their order.
+fn in_parallel<I: Sync, T: Send>(
+    items: &[I],
+    work: impl Fn(&I) -> anyhow::Result<T> + Sync,
 ) -> anyhow::Result<Vec<T>> {
     std::thread::scope(|scope| {
-        let threads: Vec<_> = people.iter().map(|person| scope.spawn(|| work(person))).collect();
+        let threads: Vec<_> = items.iter().map(|item| scope.spawn(|| work(item))).collect();
         threads
             .into_iter()
             .map(|thread| thread.join().map_err(|_| anyhow::anyhow!("a replay panicked"))?)
             .collect()
     })
-}
-
-impl Evaluation<'_> {
-    fn replay(&self, person: &[&Reach], labelled: &[Vec<Labelled>]) -> anyhow::Result<Vec<Outcome>> {
-        let participant = person[0].participant;
-        let model = match self.model {
-            Some(model) => model.clone(),
-            None => {
-                let others: Vec<Labelled> = labelled
-                    .iter()
-                    .flatten()
-                    .filter(|reach| reach.participant != participant)
-                    .cloned()
-                    .collect();
-                fit(&others).with_context(|| format!("leaving out participant {participant}"))?
-            }
-        };
-        let network = Network::new(self.plan.clone(), self.task.fingerprint, 1)?;
-        let playback = Playback::new(self.task, Perception::new(self.task, &model)?, person);
-        let mut replay = Replay::new(self.task, self.plan, network, playback);
-        let wanted = |reach: &&&Reach| {
-            self.task.kinds.iter().any(|kind| (kind.width - reach.size.width()).abs() < 1e-6)
-        };
-        Ok(person.iter().filter(wanted).map(|reach| replay.replay(reach)).collect())
-    }
 }

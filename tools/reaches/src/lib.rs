@@ -4,20 +4,18 @@
 //! Whoever is tested is unseen: the model comes from the other people of the folder, or from a file. Labels of the
 //! tested person are looked at only after all decisions have been taken.
 
-mod camera;
+mod course;
 mod evaluation;
 mod extraction;
 mod fit;
-mod order;
 mod outcome;
-mod playback;
-mod replay;
 mod report;
+mod subject;
 mod training;
 
-pub use camera::METRES_PER_PIXEL;
-pub use evaluation::{Evaluation, evaluate};
-pub use order::Order;
+pub use course::Course;
+pub use evaluation::Evaluation;
 pub use outcome::{FRACTIONS, Outcome};
 pub use report::{Report, Tally};
+pub use subject::Subject;
 pub use training::{TrainError, model_file, train};

@@ -1,11 +1,11 @@
 use crate::extraction::{Labelled, extract};
 use crate::fit::{Person, level, rounded};
-use crate::order::Order;
 use coact_joint_task::Task;
 use coact_perception::{
     CLASSES, FEATURES, PreshapeModel, READ, ReachRecord, SNAPSHOTS, SingularModel, WHOLE,
 };
-use coact_recordings::{Reach, Size};
+use coact_recordings::{Order, Reach, Size};
+use coact_robot::Robot;
 use nalgebra::DVector;
 
 /// Why no model could be made.
@@ -31,10 +31,15 @@ pub enum TrainError {
 ///
 /// # Errors
 /// [`TrainError`] when the recordings do not suffice.
-pub fn train(task: &Task, reaches: &[Reach], order: Order) -> Result<PreshapeModel, TrainError> {
+pub fn train(
+    task: &Task,
+    robot: &Robot,
+    reaches: &[Reach],
+    order: Order,
+) -> Result<PreshapeModel, TrainError> {
     let mut labelled = Vec::new();
     for person in order.people(reaches) {
-        labelled.extend(extract(task, &person)?);
+        labelled.extend(extract(task, robot, &person)?);
     }
     fit(&labelled)
 }

@@ -3,8 +3,10 @@
 
 use coact_joint_task::{NetworkPlan, Task};
 use coact_perception::PreshapeModel;
-use coact_reaches::{Evaluation, METRES_PER_PIXEL, Order, Outcome, Report, evaluate, model_file, train};
-use coact_recordings::{Frame, ImagePoint, Reach, Size};
+use coact_reaches::{Evaluation, Outcome, Report, model_file, train};
+use coact_recordings::{Frame, ImagePoint, Order, Reach, Size};
+use coact_robot::Robot;
+use coact_world::METRES_PER_PIXEL;
 use std::path::PathBuf;
 
 fn configuration(file: &str) -> PathBuf {
@@ -13,6 +15,10 @@ fn configuration(file: &str) -> PathBuf {
 
 fn plan(file: &str) -> (Task, NetworkPlan) {
     NetworkPlan::load(&configuration(file)).unwrap()
+}
+
+fn robot() -> Robot {
+    Robot::load(&configuration("robots/aros.toml")).unwrap()
 }
 
 /// A number in [-1, 1) that only its arguments decide.
@@ -75,7 +81,8 @@ fn people(count: u32, trials: u32) -> Vec<Reach> {
 fn decide(file: &str, reaches: &[Reach], model: Option<&PreshapeModel>) -> Vec<Outcome> {
     let (task, plan) = plan(file);
     let order = Order::Trial { seed: 3 };
-    evaluate(Evaluation { task: &task, plan: &plan, model, order }, reaches).unwrap()
+    let evaluation = Evaluation { task: &task, plan: &plan, robot: &robot(), model, order, seed: 1 };
+    evaluation.in_lockstep(&evaluation.subjects(reaches).unwrap()).unwrap()
 }
 
 #[test]
@@ -83,7 +90,7 @@ fn training_is_repeatable_bit_by_bit_and_survives_its_file() {
     let (task, _) = plan("tasks/three-objects.toml");
     let reaches = people(4, 4);
     let make = || {
-        let model = train(&task, &reaches, Order::Trial { seed: 1 }).unwrap();
+        let model = train(&task, &robot(), &reaches, Order::Trial { seed: 1 }).unwrap();
         (model_file(&model, &reaches, "a test").unwrap(), model)
     };
     let ((text, model), (again, _)) = (make(), make());
@@ -99,7 +106,7 @@ fn training_is_repeatable_bit_by_bit_and_survives_its_file() {
 #[test]
 fn too_few_people_make_no_model() {
     let (task, _) = plan("tasks/three-objects.toml");
-    let error = train(&task, &people(2, 3), Order::File).unwrap_err();
+    let error = train(&task, &robot(), &people(2, 3), Order::File).unwrap_err();
     assert!(error.to_string().contains("three people"), "{error}");
 }
 

@@ -1,4 +1,4 @@
-use coact_recordings::Reach;
+use crate::Reach;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
