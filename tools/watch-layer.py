@@ -34,8 +34,8 @@ import tempfile
 import time
 from pathlib import Path
 
-LAYOUT = 1
-MAX_LAYERS, MAX_POPULATIONS, MAX_SITES = 16, 320, 5120
+LAYOUT = 2
+MAX_LAYERS, MAX_POPULATIONS, MAX_SITES = 16, 1024, 10240
 NONE = 0xFFFF_FFFF
 LAYERS = ["AOL", "OML-robot", "OML-person", "CSGL-achieved", "CSGL-available", "ASL", "IL", "EML", "AEL"]
 

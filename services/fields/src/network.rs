@@ -207,5 +207,6 @@ fn read(percept: &Percept, channel: Channel) -> f64 {
         Channel::Open(subgoal) => percept.open[subgoal],
         Channel::RobotHolds(kind) => percept.robot_holds[kind],
         Channel::PersonHolds(kind) => percept.person_holds[kind],
+        Channel::Lost(kind) => percept.lost[kind],
     }
 }

@@ -1,4 +1,5 @@
 use coact_pipeline::{Pipeline, Ready, Run};
+use coact_realtime::Punctuality;
 use std::collections::BTreeMap;
 
 /// Later starts of a process than this one are not looked for.
@@ -19,6 +20,25 @@ pub struct Environment {
     pub memory_locked: bool,
     /// For each process, the scheduling class that it obtained, with priority and core.
     pub schedulers: BTreeMap<String, String>,
+    /// How punctual the machine itself was meanwhile; none in lockstep, where no clock runs.
+    pub machine: Option<MachineReport>,
+}
+
+/// What a thread saw that did nothing but wake up beside the chain, on its core and with its priority.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
+pub struct MachineReport {
+    /// How often it woke up.
+    pub wakeups: u64,
+    /// How often a whole period late, or later.
+    pub late: u64,
+    /// The longest that it was late by, ns.
+    pub longest_ns: u64,
+}
+
+impl From<Punctuality> for MachineReport {
+    fn from(seen: Punctuality) -> Self {
+        Self { wakeups: seen.wakeups, late: seen.late, longest_ns: seen.longest_ns }
+    }
 }
 
 impl Environment {
@@ -36,6 +56,7 @@ impl Environment {
             cores: std::thread::available_parallelism().map_or(0, usize::from),
             memory_locked: false,
             schedulers: BTreeMap::new(),
+            machine: None,
         }
     }
 

@@ -36,7 +36,7 @@ mod verdict;
 pub use account::{Account, Lapse};
 pub use action_event::ActionEvent;
 pub use anticipation::Anticipation;
-pub use environment::Environment;
+pub use environment::{Environment, MachineReport};
 pub use event::Event;
 pub use fault_event::FaultEvent;
 pub use faults::Faults;

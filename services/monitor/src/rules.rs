@@ -8,7 +8,8 @@ pub struct Rules {
     pub anticipated_share: f64,
     /// Greatest share of the partner's actions that may be answered wrongly.
     pub wrong_share: f64,
-    /// Greatest share of cycles that a process under SCHED_FIFO may publish late.
+    /// Greatest share of cycles that a process under SCHED_FIFO may publish late, beyond what the machine itself was
+    /// late by ([`MachineReport`](crate::MachineReport)).
     pub missed_share: f64,
     /// The same for a process that did not obtain SCHED_FIFO.
     pub missed_share_unprivileged: f64,

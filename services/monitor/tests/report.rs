@@ -4,7 +4,7 @@
 mod support;
 
 use coact_messages::{LayerKind, Speech};
-use coact_monitor::{Environment, Event, Link, Monitor, Rules, Summary, Watched};
+use coact_monitor::{Environment, Event, Link, MachineReport, Monitor, Rules, Summary, Watched};
 use std::path::Path;
 use std::time::SystemTime;
 use support::*;
@@ -57,6 +57,7 @@ fn finish(monitor: Monitor) -> Summary {
         cores: 2,
         memory_locked: true,
         schedulers: [("control".into(), "SCHED_FIFO 80 on core 1".into())].into(),
+        machine: Some(MachineReport { wakeups: 2000, late: 3, longest_ns: 4_500_000 }),
     };
     monitor.finish(environment, 2_000_000_000).unwrap()
 }
@@ -148,6 +149,23 @@ fn each_rule_that_is_broken_is_one_reason() {
     monitor.keep(1, events).unwrap();
     let summary = monitor.finish(Environment::default(), 200_000_000_000).unwrap();
     insta::assert_snapshot!(summary.reasons.join("\n"));
+}
+
+#[test]
+fn a_process_may_be_late_as_often_as_the_machine_itself() {
+    let machine = |late| Some(MachineReport { wakeups: 1000, late, longest_ns: 2_000_000 });
+    for (late, passes) in [(500, true), (430, false)] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut monitor = open(folder.path());
+        for cycle in 0..1000 {
+            let mut halting = pulse(cycle, 0);
+            halting.missed = cycle.div_ceil(2);
+            monitor.pulse("control", &halting);
+        }
+        let environment = Environment { machine: machine(late), ..Environment::default() };
+        let summary = monitor.finish(environment, 1_000_000_000).unwrap();
+        assert_eq!(summary.reasons.is_empty(), passes, "{late} late wake-ups: {:?}", summary.reasons);
+    }
 }
 
 #[test]

@@ -62,6 +62,7 @@ impl Acts {
             let (target, (rise, fall)) = match *act {
                 Act::Rest => (resting, REST),
                 Act::Idle => ((memory.dwell as f64 / LONG).min(1.0), REST),
+                Act::Hidden | Act::Word(_) => (0.0, REACH),
                 Act::Reach => (f64::from(u8::from(reaches)), REACH),
                 Act::Gesture(gesture) => {
                     (self.gestures.evidence(gesture, tick, movement.as_ref(), memory, out), GESTURE)

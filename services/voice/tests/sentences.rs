@@ -22,7 +22,7 @@ const LAYERS: [LayerKind; 4] = [
 
 fn chain(name: &str, answer: &str) -> Chain {
     let (act, side) = (Act::Grasp { grip: 0, kind: 0 }, Agent::Person);
-    Chain { name: name.into(), act, kind: 0, from: side, side, answer: Some(answer.into()) }
+    Chain { name: name.into(), act, kind: 0, from: side, side, answer: Some(answer.into()), says: Vec::new() }
 }
 
 fn subgoal(name: &str) -> Subgoal {

@@ -88,6 +88,8 @@ pub(crate) struct ChainEntry {
     pub from: Agent,
     pub side: Agent,
     pub answer: Option<Name>,
+    #[serde(default)]
+    pub says: Vec<Name>,
 }
 
 #[derive(Deserialize)]

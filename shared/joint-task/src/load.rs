@@ -31,14 +31,16 @@ impl Reader<'_> {
         let subgoals = self.subgoals()?;
         let grips = self.grips()?;
         let gestures = self.gestures()?;
-        let acts = acts(grips.len(), gestures.len(), kinds.len());
-        self.within("grip", acts.len(), MAX_ACTS, "observable acts (grips x kinds + gestures + 3)")?;
+        let chains = self.chains(&kinds)?;
+        let acts = acts(grips.len(), gestures.len(), &chains, kinds.len());
+        let what = "observable acts (grips x kinds + gestures + spoken chains x kinds + 4)";
+        self.within("grip", acts.len(), MAX_ACTS, what)?;
         let mut hash = DefaultHasher::new();
         hash.write(self.source.text().as_bytes());
         Ok(Task {
             name: self.file.name.clone(),
             parts: self.parts()?,
-            chains: self.chains(kinds.len())?,
+            chains,
             actions: self.actions(&kinds, &subgoals)?,
             scene: scene(&self.file.scene),
             fingerprint: hash.finish(),
@@ -179,11 +181,11 @@ impl Reader<'_> {
             .collect())
     }
 
-    fn chains(&self, kinds: usize) -> Result<Vec<Chain>, TaskError> {
+    fn chains(&self, kinds: &[Kind]) -> Result<Vec<Chain>, TaskError> {
         let mut chains = Vec::new();
         for (index, entry) in self.file.chain.iter().enumerate() {
             let answer = entry.answer.as_ref().map(|name| self.answer(index, name)).transpose()?;
-            for kind in 0..kinds {
+            for (kind, Kind { name, .. }) in kinds.iter().enumerate() {
                 chains.push(Chain {
                     name: entry.name.get_ref().clone(),
                     act: self.shown_by(index, entry, kind)?,
@@ -191,10 +193,23 @@ impl Reader<'_> {
                     from: entry.from,
                     side: entry.side,
                     answer: answer.clone(),
+                    says: self.phrases(index, entry, name)?,
                 });
             }
         }
         Ok(chains)
+    }
+
+    /// The phrases of a chain for one kind of part, by its name.
+    fn phrases(&self, index: usize, entry: &ChainEntry, kind: &str) -> Result<Vec<String>, TaskError> {
+        let phrase = |(nth, phrase): (usize, &Name)| {
+            if !phrase.get_ref().contains("{kind}") {
+                let problem = "expected a phrase with {kind} in it, where the part is named";
+                return Err(self.source.error(phrase.span(), format!("chain[{index}].says[{nth}]"), problem));
+            }
+            Ok(phrase.get_ref().replace("{kind}", kind).to_lowercase())
+        };
+        entry.says.iter().enumerate().map(phrase).collect()
     }
 
     fn answer(&self, index: usize, name: &Name) -> Result<String, TaskError> {
@@ -264,11 +279,13 @@ impl Reader<'_> {
     }
 }
 
-fn acts(grips: usize, gestures: usize, kinds: usize) -> Vec<Act> {
+fn acts(grips: usize, gestures: usize, chains: &[Chain], kinds: usize) -> Vec<Act> {
+    let spoken = |chain: &usize| !chains[*chain].says.is_empty();
     let grasps = (0..grips).flat_map(|grip| (0..kinds).map(move |kind| Act::Grasp { grip, kind }));
-    [Act::Rest, Act::Idle, Act::Reach]
+    [Act::Rest, Act::Idle, Act::Reach, Act::Hidden]
         .into_iter()
         .chain((0..gestures).map(Act::Gesture))
+        .chain((0..chains.len()).filter(spoken).map(Act::Word))
         .chain(grasps)
         .collect()
 }

@@ -105,6 +105,10 @@ pub enum Act {
     Idle,
     /// The hand is on its way to something.
     Reach,
+    /// The hand has gone out of sight on its way: behind something, where its grip cannot be seen.
+    Hidden,
+    /// The person says what a chain is for ("give me the wheel"): index into `Task::chains`.
+    Word(usize),
     /// The empty hand shows a gesture: index into `Task::gestures`.
     Gesture(usize),
     /// The hand preshapes for, grasps or holds a part of `kind` with `grip`.
@@ -131,6 +135,8 @@ pub struct Chain {
     pub side: Agent,
     /// Name of the robot's action that complements it, if one does: with the chain's subgoal it names an action.
     pub answer: Option<String>,
+    /// Phrases by which the person says that this is meant, in lower case; none: it is not spoken of.
+    pub says: Vec<String>,
 }
 
 /// Something that the robot can do.

@@ -66,6 +66,7 @@ pub enum Channel {
     Open(usize),
     RobotHolds(usize),
     PersonHolds(usize),
+    Lost(usize),
 }
 
 /// One connection of strength a_mj (chapter, eq. 4), in units of the target's ignition threshold.

@@ -45,29 +45,32 @@ pub(crate) fn populations(task: &Task, layer: LayerKind) -> Vec<Population> {
         LayerKind::SubgoalsAchieved | LayerKind::SubgoalsAvailable => subgoals(task),
         LayerKind::ActionSimulation => chains(task),
         LayerKind::Intention => goals(task),
-        LayerKind::ErrorMonitoring => subgoals(task),
+        LayerKind::ErrorMonitoring => errors(task),
         LayerKind::ActionExecution => actions(task),
     }
 }
 
 pub(crate) fn acts(task: &Task) -> Vec<Population> {
     let act = |(index, act): (usize, &Act)| {
-        let (role, grip, gesture, kind) = match *act {
-            Act::Rest => ("rest", None, None, None),
-            Act::Idle => ("idle", None, None, None),
-            Act::Reach => ("reach", None, None, None),
-            Act::Gesture(gesture) => ("gesture", None, Some(gesture), None),
-            Act::Grasp { grip, kind } => ("grasp", Some(grip), None, Some(kind)),
+        let nothing = Population::default();
+        let meaning = match *act {
+            Act::Rest => Population { role: "rest", ..nothing },
+            Act::Idle => Population { role: "idle", ..nothing },
+            Act::Reach => Population { role: "reach", ..nothing },
+            Act::Hidden => Population { role: "hidden", ..nothing },
+            Act::Gesture(gesture) => Population { role: "gesture", gesture: Some(gesture), ..nothing },
+            Act::Word(chain) => Population {
+                role: "word",
+                kind: Some(task.chains[chain].kind),
+                chain: Some(task.chains[chain].name.clone()),
+                chain_index: Some(chain),
+                ..nothing
+            },
+            Act::Grasp { grip, kind } => {
+                Population { role: "grasp", grip: Some(grip), kind: Some(kind), ..nothing }
+            }
         };
-        Population {
-            label: task.act_name(index),
-            role,
-            act: Some(index),
-            grip,
-            gesture,
-            kind,
-            ..Population::default()
-        }
+        Population { label: task.act_name(index), act: Some(index), ..meaning }
     };
     task.acts.iter().enumerate().map(act).collect()
 }
@@ -85,6 +88,18 @@ pub(crate) fn objects(task: &Task, workspace: Agent) -> Vec<Population> {
 
 pub(crate) fn subgoals(task: &Task) -> Vec<Population> {
     (0..task.subgoals.len()).map(|index| of_subgoal(task, index)).collect()
+}
+
+/// What can be wrong: the goal (its turn has not come), the means (a part is asked for that is at hand), and what the
+/// robot itself does (a part is lost).
+fn errors(task: &Task) -> Vec<Population> {
+    let goals = subgoals(task).into_iter().map(|goal| Population { role: "goal", ..goal });
+    let of_kind = |role: &'static str, what: &'static str| {
+        let error =
+            move |part: Population| Population { role, label: format!("{what}: {}", part.label), ..part };
+        objects(task, Agent::Person).into_iter().map(error)
+    };
+    goals.chain(of_kind("means", "at hand")).chain(of_kind("loss", "lost")).collect()
 }
 
 fn of_subgoal(task: &Task, index: usize) -> Population {
@@ -106,7 +121,7 @@ fn chains(task: &Task) -> Vec<Population> {
         let (role, grip, gesture) = match chain.act {
             Act::Grasp { grip, .. } => ("grip", Some(grip), None),
             Act::Gesture(gesture) => ("gesture", None, Some(gesture)),
-            Act::Rest | Act::Idle | Act::Reach => ("movement", None, None),
+            Act::Rest | Act::Idle | Act::Reach | Act::Hidden | Act::Word(_) => ("movement", None, None),
         };
         Population {
             label: format!("{}: {}", chain.name, task.kinds[chain.kind].name),

@@ -46,6 +46,11 @@ impl Task {
             Act::Rest => "rest".into(),
             Act::Idle => "idle".into(),
             Act::Reach => "reach".into(),
+            Act::Hidden => "reach out of sight".into(),
+            Act::Word(chain) => {
+                let chain = &self.chains[chain];
+                format!("says: {}: {}", chain.name, self.kinds[chain.kind].name)
+            }
             Act::Gesture(gesture) => self.gestures[gesture].name.clone(),
             Act::Grasp { grip, kind } => format!("{} grip: {}", self.grips[grip].name, self.kinds[kind].name),
         }

@@ -155,12 +155,22 @@ impl Wiring<'_> {
             for &to in &targets {
                 let related = |&&from: &&usize| self.related(rule, &row.meanings[from], &row.meanings[to]);
                 let found: Vec<usize> = sources.iter().filter(related).copied().collect();
-                let share = if rule.share { found.len().max(1) as f64 } else { 1.0 };
+                let share = if rule.share { self.share(rule, found.len(), &row.meanings[to]) } else { 1.0 };
                 let weight = rule.weight / share;
                 synapses.extend(found.into_iter().map(|from| Synapse { from, to, weight, rule: index }));
             }
         }
         Ok(synapses)
+    }
+
+    /// By what a shared weight is divided: the number of sources, or, where the plan relates them, the number of all
+    /// steps that come before - a source that stands for one of them tells nothing of the others.
+    fn share(&self, rule: &RuleEntry, sources: usize, to: &Population) -> f64 {
+        let steps = match (rule.relation, to.subgoal) {
+            (Some(Relation::Before), Some(subgoal)) => self.task.subgoals[subgoal].after.len(),
+            _ => sources,
+        };
+        steps.max(1) as f64
     }
 
     fn select(
@@ -198,9 +208,9 @@ impl Wiring<'_> {
     }
 
     fn known_role(&self, key: &str, role: &crate::file::Name) -> Result<(), TaskError> {
-        const ROLES: [&str; 14] = [
-            "rest", "idle", "reach", "gesture", "grasp", "grip", "insert", "request", "receive", "give",
-            "hold", "point", "speak", "subgoal",
+        const ROLES: [&str; 19] = [
+            "rest", "idle", "reach", "hidden", "word", "gesture", "grasp", "grip", "insert", "request",
+            "receive", "give", "hold", "point", "speak", "subgoal", "goal", "means", "loss",
         ];
         if ROLES.contains(&role.get_ref().as_str()) {
             return Ok(());
@@ -216,10 +226,7 @@ impl Wiring<'_> {
         same && unlike
             && match rule.relation {
                 None => true,
-                Some(Relation::Before) => match (from.subgoal, to.subgoal) {
-                    (Some(before), Some(after)) => self.task.subgoals[after].after.contains(&before),
-                    _ => false,
-                },
+                Some(Relation::Before) => self.comes_before(from, to),
                 Some(Relation::Answers) => {
                     from.answer.is_some()
                         && from.answer == to.rule
@@ -227,6 +234,21 @@ impl Wiring<'_> {
                         && (to.role != "hold" || from.held)
                 }
             }
+    }
+}
+
+impl Wiring<'_> {
+    /// Whether the plan puts the subgoal of `from` directly before that of `to`; of a population that stands for a kind
+    /// of part, before one of the subgoals that need it.
+    fn comes_before(&self, from: &Population, to: &Population) -> bool {
+        let Some(before) = from.subgoal else { return false };
+        let follows = |after: &usize| self.task.subgoals[*after].after.contains(&before);
+        match to.subgoal {
+            Some(after) => follows(&after),
+            None => (0..self.task.subgoals.len())
+                .filter(|&goal| Some(self.task.subgoals[goal].kind) == to.kind)
+                .any(|goal| follows(&goal)),
+        }
     }
 }
 
@@ -271,5 +293,6 @@ fn channels(task: &Task, first: usize) -> (Vec<ChannelPlan>, Vec<(String, Range<
     add("open", subgoals(task), &Channel::Open);
     add("robot holds", objects(task, Agent::Robot), &Channel::RobotHolds);
     add("person holds", objects(task, Agent::Person), &Channel::PersonHolds);
+    add("lost", objects(task, Agent::Robot), &Channel::Lost);
     (channels, names)
 }

@@ -29,6 +29,7 @@
 mod command;
 mod field_frame;
 mod header;
+mod heard;
 mod percept;
 mod pulse;
 mod sensor_sample;
@@ -40,6 +41,7 @@ mod world_state;
 pub use command::{Command, MotionPhase};
 pub use field_frame::{Decision, FieldFrame, LayerKind, LayerTable};
 pub use header::{Header, LAYOUT};
+pub use heard::Heard;
 pub use percept::{HandPercept, Percept, PerceptionMemory, WorkspacePercept};
 pub use pulse::Pulse;
 pub use sensor_sample::{HandView, JointReading, Keypoint, KeypointName, SceneView, SensorSample, Sighting};
@@ -52,19 +54,19 @@ pub const JOINTS: usize = 15;
 /// Arm joints: the first seven of [`JOINTS`].
 pub const ARM_JOINTS: usize = 7;
 /// Observable acts that a task may name (populations of the action observation layer).
-pub const MAX_ACTS: usize = 64;
+pub const MAX_ACTS: usize = 192;
 /// Kinds of part that a task may name.
-pub const MAX_KINDS: usize = 16;
+pub const MAX_KINDS: usize = 32;
 /// Single parts that a scene may hold.
 pub const MAX_PARTS: usize = 32;
 /// Subgoals that a plan may name.
-pub const MAX_SUBGOALS: usize = 32;
+pub const MAX_SUBGOALS: usize = 64;
 /// Layers of the field network.
 pub const MAX_LAYERS: usize = 16;
 /// Populations of the whole field network.
-pub const MAX_POPULATIONS: usize = 320;
+pub const MAX_POPULATIONS: usize = 1024;
 /// Samples (field sites) of the whole field network.
-pub const MAX_SITES: usize = 5120;
+pub const MAX_SITES: usize = 10_240;
 /// Workspaces: index 0 is the robot's, index 1 is the person's.
 pub const WORKSPACES: usize = 2;
 /// The robot's workspace or side.

@@ -23,6 +23,8 @@ pub struct Percept {
     pub robot_holds: [f64; MAX_KINDS],
     /// Evidence that the person's hand holds a part of this kind.
     pub person_holds: [f64; MAX_KINDS],
+    /// Evidence that the robot has lost a part of this kind out of its hand (touch and sight together).
+    pub lost: [f64; MAX_KINDS],
     /// What perception itself must remember from cycle to cycle.
     pub memory: PerceptionMemory,
 }

@@ -1,4 +1,4 @@
-use crate::{Header, JOINTS, MAX_PARTS};
+use crate::{Header, Heard, JOINTS, MAX_PARTS};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -17,6 +17,8 @@ pub struct SensorSample {
     pub hand: HandView,
     /// The object recogniser's newest frame.
     pub scene: SceneView,
+    /// What the person said last.
+    pub heard: Heard,
 }
 
 /// Proprioception: joint encoders and fingertip touch.

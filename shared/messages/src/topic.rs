@@ -14,6 +14,9 @@ pub const TRUTH: &str = "coact/truth";
 pub const WORLD_STATE: &str = "coact/world-state";
 /// [`Speech`](crate::Speech), voice to monitor and supervisor.
 pub const SPEECH: &str = "coact/speech";
+/// [`Speech`](crate::Speech) of the person, as text: anyone (`coact say`, a recogniser) to world, which puts it into the
+/// sensor sample.
+pub const HEARD: &str = "coact/heard";
 
 /// [`Pulse`](crate::Pulse) of one process.
 pub fn pulse(process: &str) -> String {
@@ -48,7 +51,7 @@ pub fn announces(topic: &str) -> bool {
 pub fn depth(topic: &str) -> usize {
     match topic {
         TRUTH => 512,
-        SPEECH => 32,
+        SPEECH | HEARD => 32,
         _ if topic.starts_with("coact/pulse/") => 512,
         _ => 2,
     }

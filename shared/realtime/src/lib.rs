@@ -21,6 +21,7 @@ mod process;
 mod process_error;
 mod scheduling;
 mod signals;
+mod witness;
 
 pub use arguments::Arguments;
 pub use bus::Bus;
@@ -36,3 +37,4 @@ pub use port_error::PortError;
 pub use process::Process;
 pub use process_error::ProcessError;
 pub use scheduling::keep_off_real_time_cores;
+pub use witness::{Punctuality, Witness};

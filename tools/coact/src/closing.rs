@@ -42,6 +42,7 @@ fn render(summary: &Value, report: &Path) -> String {
     // In lockstep no process runs and no clock.
     if values(&summary["processes"]).next().is_some() {
         lines.push(latency(summary));
+        lines.extend(machine(&summary["environment"]["machine"]));
         lines.push(privileges(&summary["environment"]));
     }
     lines.extend(list(&summary["faults"]).map(fault));
@@ -92,6 +93,16 @@ fn latency(summary: &Value) -> String {
     )
 }
 
+/// How late the machine was by itself: no chain can be more punctual.
+fn machine(machine: &Value) -> Option<String> {
+    let late = machine["late"].as_u64()?;
+    let longest = number(&machine["longest_ns"]) / 1e6;
+    let wakeups = words(&machine["wakeups"]);
+    Some(format!(
+        "machine       late by a period or more at {late} of {wakeups} wake-ups of an idle thread, by {longest:.1} ms at most"
+    ))
+}
+
 /// In red when the figures were taken without real-time privileges.
 fn privileges(environment: &Value) -> String {
     match environment["memory_locked"].as_bool() {
@@ -140,7 +151,8 @@ mod tests {
 
     fn summary(verdict: &str) -> Value {
         json!({
-            "environment": { "memory_locked": false },
+            "environment": { "memory_locked": false,
+                "machine": { "wakeups": 1000, "late": 3, "longest_ns": 2_345_678 } },
             "processes": { "fields": { "cycles": 1000, "missed": 2, "skipped": 4 }, "world": { "cycles": 1001, "missed": 1 } },
             "end_to_end_ns": { "count": 9, "p50": 210_000, "p99": 400_400, "p999": 512_600, "max": 900_000 },
             "anticipation": { "actions": 6, "decided_before_grasp": 5, "correct": 4,
@@ -163,6 +175,7 @@ mod tests {
             " 2. right wheel",
             "6 actions of the partner, 5 decided before the grasp, 4 rightly; lead p5 120 p50 350 p95 600 ms",
             "p50 210 µs, p99 400 µs, p999 513 µs, max 900 µs; 3 of 2001 cycles missed their deadline, 4 were skipped",
+            "late by a period or more at 3 of 1000 wake-ups of an idle thread, by 2.3 ms at most",
             "not locked",
             "fields: kill at 20.0 s, seen after 0.3 ms, recovered after 21.5 ms, others missed 1",
             "reports/x",

@@ -22,7 +22,7 @@ fn subgoal(name: &str, held: bool, after: Vec<usize>) -> Subgoal {
 fn chain(name: &str, answer: &str) -> Chain {
     let act = Act::Grasp { grip: 0, kind: 0 };
     let (from, side) = (Agent::Person, Agent::Person);
-    Chain { name: name.into(), act, kind: 0, from, side, answer: Some(answer.into()) }
+    Chain { name: name.into(), act, kind: 0, from, side, answer: Some(answer.into()), says: Vec::new() }
 }
 
 fn action(rule: &str, motion: Motion, subgoal: usize, name: &str) -> Action {
