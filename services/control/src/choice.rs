@@ -25,7 +25,9 @@ impl Choice {
         let decision = senses.decision().filter(|decision| !is_finished(memory, decision));
         let action =
             decision.and_then(|decision| Some((decision.action, actions.get(decision.action as usize)?)));
-        let Some((index, action)) = action.filter(|(_, action)| action.motion != Motion::Speak) else {
+        let Some((index, action)) =
+            action.filter(|(_, action)| !matches!(action.motion, Motion::Speak | Motion::Report))
+        else {
             return match memory.held() {
                 Some(held) if memory.undecided > settings.put_back_after => Self::put_back(held),
                 _ => Self::PARK,
@@ -38,7 +40,7 @@ impl Choice {
             (Motion::Insert, Some(kind)) if held == Some(kind) => Errand::Place,
             (Motion::Give, Some(kind)) if held == Some(kind) => Errand::Offer,
             (Motion::Receive, kind) if held.is_some() && held == kind => Errand::Park,
-            (Motion::Speak, _) | (_, None) => Errand::Park,
+            (Motion::Speak | Motion::Report, _) | (_, None) => Errand::Park,
             _ if held.is_some() => return held.map_or(Self::PARK, Self::put_back),
             (Motion::Insert | Motion::Give, Some(_)) => Errand::Take,
             (Motion::Request, _) => Errand::Ask,

@@ -66,7 +66,8 @@ impl Control {
             Errand::Receive | Errand::Offer => Some(self.places.exchange(kind?)),
             Errand::Steady => Some(self.places.steadying()),
             Errand::Point => {
-                let part = senses.part(ROBOT, kind?).or_else(|| senses.part(PERSON, kind?))?;
+                // The person is shown what lies at hand for the person.
+                let part = senses.part(PERSON, kind?).or_else(|| senses.part(ROBOT, kind?))?;
                 Some(self.places.pointing(&Point3::from(part.translation.vector)))
             }
         }

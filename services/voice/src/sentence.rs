@@ -23,6 +23,7 @@ pub(crate) fn announced(task: &Task, action: &Action) -> Option<String> {
         (Motion::Hold, Some(goal)) => format!("I will hold it steady for the {goal}."),
         (Motion::Hold, None) => "I will hold it steady for you.".to_owned(),
         (Motion::Point, _) => format!("Look, there is the {part}."),
+        (Motion::Report, _) => format!("I have lost the {part}, and there is no other."),
         (Motion::Speak, _) => return None,
     })
 }

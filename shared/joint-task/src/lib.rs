@@ -13,6 +13,6 @@ mod wiring;
 
 pub use error::TaskError;
 pub use model::{Act, Action, Agent, Chain, Gesture, Grip, Kind, Motion, Part, Scene, Shape, Subgoal};
-pub use network_plan::{Channel, ChannelPlan, LayerPlan, NetworkPlan, Synapse};
+pub use network_plan::{Channel, ChannelPlan, LayerPlan, NetworkPlan, Pool, Synapse};
 pub use population::Population;
 pub use task::Task;

@@ -170,8 +170,10 @@ pub enum Motion {
     Hold,
     /// Point to a part.
     Point,
-    /// Say something; the arm rests.
+    /// Say what is wrong with what the person means; the arm rests.
     Speak,
+    /// Say that a part is lost and cannot be replaced; the arm rests.
+    Report,
 }
 
 /// The table, the base and the places on it; m, world frame.

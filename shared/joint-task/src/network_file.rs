@@ -1,6 +1,6 @@
 //! The network file as it is written.
 
-use crate::{Agent, file::Name};
+use crate::{Agent, Pool, file::Name};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -67,6 +67,8 @@ pub(crate) struct RuleEntry {
     pub relation: Option<Relation>,
     #[serde(default)]
     pub share: bool,
+    #[serde(default)]
+    pub pool: Pool,
     #[serde(default)]
     pub weight: f64,
     #[serde(default)]

@@ -16,12 +16,14 @@ pub struct NetworkPlan {
     pub populations: Vec<Population>,
     /// The percept's channels.
     pub channels: Vec<ChannelPlan>,
-    /// Synapses, sorted by target, then source.
+    /// Synapses, sorted by target, then rule, then source.
     pub synapses: Vec<Synapse>,
     /// Which channel makes which memory population forget.
     pub forgetting: Vec<Synapse>,
     /// Why each rule stands in the network file, by [`Synapse::rule`].
     pub reasons: Vec<String>,
+    /// How the sources that a rule finds for one target add up, by [`Synapse::rule`].
+    pub pools: Vec<Pool>,
     /// Sites of each population.
     pub sites_per_population: usize,
 }
@@ -80,6 +82,19 @@ pub struct Synapse {
     pub weight: f64,
     /// The rule that made it: index into [`NetworkPlan::reasons`].
     pub rule: usize,
+}
+
+/// How the sources that one rule finds for a target add up.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Pool {
+    /// All of them (chapter, eq. 4).
+    #[default]
+    Sum,
+    /// The strongest counts: they stand for the same thing, and several of them do not make it any truer.
+    Any,
+    /// The weakest counts: only all of them together mean something.
+    Every,
 }
 
 impl NetworkPlan {

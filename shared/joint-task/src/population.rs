@@ -188,5 +188,6 @@ fn motion_name(motion: Motion) -> &'static str {
         Motion::Hold => "hold",
         Motion::Point => "point",
         Motion::Speak => "speak",
+        Motion::Report => "report",
     }
 }

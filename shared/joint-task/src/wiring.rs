@@ -50,10 +50,11 @@ impl Wiring<'_> {
                 .collect(),
         };
         let mut synapses = self.connect("synapse", &self.file.synapse, &row)?;
-        synapses.sort_by_key(|synapse| (synapse.to, synapse.from));
+        synapses.sort_by_key(|synapse| (synapse.to, synapse.rule, synapse.from));
         Ok(NetworkPlan {
             forgetting: self.connect("forgetting", &self.file.forgetting, &row)?,
             reasons: self.file.synapse.iter().map(|rule| rule.why.clone()).collect(),
+            pools: self.file.synapse.iter().map(|rule| rule.pool).collect(),
             sites_per_population: *self.file.sites.per_population.get_ref(),
             layers,
             populations,
@@ -208,9 +209,9 @@ impl Wiring<'_> {
     }
 
     fn known_role(&self, key: &str, role: &crate::file::Name) -> Result<(), TaskError> {
-        const ROLES: [&str; 19] = [
+        const ROLES: [&str; 20] = [
             "rest", "idle", "reach", "hidden", "word", "gesture", "grasp", "grip", "insert", "request",
-            "receive", "give", "hold", "point", "speak", "subgoal", "goal", "means", "loss",
+            "receive", "give", "hold", "point", "speak", "report", "subgoal", "goal", "means", "loss",
         ];
         if ROLES.contains(&role.get_ref().as_str()) {
             return Ok(());

@@ -60,6 +60,15 @@ impl Harness {
         self.percept.robot_holds[kind] = evidence;
     }
 
+    pub fn lost(&mut self, kind: &str, evidence: f64) {
+        let kind = self.kind(kind);
+        self.percept.lost[kind] = evidence;
+    }
+
+    pub fn error(&self) -> Option<String> {
+        self.peaks(LayerKind::ErrorMonitoring).into_iter().next()
+    }
+
     pub fn object(&mut self, workspace: Agent, kind: &str, seen: f64, gone: f64) {
         let kind = self.kind(kind);
         self.percept.workspace[workspace.index()].seen[kind] = seen;
@@ -69,6 +78,12 @@ impl Harness {
     pub fn achieve(&mut self, subgoal: &str) {
         let subgoal = self.task.subgoals.iter().position(|candidate| candidate.name == subgoal).unwrap();
         self.percept.achieved[subgoal] = 1.0;
+    }
+
+    /// Name of the kind of part that a subgoal needs.
+    pub fn kind_of(&self, subgoal: &str) -> String {
+        let subgoal = self.task.subgoals.iter().find(|candidate| candidate.name == subgoal).unwrap();
+        self.task.kinds[subgoal.kind].name.clone()
     }
 
     /// Runs `ticks` ms with the percept as it stands.
