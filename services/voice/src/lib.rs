@@ -9,6 +9,6 @@ mod sentence;
 mod speaker;
 mod voice;
 
-pub use meanings::{Goal, Meanings};
+pub use meanings::{Goal, Meanings, Mistake};
 pub use speaker::Speaker;
 pub use voice::{Sentence, Voice};

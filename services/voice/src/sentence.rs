@@ -9,6 +9,25 @@ pub(crate) fn inferred(task: &Task, goal: Goal) -> String {
     format!("You want to {} the {}.", chain.name, task.kinds[chain.kind].name)
 }
 
+/// That words and hand do not agree.
+pub(crate) fn contradicted(task: &Task, said: usize, goal: Goal) -> String {
+    let words = |chain: usize| {
+        let chain = &task.chains[chain];
+        format!("{} the {}", chain.name, task.kinds[chain.kind].name)
+    };
+    format!("You speak as if to {}, but your hand is about to {}.", words(said), words(goal.chain))
+}
+
+/// That a part lies where the person can take it.
+pub(crate) fn at_hand(task: &Task, kind: usize) -> String {
+    format!("There is a {} on your side.", task.kinds[kind].name)
+}
+
+/// That the robot lost a part.
+pub(crate) fn lost(task: &Task, kind: usize) -> String {
+    format!("I have lost the {}.", task.kinds[kind].name)
+}
+
 /// What the robot is about to do; nothing for a skill that is speech itself.
 pub(crate) fn announced(task: &Task, action: &Action) -> Option<String> {
     let part = action.kind.map_or("part", |kind| task.kinds[kind].name.as_str());
@@ -23,17 +42,26 @@ pub(crate) fn announced(task: &Task, action: &Action) -> Option<String> {
         (Motion::Hold, Some(goal)) => format!("I will hold it steady for the {goal}."),
         (Motion::Hold, None) => "I will hold it steady for you.".to_owned(),
         (Motion::Point, _) => format!("Look, there is the {part}."),
-        (Motion::Report, _) => format!("I have lost the {part}, and there is no other."),
+        (Motion::Report, _) => format!("I know of no other {part}."),
         (Motion::Speak, _) => return None,
     })
 }
 
-/// What is wrong, and what could be done instead.
-pub(crate) fn objected(task: &Task, subgoal: usize, achieved: bool, available: &[usize]) -> String {
+/// What is wrong with bringing about `subgoal`, by the goal that is `meant` if that stands, and what could be done instead.
+pub(crate) fn objected(
+    task: &Task,
+    subgoal: usize,
+    meant: Option<Goal>,
+    achieved: bool,
+    available: &[usize],
+) -> String {
     let name = &task.subgoals[subgoal].name;
-    let (mut text, next) = match achieved {
-        true => (format!("The {name} is done already"), "now we need"),
-        false => (format!("The {name} cannot be done yet"), "first we need"),
+    let (mut text, next) = match (achieved, meant.map(|goal| &task.chains[goal.chain])) {
+        (true, _) => (format!("The {name} is done already"), "now we need"),
+        (false, Some(chain)) => {
+            (format!("You cannot {} the {} yet", chain.name, task.kinds[chain.kind].name), "first we need")
+        }
+        (false, None) => (format!("The {name} cannot be done yet"), "first we need"),
     };
     let instead: Vec<String> = available
         .iter()

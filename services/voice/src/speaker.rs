@@ -4,20 +4,23 @@ use std::process::{Child, Command, Stdio};
 #[derive(Debug, Default)]
 pub struct Speaker {
     aloud: bool,
+    /// Whether it was asked for, and a missing program is worth a word.
+    asked: bool,
     speaking: Vec<Child>,
 }
 
 impl Speaker {
-    /// Environment variable that makes the robot speak aloud when it is set to anything but 0.
+    /// Environment variable: 0 keeps the robot silent; without it, it speaks aloud where the program is installed.
     pub const VARIABLE: &'static str = "COACT_SPEAK";
 
-    /// Aloud if the environment asks for it.
+    /// Aloud unless the environment forbids it.
     pub fn from_environment() -> Self {
-        let aloud = std::env::var(Self::VARIABLE).is_ok_and(|value| !value.is_empty() && value != "0");
-        Self { aloud, speaking: Vec::new() }
+        let wish = std::env::var(Self::VARIABLE).unwrap_or_default();
+        Self { aloud: wish != "0", asked: !wish.is_empty(), speaking: Vec::new() }
     }
 
-    /// Starts to say a sentence; without the program, or when it cannot be started, this is said once on the log.
+    /// Starts to say a sentence. Without the program the robot speaks in writing only; if speech was asked for, the log
+    /// says so once.
     pub fn say(&mut self, text: &str) {
         self.speaking.retain_mut(|child| matches!(child.try_wait(), Ok(None)));
         if !self.aloud {
@@ -28,7 +31,9 @@ impl Speaker {
         match program.spawn() {
             Ok(child) => self.speaking.push(child),
             Err(error) => {
-                tracing::warn!("espeak-ng cannot be started: {error}; the robot speaks in writing only");
+                if self.asked {
+                    tracing::warn!("espeak-ng cannot be started: {error}; the robot speaks in writing only");
+                }
                 self.aloud = false;
             }
         }

@@ -1,4 +1,4 @@
-use crate::{Goal, Meanings, sentence};
+use crate::{Goal, Meanings, Mistake, sentence};
 use coact_joint_task::Task;
 use coact_messages::{FieldFrame, LayerKind};
 
@@ -34,15 +34,17 @@ pub struct Sentence {
 struct Subject {
     /// The robot's decision: index into `Task::actions`.
     action: Option<usize>,
-    /// Detected error: index into `Task::subgoals`.
-    error: Option<usize>,
-    /// When the younger of both began to stand.
+    /// Detected error.
+    error: Option<Mistake>,
+    /// Words that say something else than the hand does: index into `Task::chains`.
+    contradiction: Option<usize>,
+    /// When the youngest of them began to stand.
     since: u64,
 }
 
 impl Subject {
     fn is_about(&self, other: &Self) -> bool {
-        (self.action, self.error) == (other.action, other.error)
+        (self.action, self.error, self.contradiction) == (other.action, other.error, other.contradiction)
     }
 }
 
@@ -76,34 +78,62 @@ impl Voice {
 
     fn subject(&self, frame: &FieldFrame) -> Subject {
         let action = self.task.actions.get(frame.decision.action as usize).map(|_| frame.decision);
-        let peak = peaks(frame, LayerKind::ErrorMonitoring).next();
-        let error = peak.and_then(|(index, since)| Some(((*self.meanings.errors.get(index)?)?, since)));
-        let since = action.map_or(0, |action| action.since).max(error.map_or(0, |(_, since)| since));
-        let action = action.map(|action| action.action as usize);
-        Subject { action, error: error.map(|(subgoal, _)| subgoal), since }
+        let error = first(&self.meanings.errors, frame, LayerKind::ErrorMonitoring);
+        let contradiction = self.contradiction(frame);
+        let since =
+            [action.map(|action| action.since), error.map(|error| error.1), contradiction.map(|own| own.1)]
+                .into_iter()
+                .flatten()
+                .max();
+        Subject {
+            action: action.map(|action| action.action as usize),
+            error: error.map(|(error, _)| error),
+            contradiction: contradiction.map(|(chain, _)| chain),
+            since: since.unwrap_or(0),
+        }
+    }
+
+    /// The chain that the person speaks of while another one is inferred, and since when both stand.
+    fn contradiction(&self, frame: &FieldFrame) -> Option<(usize, u64)> {
+        let (said, heard) = first(&self.meanings.words, frame, LayerKind::ActionObservation)?;
+        let (goal, inferred) = first(&self.meanings.goals, frame, LayerKind::Intention)?;
+        (goal.chain != said).then(|| (said, heard.max(inferred)))
     }
 
     /// First why (the person's goal, an error), then what.
     fn compose(&self, subject: &Subject, frame: &FieldFrame) -> Option<String> {
         let Self { task, meanings, .. } = self;
         let mut clauses = Vec::new();
-        if let Some(subgoal) = subject.error {
+        let goal = first(&meanings.goals, frame, LayerKind::Intention).map(|(goal, _)| goal);
+        clauses.extend(
+            subject.contradiction.zip(goal).map(|(said, goal)| sentence::contradicted(task, said, goal)),
+        );
+        clauses.extend(match subject.error {
+            Some(Mistake::Means(kind)) => Some(sentence::at_hand(task, kind)),
+            Some(Mistake::Loss(kind)) => Some(sentence::lost(task, kind)),
+            Some(Mistake::Goal(_)) | None => None,
+        });
+        if let Some(Mistake::Goal(subgoal)) = subject.error {
             let achieved = peaks(frame, LayerKind::SubgoalsAchieved).any(|(index, _)| index == subgoal);
             let available = peaks(frame, LayerKind::SubgoalsAvailable)
                 .map(|(index, _)| index)
                 .filter(|&index| index < task.subgoals.len())
                 .collect::<Vec<_>>();
-            clauses.push(sentence::objected(task, subgoal, achieved, &available));
+            let meant = goal.filter(|goal| goal.subgoal == subgoal);
+            clauses.push(sentence::objected(task, subgoal, meant, achieved, &available));
         }
         if let Some(action) = subject.action {
-            let goals = peaks(frame, LayerKind::Intention);
-            let mut goals = goals.filter_map(|(index, _)| meanings.goals.get(index).copied().flatten());
             let answered = |goal: &Goal| task.complement(goal.chain, goal.subgoal) == Some(action);
-            clauses.extend(goals.find(answered).map(|goal| sentence::inferred(task, goal)));
+            clauses.extend(goal.filter(answered).map(|goal| sentence::inferred(task, goal)));
             clauses.extend(sentence::announced(task, &task.actions[action]));
         }
         (!clauses.is_empty()).then(|| clauses.join(" "))
     }
+}
+
+/// What the first standing peak of a layer stands for, and since when it stands.
+fn first<T: Copy>(meanings: &[Option<T>], frame: &FieldFrame, layer: LayerKind) -> Option<(T, u64)> {
+    peaks(frame, layer).find_map(|(index, since)| Some(((*meanings.get(index)?)?, since)))
 }
 
 /// Populations of a layer that hold a peak, and since when.

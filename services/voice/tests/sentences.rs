@@ -2,9 +2,9 @@
 
 use coact_joint_task::{Act, Action, Agent, Chain, Kind, Motion, Scene, Shape, Subgoal, Task};
 use coact_messages::{FieldFrame, LayerKind, NONE};
-use coact_voice::{Goal, Meanings, Voice};
+use coact_voice::{Goal, Meanings, Mistake, Voice};
 
-const MOTIONS: [Motion; 7] = [
+const MOTIONS: [Motion; 8] = [
     Motion::Insert,
     Motion::Request,
     Motion::Receive,
@@ -12,8 +12,10 @@ const MOTIONS: [Motion; 7] = [
     Motion::Hold,
     Motion::Point,
     Motion::Speak,
+    Motion::Report,
 ];
-const LAYERS: [LayerKind; 4] = [
+const LAYERS: [LayerKind; 5] = [
+    LayerKind::ActionObservation,
     LayerKind::SubgoalsAchieved,
     LayerKind::SubgoalsAvailable,
     LayerKind::Intention,
@@ -70,7 +72,8 @@ fn task() -> Task {
 
 fn voice() -> Voice {
     let goals = [0, 1].map(|chain| Some(Goal { chain, subgoal: 0 })).into();
-    Voice::new(&task(), Meanings { goals, errors: vec![Some(0), Some(1), Some(2)] })
+    let errors = [Mistake::Goal(0), Mistake::Means(0), Mistake::Loss(0)].map(Some).into();
+    Voice::new(&task(), Meanings { words: vec![None, Some(0), Some(1)], goals, errors })
 }
 
 /// A frame at rest; every layer has three populations.
@@ -146,6 +149,42 @@ fn errors_are_explained_by_what_the_fields_hold() {
         sentences[0].1.clone()
     });
     insta::assert_snapshot!(sentences.join("\n"));
+}
+
+#[test]
+fn an_error_of_the_inferred_goal_is_told_in_the_terms_of_that_goal() {
+    let sentences = said(|frame| {
+        peak(frame, LayerKind::SubgoalsAvailable, 1, 1);
+        peak(frame, LayerKind::Intention, 1, 60);
+        peak(frame, LayerKind::ErrorMonitoring, 0, 80);
+        decide(frame, Motion::Speak, 100);
+    });
+    assert_eq!(sentences[0].1, "You cannot hand over the plate yet; first we need the hinge on the left.");
+}
+
+#[test]
+fn errors_in_means_and_losses_are_told_with_what_is_done_about_them() {
+    let sentences = [(1, Motion::Point), (2, Motion::Request), (2, Motion::Report)].map(|(error, motion)| {
+        let sentences = said(|frame| {
+            peak(frame, LayerKind::ErrorMonitoring, error, 80);
+            decide(frame, motion, 100);
+        });
+        sentences[0].1.clone()
+    });
+    insta::assert_snapshot!(sentences.join("\n"));
+}
+
+#[test]
+fn words_that_the_hand_belies_are_reported_and_words_that_it_bears_out_are_not() {
+    let heard = |word: usize| {
+        said(|frame| {
+            peak(frame, LayerKind::ActionObservation, word, 70);
+            peak(frame, LayerKind::Intention, 1, 90);
+        })
+    };
+    let text = "You speak as if to mount the plate, but your hand is about to hand over the plate.";
+    assert_eq!(heard(1), [(240, text.to_owned())]);
+    assert_eq!(heard(2), []);
 }
 
 #[test]
