@@ -14,6 +14,10 @@ const REST: (f64, f64) = (120.0, 40.0);
 const REACH: (f64, f64) = (60.0, 60.0);
 const GESTURE: (f64, f64) = (60.0, 60.0);
 const GRASP: (f64, f64) = (30.0, 60.0);
+const HIDDEN: (f64, f64) = (40.0, 40.0);
+const WORD: (f64, f64) = (60.0, 300.0);
+/// Cycles without any sight of the hand from which the person counts as idle: nothing can be told of what she does.
+const UNSEEN: u64 = 1000;
 /// Dwell at rest that makes full evidence of idling, cycles.
 const LONG: f64 = 3000.0;
 /// A resting hand is this near to its place (m) and this slow (m/s): full, and no evidence.
@@ -51,18 +55,22 @@ impl Acts {
         memory: &mut Memory,
         classifier: &Classifier,
         places: &Places,
+        heard: Option<&[f64]>,
         out: &mut Percept,
     ) {
-        let movement = Movement::now(tick, memory, classifier);
+        let hidden = memory.hiding.is_hidden();
+        let movement = Movement::now(tick, memory, classifier).filter(|_| !hidden);
         let preparing = self.grasps.preparing(movement.as_ref(), memory, classifier, places);
         let resting = self.resting(tick, memory);
-        memory.dwell = if resting > 0.5 { memory.dwell + 1 } else { 0 };
+        memory.unseen = if hidden || memory.hand.is_tracked(tick) { 0 } else { memory.unseen + 1 };
+        memory.dwell = if resting > 0.5 || memory.unseen > UNSEEN { memory.dwell + 1 } else { 0 };
         let reaches = movement.is_some_and(|movement| movement.phase.is_some());
         for (index, act) in self.acts.iter().enumerate().take(MAX_ACTS) {
             let (target, (rise, fall)) = match *act {
                 Act::Rest => (resting, REST),
                 Act::Idle => ((memory.dwell as f64 / LONG).min(1.0), REST),
-                Act::Hidden | Act::Word(_) => (0.0, REACH),
+                Act::Hidden => (f64::from(u8::from(hidden)), HIDDEN),
+                Act::Word(_) => (heard.map_or(0.0, |heard| heard[index]), WORD),
                 Act::Reach => (f64::from(u8::from(reaches)), REACH),
                 Act::Gesture(gesture) => {
                     (self.gestures.evidence(gesture, tick, movement.as_ref(), memory, out), GESTURE)

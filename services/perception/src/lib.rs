@@ -10,6 +10,7 @@
 //!   person from the reaches so far, without labels ([`PreshapeModel`]).
 //! - *targets*: where the hand's way leads. *grips*: how its pitch tells one grip from another.
 //! - *objects*: every part that was sighted, who has it, which places are empty.
+//! - *hiding*: a reach that has gone out of sight. *loss*: a part that the robot has lost. *words*: what the person says.
 //! - *acts*: all of that put together, for each of the task's observable acts.
 //!
 //! All that lasts from cycle to cycle stands in the percept itself, so that a restarted perception resumes from it.
@@ -20,12 +21,15 @@ mod gestures;
 mod grasps;
 mod grips;
 mod hand;
+mod hiding;
+mod loss;
 mod memory;
 mod movement;
 mod objects;
 mod perception;
 mod preshape;
 mod targets;
+mod words;
 
 pub use perception::{Perception, SingularModel};
 pub use preshape::{

@@ -1,4 +1,6 @@
 use crate::hand::HandMemory;
+use crate::hiding::Hiding;
+use crate::loss::Loss;
 use crate::objects::ObjectsMemory;
 use crate::preshape::PreshapeMemory;
 use bytemuck::{Pod, Zeroable};
@@ -15,8 +17,14 @@ pub(crate) struct Memory {
     pub preshape: PreshapeMemory,
     /// Every part that has been sighted.
     pub objects: ObjectsMemory,
-    /// Cycles that the hand has lain at rest.
+    /// A hand that has gone out of sight.
+    pub hiding: Hiding,
+    /// A part that has gone out of the robot's hand.
+    pub loss: Loss,
+    /// Cycles that the hand has lain at rest, or that nothing has been seen of it for long.
     pub dwell: u64,
+    /// Cycles that nothing has been seen of the hand.
+    pub unseen: u64,
     /// Pitch of the hand when it took what it holds, rad; of the empty hand, its pitch now.
     grip_pitch: f64,
     /// 1 if that pitch could be seen.

@@ -3,6 +3,7 @@ use crate::hand::HandMemory;
 use crate::memory::Memory;
 use crate::objects::{PersonHand, Places, Surroundings};
 use crate::preshape::{Classifier, PreshapeModel, ReachRecord};
+use crate::words::Words;
 use coact_joint_task::Task;
 use coact_messages::{HandPercept, JointReading, Percept, SensorSample};
 use coact_robot::Robot;
@@ -12,6 +13,7 @@ use coact_robot::Robot;
 pub struct Perception {
     places: Places,
     acts: Acts,
+    words: Words,
     classifier: Classifier,
     robot: Option<Robot>,
     /// Everything that lasts from cycle to cycle: the next percept without header and memory, and its memory.
@@ -35,6 +37,7 @@ impl Perception {
         Ok(Self {
             places: Places::new(task),
             acts: Acts::new(task),
+            words: Words::new(task),
             classifier: Classifier::new(model, &task.kinds).ok_or(SingularModel)?,
             robot: None,
             state,
@@ -64,7 +67,9 @@ impl Perception {
             self.places.report(tick, &self.memory.objects, &sample.scene, &mut self.state);
         }
         self.classifier.learn(&mut self.memory.preshape);
-        self.acts.report(tick, &mut self.memory, &self.classifier, &self.places, &mut self.state);
+        let heard = self.words.heard(tick);
+        self.acts.report(tick, &mut self.memory, &self.classifier, &self.places, heard, &mut self.state);
+        self.memory.loss.report(tick, self.places.kinds(), &mut self.state);
         self.report_hand(tick);
         let header = out.header;
         *out = *self.state;
@@ -79,7 +84,7 @@ impl Perception {
 
     fn sense(&mut self, tick: u64, sample: &SensorSample) {
         let memory = &mut *self.memory;
-        if let Some(onset) = memory.hand.observe(tick, &sample.hand) {
+        if let Some(onset) = memory.hand.observe(tick, &sample.hand, sample.scene.occluders > 0) {
             let from_rest = onset && self.acts.is_from_rest(memory.hand.motion.departure);
             self.classifier.observe(&memory.hand, from_rest, &mut memory.preshape);
             if self.state.person_holds.iter().all(|held| *held < 0.5) {
@@ -90,7 +95,11 @@ impl Perception {
         if memory.objects.is_news(tick, &sample.scene) {
             let around = surroundings(tick, &memory.hand, self.robot.as_ref(), &sample.joints);
             memory.objects.observe(&sample.scene, &around, &self.places);
+            memory.loss.look(&memory.objects, &around, &self.places);
         }
+        memory.loss.feel(tick, &sample.joints, &memory.objects);
+        memory.hiding.watch(tick, sample, &memory.hand, &memory.preshape.reach, &self.places);
+        self.words.listen(&sample.heard);
     }
 
     fn report_hand(&mut self, tick: u64) {

@@ -15,6 +15,7 @@ mod robot_hand;
 mod sensors;
 mod settings;
 mod slot;
+mod staging;
 mod world;
 
 pub use error::WorldError;

@@ -2,7 +2,7 @@ use crate::person::PersonMemory;
 use crate::robot_hand::RobotHandMemory;
 use crate::sensors::TrackerMemory;
 use bytemuck::{Pod, Zeroable};
-use coact_messages::{MAX_PARTS, SceneView, WorldState};
+use coact_messages::{Heard, MAX_PARTS, SceneView, WorldState};
 
 /// Everything that a world remembers beside joints and parts: the opaque words of [`WorldState`].
 ///
@@ -24,6 +24,21 @@ pub(crate) struct Memory {
     pub robot: RobotHandMemory,
     pub tracker: TrackerMemory,
     pub scene: SceneFrame,
+    /// Bit i set: the scene's i-th slip has happened.
+    pub slipped: u64,
+    /// What the person said last.
+    pub heard: HeardSentence,
+}
+
+/// The newest sentence.
+#[repr(transparent)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct HeardSentence(pub Heard);
+
+impl PartialEq for HeardSentence {
+    fn eq(&self, other: &Self) -> bool {
+        bytemuck::bytes_of(self) == bytemuck::bytes_of(other)
+    }
 }
 
 /// The recogniser's newest frame.

@@ -22,17 +22,19 @@ pub(crate) enum Holder {
 pub(crate) struct Parts {
     state: [PartState; MAX_PARTS],
     count: usize,
+    /// Subgoals that are achieved whenever the scene is laid out, and the part of each.
+    start: Vec<(usize, usize)>,
 }
 
 impl Parts {
-    /// Parts where the task file lays them out.
-    pub fn new(task: &Task) -> Self {
-        let mut parts = Self { state: [PartState::default(); MAX_PARTS], count: task.parts.len() };
+    /// Parts where the task lays them out; those of `start` (subgoals and their parts) in their sockets.
+    pub fn new(task: &Task, start: Vec<(usize, usize)>) -> Self {
+        let mut parts = Self { state: [PartState::default(); MAX_PARTS], count: task.parts.len(), start };
         parts.lay_out(task);
         parts
     }
 
-    /// Puts every part back to where the task file lays it out.
+    /// Puts every part back to where it was at the start.
     pub fn lay_out(&mut self, task: &Task) {
         for (state, part) in self.state.iter_mut().zip(&task.parts) {
             *state = PartState {
@@ -44,6 +46,10 @@ impl Parts {
                 subgoal: NONE,
                 reserved: 0,
             };
+        }
+        for index in 0..self.start.len() {
+            let (subgoal, part) = self.start[index];
+            self.mount(part, subgoal, task);
         }
     }
 
@@ -172,7 +178,7 @@ impl Parts {
     }
 
     /// Leaves the part where it is, free: a body without dynamics lets it rest upright on what is below.
-    fn drop(&mut self, part: usize, task: &Task) {
+    pub fn drop(&mut self, part: usize, task: &Task) {
         self.state[part].state = Holder::Nobody as u32;
         self.state[part].subgoal = NONE;
         let at = self.position(part);

@@ -16,6 +16,8 @@ const RELEASED: f64 = 0.008;
 const LOOKS_OPEN: f64 = 0.06;
 /// Distance of the grasp point from a place within which the hand is seen as being there, m.
 const AT_PLACE: f64 = 0.12;
+/// Distance of the grasp point from where it took a part within which the part is not carried yet, m.
+const LIFTED: f64 = 0.03;
 /// Grip force when the fingers just touch, N, and its growth with the finger angle that the servo is held back, N/rad.
 const GRIP_FORCE: (f64, f64) = (2.0, 40.0);
 
@@ -46,6 +48,10 @@ pub(crate) struct RobotHandMemory {
     pub holding_since: u64,
     /// 1 once the held part has been away from the place where parts change hands: not received there just now.
     brought: u64,
+    /// Where the palm was when it took the held part.
+    taken_at: [f64; 3],
+    /// Ticks for which it has been carried, away from there.
+    pub carried: u64,
 }
 
 /// Finger angles at which a kind of part is touched, gripped and let go, rad.
@@ -131,6 +137,22 @@ impl RobotHand {
         }
         memory.closing = palm.closing;
         carry(palm, memory, parts);
+        let lifted = palm.grasp_point.distance(memory.taken_at.into()) > LIFTED;
+        match memory.held.get() {
+            Some(part) if parts.is(part, Holder::Robot) => memory.carried += u64::from(lifted),
+            _ => memory.carried = 0,
+        }
+    }
+
+    /// The held part slips out of the closed fingers: it falls, and rolls to `to` on the table top if that is given.
+    pub fn lose(&self, memory: &mut RobotHandMemory, parts: &mut Parts, to: Option<[f64; 2]>, task: &Task) {
+        let Some(part) = memory.held.get() else { return };
+        memory.held = Slot::EMPTY;
+        memory.carried = 0;
+        if let Some([x, y]) = to {
+            parts.place(part, DVec3::new(x, y, task.scene.table_height), DQuat::IDENTITY);
+        }
+        parts.drop(part, task);
     }
 
     fn grasp(&self, palm: &Palm, memory: &mut RobotHandMemory, parts: &mut Parts, task: &Task) {
@@ -147,6 +169,7 @@ impl RobotHand {
             .min_by(|one, other| distance(one).total_cmp(&distance(other)));
         let Some(part) = nearest else { return };
         memory.held = Slot::of(part);
+        memory.taken_at = palm.grasp_point.into();
         if parts.is(part, Holder::Nobody) {
             parts.give_to(part, Holder::Robot);
         }

@@ -6,10 +6,13 @@ use crate::person::{HandModel, Person, Plan, Surroundings};
 use crate::robot_hand::{Palm, RobotHand};
 use crate::sensors::{Capture, read_joints, recognise, track};
 use crate::slot::Slot;
+use crate::staging::{Sense, Staging};
 use crate::{BodyKind, Partner, Settings, WorldError};
 use bytemuck::Zeroable;
 use coact_joint_task::Task;
-use coact_messages::{ARM_JOINTS, Command, JOINTS, NONE, PartnerPhase, SensorSample, Truth, WorldState};
+use coact_messages::{
+    ARM_JOINTS, Command, JOINTS, NONE, PartnerPhase, SensorSample, Truth, WorldState, is_blocked,
+};
 use coact_robot::Robot;
 use glam::DVec3;
 
@@ -32,6 +35,7 @@ pub struct World {
     joints: Joints,
     parts: Parts,
     memory: Memory,
+    staging: Staging,
 }
 
 impl World {
@@ -42,27 +46,33 @@ impl World {
     /// [`WorldError::Scene`] when the scene cannot be simulated as it is laid out.
     pub fn new(task: &Task, robot: &Robot, settings: Settings) -> Result<Self, WorldError> {
         let noise = Noise::new(settings.seed);
-        let (plan, recorded) = match settings.partner {
-            Partner::Synthetic => (Plan::Synthetic, None),
-            Partner::Script(script) => (Plan::Script(script), None),
-            Partner::Recorded(recorded) => (Plan::Synthetic, Some(recorded)),
+        let (plan, recorded, staging) = match settings.partner {
+            Partner::Synthetic => (Plan::Synthetic, None, Staging::default()),
+            Partner::Script(mut script) => {
+                let staging = std::mem::take(&mut script.staging);
+                (Plan::Script(script), None, staging)
+            }
+            Partner::Recorded(recorded) => (Plan::Synthetic, Some(recorded), Staging::default()),
         };
-        let parts = Parts::new(task);
+        let mut task = task.clone();
+        staging.lay(&mut task);
+        let parts = Parts::new(&task, staging.mounted(&task));
         let joints = parked(robot);
         let body = match settings.body {
             BodyKind::Kinematic => Body::Kinematic(Kinematic::new()),
-            BodyKind::Physics => Body::Physics(Box::new(Physics::new(task, robot, &joints, &parts)?)),
+            BodyKind::Physics => Body::Physics(Box::new(Physics::new(&task, robot, &joints, &parts)?)),
         };
         Ok(Self {
             noise,
-            hand: RobotHand::new(robot, task),
+            hand: RobotHand::new(robot, &task),
             person: Person { model: HandModel::new(&task.scene), plan, noise, recorded },
             body,
             coupling: robot.hand.coupling,
             joints,
             parts,
             memory: Memory::zeroed(),
-            task: task.clone(),
+            staging,
+            task,
         })
     }
 
@@ -95,6 +105,17 @@ impl World {
         self.remember(state);
     }
 
+    /// The person has said something: the next sample tells it.
+    pub fn hear(&mut self, sentence: &str) {
+        let next = self.last_tick().map_or(0, |last| last + 1);
+        self.memory.heard.0.hear(next, sentence);
+    }
+
+    /// Actions of the script that were given up because there was no part to carry them out with.
+    pub fn skipped(&self) -> u64 {
+        self.memory.person.skipped
+    }
+
     fn last_tick(&self) -> Option<u64> {
         (self.memory.started == 1).then_some(self.memory.tick)
     }
@@ -113,14 +134,23 @@ impl World {
 
     /// Hands and parts: who grasps, carries and lets go of what.
     fn live(&mut self, tick: u64, palm: &Palm) {
-        let Self { task, hand, person, parts, memory, .. } = self;
+        let Self { task, hand, person, parts, memory, staging, .. } = self;
         if memory.started == 0 {
             person.start(tick, &mut memory.person);
         }
         hand.advance(palm, &mut memory.robot, memory.person.grip, parts, task);
+        let held = memory.robot.held.get().map(|part| parts.kind(part));
+        let slip = held.and_then(|kind| staging.slip(kind, memory.robot.carried, memory.slipped));
+        if let Some((index, slip)) = slip {
+            memory.slipped |= 1 << index;
+            hand.lose(&mut memory.robot, parts, slip.to, task);
+        }
         hand.notice(tick, palm, &mut memory.robot);
         let mut around = Surroundings { tick, task, parts, robot: &memory.robot };
         person.advance(&mut memory.person, &mut around);
+        if let Some(sentence) = person.speak(&mut memory.person) {
+            memory.heard.0.hear(tick, sentence);
+        }
         self.tidy();
         self.begin_again(tick, palm);
     }
@@ -160,18 +190,25 @@ impl World {
 
     fn sense(&mut self, tick: u64, command: Option<&Command>, out: &mut SensorSample) {
         let last = self.last_tick();
-        let Self { noise, hand, person, joints, parts, memory, .. } = self;
+        let Self { task, noise, hand, person, joints, parts, memory, staging, .. } = self;
         let wanted = command.map_or(0.0, |command| crate::robot_hand::closing(&command.position));
         let touch = hand.touch(&memory.robot, parts, wanted);
         read_joints(tick, noise, (&joints.position, &joints.velocity), touch, &mut out.joints);
+        let (eye, (blocks, count)) = (task.scene.eye(), staging.occluders(tick));
+        let occluders = &blocks[..count];
         let Memory { person: moved, tracker, .. } = memory;
-        track(tick, last, noise, tracker, || match person.recorded_keypoints(moved, tick) {
+        let capture = || match person.recorded_keypoints(moved, tick) {
+            _ if staging.is_blind(Sense::Hand, tick) => Capture::Nothing,
             Some(keypoints) => Capture::Recorded(keypoints),
             None => Capture::Simulated(person.model.keypoints(&moved.hand)),
-        });
+        };
+        track(tick, last, noise, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
         out.hand = memory.tracker.delivered;
-        recognise(tick, last, noise, parts, &mut memory.scene.0);
+        if !staging.is_blind(Sense::Objects, tick) {
+            recognise(tick, last, noise, parts, (eye, occluders), &mut memory.scene.0);
+        }
         out.scene = memory.scene.0;
+        out.heard = memory.heard.0;
     }
 
     fn tell(&self, truth: &mut Truth) {

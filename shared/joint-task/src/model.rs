@@ -202,3 +202,13 @@ pub struct Scene {
     /// Rectangle of each workspace on the table top, by [`Agent::index`]: min and max corner.
     pub workspace: [[[f64; 2]; 2]; 2],
 }
+
+/// Where the robot's eye is: behind the world's origin, where the robot stands, and so high above the table top, m.
+const EYE: (f64, f64) = (0.10, 1.05);
+
+impl Scene {
+    /// Place of the camera that follows hand and parts: above and behind the robot's head, over the middle of the table.
+    pub fn eye(&self) -> [f64; 3] {
+        [EYE.0, self.table_centre[1], self.table_height + EYE.1]
+    }
+}

@@ -85,7 +85,7 @@ pub struct SceneView {
     pub occluders: u32,
     /// Recognised parts. A part that is occluded, or missed by the recogniser, is absent.
     pub sighting: [Sighting; MAX_PARTS],
-    /// Opaque boxes that hide what lies behind or below them: centre and half extents, m.
+    /// Opaque boxes that hide what lies behind them, as the robot's eye sees it: centre and half extents, m.
     pub occluder: [[f64; 6]; 4],
 }
 

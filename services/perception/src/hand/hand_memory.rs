@@ -55,7 +55,15 @@ pub(crate) struct HandMemory {
 
 impl HandMemory {
     /// Takes in the tracker's newest frame. `None` if it is not a new and usable one; true if a movement has begun.
-    pub fn observe(&mut self, tick: u64, view: &HandView) -> Option<bool> {
+    ///
+    /// While something may `hide` the hand, a frame without wrist or finger tips is none: what is left of it tells nothing
+    /// of the hand.
+    pub fn observe(&mut self, tick: u64, view: &HandView, hide: bool) -> Option<bool> {
+        let lost = |name: &KeypointName| !(view.keypoints[*name as usize].confidence > 0.0);
+        let [wrist, thumb, index] = [KeypointName::Wrist, KeypointName::ThumbTip, KeypointName::IndexTip];
+        if hide && [wrist, thumb, index].iter().any(lost) {
+            return None;
+        }
         let known = self.seen == view.frame.wrapping_add(1);
         let late = self.seen > 0 && view.captured_cycle <= self.captured;
         if known || late || view.captured_cycle > tick || !self.merge(view) {

@@ -85,7 +85,7 @@ impl PartTrack {
     }
 
     /// Distance of `point` from the part's axis, between its underside and its top, m.
-    fn distance_to_axis(&self, body: Body, point: Vector3<f64>) -> f64 {
+    pub fn distance_to_axis(&self, body: Body, point: Vector3<f64>) -> f64 {
         let foot = Vector3::from(self.position);
         let axis = self.above_underside(body.height) - foot;
         let along = ((point - foot).dot(&axis) / axis.norm_squared().max(1e-12)).clamp(0.0, 1.0);

@@ -1,5 +1,4 @@
 use super::part_track::{FREE, PartTrack};
-use super::places::is_hidden;
 use super::{Places, Surroundings};
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{MAX_PARTS, SceneView, Sighting};
@@ -29,6 +28,18 @@ impl ObjectsMemory {
         self.tracks.iter().filter_map(|track| Some((track.kind()?, track)))
     }
 
+    /// The part in the robot's hand: index of its track and kind.
+    pub fn with_the_robot(&self) -> Option<(usize, usize)> {
+        let found =
+            self.tracks.iter().position(|track| track.kind().is_some() && track.is_with_the_robot())?;
+        Some((found, self.tracks[found].kind()?))
+    }
+
+    /// One track, if it is in use.
+    pub fn track(&self, index: usize) -> Option<&PartTrack> {
+        self.tracks.get(index).filter(|track| track.kind().is_some())
+    }
+
     /// Whether the newest frame is young enough to tell what lies where.
     pub fn is_seeing(&self, tick: u64) -> bool {
         self.seen > 0 && tick.saturating_sub(self.captured) < 2 * u64::from(ABSENT)
@@ -46,7 +57,7 @@ impl ObjectsMemory {
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;
         self.associate(view, cycles, places);
-        self.miss(view, cycles);
+        self.miss(view, cycles, places);
         self.find_holders(around, places);
     }
 
@@ -72,7 +83,7 @@ impl ObjectsMemory {
     fn associate(&mut self, view: &SceneView, cycles: u64, places: &Places) {
         let count = (view.sightings as usize).min(MAX_PARTS);
         for sighting in view.sighting[..count].iter().filter(|sighting| is_plausible(sighting, places)) {
-            match self.nearest(sighting) {
+            match self.nearest(sighting).or_else(|| self.turned_up(sighting, view, places)) {
                 Some(index) => self.tracks[index].follow(sighting, self.captured, cycles),
                 None => {
                     if let Some(unused) = self.tracks.iter_mut().find(|track| track.kind().is_none()) {
@@ -94,10 +105,22 @@ impl ObjectsMemory {
         all.min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b))).map(|(index, _)| index)
     }
 
+    /// The track of a part of the sighting's kind that has been out of sight: one that turns up where none was is rather
+    /// that one than another.
+    fn turned_up(&self, sighting: &Sighting, view: &SceneView, places: &Places) -> Option<usize> {
+        let unseen = |track: &PartTrack| self.captured.saturating_sub(track.seen) > u64::from(ABSENT);
+        self.tracks.iter().position(|track| {
+            track.kind() == Some(sighting.kind as usize)
+                && unseen(track)
+                && places.is_hidden(track.position, view)
+        })
+    }
+
     /// Gives up parts whose place has been in view and empty for long enough.
-    fn miss(&mut self, view: &SceneView, cycles: u64) {
+    fn miss(&mut self, view: &SceneView, cycles: u64, places: &Places) {
         for track in &mut self.tracks {
-            if track.kind().is_none() || track.seen == self.captured || is_hidden(track.position, view) {
+            if track.kind().is_none() || track.seen == self.captured || places.is_hidden(track.position, view)
+            {
                 continue;
             }
             track.absent = track.absent.saturating_add(cycles as u32);

@@ -29,15 +29,15 @@ pub(crate) struct Places {
     bodies: Vec<Body>,
 }
 
-/// Whether `place` lies under or inside something opaque, seen from above.
-pub(crate) fn is_hidden(place: [f64; 3], view: &SceneView) -> bool {
-    let count = (view.occluders as usize).min(view.occluder.len());
-    view.occluder[..count].iter().any(|[x, y, z, half_x, half_y, half_z]| {
-        (place[0] - x).abs() <= *half_x && (place[1] - y).abs() <= *half_y && place[2] <= z + half_z
-    })
-}
+/// What would be seen this near to the edge of an occluder may be hidden: the scatter of sightings, m.
+const EDGE: f64 = 0.02;
 
 impl Places {
+    /// Whether the robot's eye may not see what is at `place`.
+    pub fn is_hidden(&self, place: [f64; 3], view: &SceneView) -> bool {
+        view.hides(self.scene.eye(), place, EDGE)
+    }
+
     pub fn new(task: &Task) -> Self {
         let body = |kind: &coact_joint_task::Kind| {
             let height = match kind.shape {
@@ -64,6 +64,11 @@ impl Places {
     /// Whether a part of `kind` at `position` lies neither on the table nor in a socket.
     pub fn is_airborne(&self, kind: usize, position: [f64; 3]) -> bool {
         position[2] > self.scene.table_height + ON_TABLE && self.socket_at(kind, position).is_none()
+    }
+
+    /// Whether a part of `kind` at `position` is in a socket.
+    pub fn is_mounted(&self, kind: usize, position: [f64; 3]) -> bool {
+        self.socket_at(kind, position).is_some()
     }
 
     /// The subgoal of `kind` in whose socket `position` lies.
@@ -122,7 +127,7 @@ impl Places {
             place.position[kind] = part.position;
             place.orientation[kind] = part.orientation.map(f64::from);
         }
-        let gone = nearest.is_none() && !is_hidden(self.last_place(side, place.position[kind]), view);
+        let gone = nearest.is_none() && !self.is_hidden(self.last_place(side, place.position[kind]), view);
         approach(&mut place.seen[kind], seen, RAMP);
         approach(&mut place.gone[kind], gone, RAMP);
     }
@@ -151,7 +156,7 @@ impl Places {
         let own = objects.parts().filter(|(own, _)| *own == kind);
         let mounted = |part: &PartTrack| away(part) < IN_PLACE && !part.is_held() && part.still >= SETTLED;
         let achieved = own.clone().any(|(_, part)| mounted(part));
-        let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !is_hidden(socket, view);
+        let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !self.is_hidden(socket, view);
         approach(&mut out.achieved[goal], achieved, RAMP);
         approach(&mut out.open[goal], empty, RAMP);
     }

@@ -51,6 +51,7 @@ impl Person {
 
     /// One tick: moves the hand, and what it holds, and goes on to the next stage when the present one is over.
     pub fn advance(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        self.reconsider(memory, around);
         let over = around.tick >= memory.until;
         match memory.stage() {
             Stage::Rest if over => self.decide(memory, around),
@@ -74,6 +75,43 @@ impl Person {
         }
     }
 
+    /// The sentence that the script has the person say now.
+    pub fn speak(&self, memory: &mut PersonMemory) -> Option<&str> {
+        let entry = std::mem::take(&mut memory.says).get()?;
+        match &self.plan {
+            Plan::Script(script) => script.sentence(entry),
+            Plan::Synthetic => None,
+        }
+    }
+
+    /// Gives the present action up when it is time to: the gesture ends, the part goes back to where it lay.
+    fn reconsider(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        let given_up = memory.manner.gives_up;
+        if given_up == 0 || around.tick < memory.grasped + given_up {
+            return;
+        }
+        match memory.stage() {
+            Stage::Show => self.withdraw(memory, around),
+            Stage::AwaitRelease => {
+                memory.grip = Slot::EMPTY;
+                self.withdraw(memory, around);
+            }
+            Stage::Dwell | Stage::Carry | Stage::AwaitHold | Stage::Mount | Stage::Offer
+                if around.robot.held != memory.grip =>
+            {
+                self.take_back(memory, around);
+            }
+            _ => return,
+        }
+        memory.manner.gives_up = 0;
+    }
+
+    /// Carries the held part back to where it lay.
+    fn take_back(&self, memory: &mut PersonMemory, around: &Surroundings) {
+        self.carry_to(memory, around, memory.home.into(), glam::DVec3::Z);
+        memory.enter(Stage::Return, memory.movement.end);
+    }
+
     fn decide(&self, memory: &mut PersonMemory, around: &Surroundings) {
         let mut rng = self.noise.at(Stream::Choice, around.tick);
         match self.plan.next(&around.view(), memory, &mut rng) {
@@ -88,6 +126,7 @@ impl Person {
         memory.subgoal = intention.subgoal.map_or(Slot::EMPTY, Slot::of);
         memory.part = intention.part.map_or(Slot::EMPTY, Slot::of);
         memory.set_errand(intention.errand);
+        memory.manner = intention.manner;
         memory.recording = self.choose_recording(intention, around);
         memory.movement = self.reach_movement(memory, around);
         memory.enter(Stage::Prepare, memory.movement.onset);
@@ -200,8 +239,7 @@ impl Person {
         if self.felt(gripped, memory, around.tick) {
             self.put_down(memory, around);
         } else if !gripped && around.tick >= memory.until {
-            self.carry_to(memory, around, memory.home.into(), glam::DVec3::Z);
-            memory.enter(Stage::Return, memory.movement.end);
+            self.take_back(memory, around);
         }
     }
 

@@ -1,4 +1,4 @@
-use super::Errand;
+use super::{Errand, Manner};
 use crate::parts::Parts;
 use crate::robot_hand::RobotHandMemory;
 use coact_joint_task::{Act, Agent, Task};
@@ -14,16 +14,17 @@ pub(crate) struct View<'a> {
 }
 
 /// What the person means to do next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Intention {
     pub errand: Errand,
     pub chain: usize,
     pub subgoal: Option<usize>,
     pub part: Option<usize>,
+    pub manner: Manner,
 }
 
 /// The outcome of thinking about it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Choice {
     Begin(Intention),
     /// Rest for so many ticks, then think again.
@@ -67,7 +68,8 @@ impl View<'_> {
         let chain = self.task.chains.iter().position(|chain| {
             matches!(chain.act, Act::Grasp { .. }) && chain.kind == kind && chain.side == Agent::Person
         })?;
-        Some(Intention { errand: Errand::Take, chain, subgoal: Some(subgoal), part: Some(part) })
+        let manner = Manner::default();
+        Some(Intention { errand: Errand::Take, chain, subgoal: Some(subgoal), part: Some(part), manner })
     }
 
     /// The part of `kind` that the person would reach for.

@@ -1,4 +1,4 @@
-use super::{HandPose, Movement};
+use super::{HandPose, Manner, Movement};
 use crate::slot::Slot;
 use bytemuck::{Pod, Zeroable};
 use coact_messages::PartnerPhase;
@@ -40,6 +40,14 @@ pub(crate) struct PersonMemory {
     pub offset: [f64; 3],
     /// Where the part lay before, m.
     pub home: [f64; 3],
+    /// How the present action is carried out.
+    pub manner: Manner,
+    /// Action of the script whose sentence is to be said now.
+    pub says: Slot,
+    /// Tick since which the script's next action has been waiting for a part; 0: not.
+    pub waiting: u64,
+    /// Actions of the script that were given up because no part came.
+    pub skipped: u64,
 }
 
 /// What an action is for.

@@ -4,6 +4,7 @@ mod actor;
 mod hand_model;
 mod hand_pose;
 mod intention;
+mod manner;
 mod memory;
 mod movement;
 mod movements;
@@ -13,6 +14,8 @@ mod profile;
 mod recorded;
 mod script;
 mod script_file;
+mod script_source;
+mod staging_file;
 mod synthetic;
 
 pub(crate) use actor::{Person, Surroundings};
@@ -20,6 +23,7 @@ pub(crate) use hand_model::{FOREARM, HandModel};
 pub(crate) use hand_pose::HandPose;
 
 pub(crate) use intention::{Choice, Intention, View};
+pub(crate) use manner::Manner;
 pub(crate) use memory::{Errand, PersonMemory, Stage};
 pub(crate) use movement::Movement;
 pub(crate) use plan::Plan;

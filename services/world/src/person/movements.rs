@@ -138,10 +138,17 @@ impl Person {
 fn pitch(memory: &PersonMemory, task: &Task) -> f64 {
     let act = memory.chain.get().map(|chain| task.chains[chain].act);
     match (act, memory.errand()) {
-        (Some(Act::Grasp { grip, .. }), _) => task.grips[grip].pitch,
+        (Some(Act::Grasp { grip, .. }), _) => blurred(grip, memory.manner.blur, task),
         (Some(Act::Gesture(gesture)), Errand::Request) => task.gestures[gesture].pitch,
         _ => 0.0,
     }
+}
+
+/// The pitch of a grip that is shown unclearly: nearer to the middle between all grips, rad.
+fn blurred(grip: usize, blur: f64, task: &Task) -> f64 {
+    let own = task.grips[grip].pitch;
+    let middle = task.grips.iter().map(|grip| grip.pitch).sum::<f64>() / task.grips.len() as f64;
+    own + blur * (middle - own)
 }
 
 /// The orientation nearest to `from` whose z axis points along `axis`.

@@ -1,4 +1,7 @@
+use super::Manner;
 use super::script::{Deed, Entry, Script, Start};
+use super::script_source::Source;
+use super::staging_file::{BlindLine, OccluderLine, SlipLine, StartTable};
 use crate::WorldError;
 use coact_joint_task::Task;
 use serde::Deserialize;
@@ -9,6 +12,15 @@ use toml::Spanned;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    #[serde(default)]
+    start: StartTable,
+    #[serde(default)]
+    occluder: Vec<Spanned<OccluderLine>>,
+    #[serde(default)]
+    blind: Vec<BlindLine>,
+    #[serde(default)]
+    slip: Vec<Spanned<SlipLine>>,
+    #[serde(default)]
     action: Vec<Spanned<Line>>,
 }
 
@@ -18,21 +30,29 @@ struct File {
 struct Line {
     at: Option<Spanned<f64>>,
     after: Option<Spanned<f64>>,
+    #[serde(default)]
+    once: Vec<Spanned<String>>,
     idle: Option<Spanned<f64>>,
     chain: Option<Spanned<String>>,
     kind: Option<Spanned<String>>,
+    say: Option<Spanned<String>>,
+    gives_up: Option<Spanned<f64>>,
+    clarity: Option<Spanned<f64>>,
 }
 
-/// The text of a scenario and what its errors need.
-struct Source<'a> {
-    path: &'a Path,
-    text: &'a str,
-    task: &'a Task,
-}
+/// Longest sentence that a sensor sample can hold, bytes.
+const LONGEST_SENTENCE: usize = 256;
 
 impl Script {
-    /// Reads a scenario: `[[action]]`s, each with `idle` (s) or `chain` and `kind` (names of the task), and when it
-    /// is due: `at` (s from the start of the run) or `after` (s after the end of the action before; 0 if not given).
+    /// Reads a scenario.
+    ///
+    /// `[[action]]`: what the person does, one after the other: `idle` (s), or `chain` and `kind` (names of the task), or
+    /// `say` (a sentence) alone or beside them. When it is due: `at` (s from the start of the run) or `after` (s after the
+    /// end of the action before; 0 if not given), and not before all subgoals of `once` are achieved. How it is done:
+    /// `gives_up` (s after grasp completion), `clarity` (0 to 1: how plainly the hand shows the grip). An action whose part
+    /// does not come within reach for 20 s is left out, see [`World::skipped`](crate::World::skipped).
+    ///
+    /// `[start]`, `[[start.part]]`, `[[occluder]]`, `[[blind]]` and `[[slip]]` arrange the scene.
     ///
     /// # Errors
     /// [`WorldError`] with file, line, key and what was expected.
@@ -48,14 +68,15 @@ impl Script {
             )
         })?;
         let entries = file.action.iter().map(|line| source.entry(line)).collect::<Result<_, _>>()?;
-        Ok(Self { entries })
+        let staging = source.staging(&file.start, &file.occluder, &file.blind, &file.slip)?;
+        Ok(Self { entries, staging })
     }
 }
 
 impl Source<'_> {
     fn entry(&self, line: &Spanned<Line>) -> Result<Entry, WorldError> {
         let here = line.span().start;
-        let Line { at, after, idle, chain, kind } = line.as_ref();
+        let Line { at, after, once, say, .. } = line.as_ref();
         let start = match (at, after) {
             (Some(at), None) => Start::At(self.ticks("at", at)?),
             (None, Some(after)) => Start::After(self.ticks("after", after)?),
@@ -65,55 +86,73 @@ impl Source<'_> {
                     .fault(at.span().start, "keys \"at\" and \"after\": expected only one of them".into()));
             }
         };
-        let deed = match (idle, chain, kind) {
-            (Some(idle), None, None) => Deed::Idle(self.ticks("idle", idle)?),
-            (None, Some(chain), Some(kind)) => Deed::Chain(self.chain(chain, kind)?),
+        let awaited: Vec<usize> =
+            once.iter().map(|name| self.subgoal("once", name)).collect::<Result<_, _>>()?;
+        Ok(Entry {
+            start,
+            once: awaited.iter().fold(0, |mask, goal| mask | (1 << goal)),
+            deed: self.deed(here, line.as_ref())?,
+            say: say.as_ref().map(|say| self.sentence(say)).transpose()?,
+        })
+    }
+
+    fn deed(&self, here: usize, line: &Line) -> Result<Deed, WorldError> {
+        let manner = self.manner(line)?;
+        match (&line.idle, &line.chain, &line.kind) {
+            (None, Some(chain), Some(kind)) => return Ok(Deed::Chain(self.chain(chain, kind)?, manner)),
             (None, Some(chain), None) => {
                 return Err(self.fault(chain.span().start, "key \"kind\" is missing beside \"chain\"".into()));
             }
-            _ => {
-                return Err(self.fault(here, "expected either \"idle\", or \"chain\" with \"kind\"".into()));
+            _ => {}
+        }
+        for (key, given) in [("gives_up", &line.gives_up), ("clarity", &line.clarity)] {
+            if let Some(given) = given {
+                let message = format!("key \"{key}\": expected beside \"chain\" and \"kind\" only");
+                return Err(self.fault(given.span().start, message));
             }
-        };
-        Ok(Entry { start, deed })
+        }
+        match (&line.idle, &line.chain, &line.kind, &line.say) {
+            (Some(idle), None, None, _) => Ok(Deed::Idle(self.ticks("idle", idle)?)),
+            (None, None, None, Some(_)) => Ok(Deed::Idle(0)),
+            _ => Err(self
+                .fault(here, "expected either \"idle\", or \"chain\" with \"kind\", or only \"say\"".into())),
+        }
     }
 
-    fn ticks(&self, key: &str, seconds: &Spanned<f64>) -> Result<u64, WorldError> {
-        let value = *seconds.as_ref();
-        if !(0.0..=86_400.0).contains(&value) {
-            let message = format!("key \"{key}\": {value} is out of range; expected seconds from 0 to 86400");
-            return Err(self.fault(seconds.span().start, message));
+    fn manner(&self, line: &Line) -> Result<Manner, WorldError> {
+        let gives_up = line.gives_up.as_ref().map(|given| self.ticks("gives_up", given)).transpose()?;
+        let clarity = match &line.clarity {
+            None => 1.0,
+            Some(given) if (0.0..=1.0).contains(given.as_ref()) => *given.as_ref(),
+            Some(given) => {
+                let message = format!("key \"clarity\": {} is out of range; expected 0 to 1", given.as_ref());
+                return Err(self.fault(given.span().start, message));
+            }
+        };
+        Ok(Manner { gives_up: gives_up.map_or(0, |ticks| ticks.max(1)), blur: 1.0 - clarity })
+    }
+
+    fn sentence(&self, say: &Spanned<String>) -> Result<String, WorldError> {
+        let sentence = say.as_ref().trim();
+        if sentence.is_empty() || sentence.len() > LONGEST_SENTENCE {
+            let message =
+                format!("key \"say\": expected a sentence of at most {LONGEST_SENTENCE} bytes, not none");
+            return Err(self.fault(say.span().start, message));
         }
-        Ok((value * 1000.0).round() as u64)
+        Ok(sentence.to_owned())
     }
 
     fn chain(&self, chain: &Spanned<String>, kind: &Spanned<String>) -> Result<usize, WorldError> {
         let task = self.task;
-        let kinds: Vec<&str> = task.kinds.iter().map(|kind| kind.name.as_str()).collect();
         let mut names: Vec<&str> = task.chains.iter().map(|chain| chain.name.as_str()).collect();
         names.sort_unstable();
         names.dedup();
-        let unknown = |key: &str, given: &Spanned<String>, known: &[&str]| {
-            let message =
-                format!("key \"{key}\": \"{}\" is unknown; expected one of {known:?}", given.as_ref());
-            self.fault(given.span().start, message)
-        };
-        if !names.contains(&chain.as_ref().as_str()) {
-            return Err(unknown("chain", chain, &names));
-        }
-        let index = kinds
-            .iter()
-            .position(|name| name == kind.as_ref())
-            .ok_or_else(|| unknown("kind", kind, &kinds))?;
+        self.find("chain", chain, &names)?;
+        let index = self.kind("kind", kind)?;
         let fits = |known: &coact_joint_task::Chain| known.name == *chain.as_ref() && known.kind == index;
         task.chains.iter().position(fits).ok_or_else(|| {
             let message = format!("key \"kind\": the task has no chain \"{}\" for it", chain.as_ref());
             self.fault(kind.span().start, message)
         })
-    }
-
-    fn fault(&self, at: usize, message: String) -> WorldError {
-        let line = 1 + self.text[..at.min(self.text.len())].matches('\n').count();
-        WorldError::Scenario { path: self.path.to_path_buf(), line, message }
     }
 }

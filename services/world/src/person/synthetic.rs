@@ -1,7 +1,7 @@
 //! A correct partner: chooses at random among what the plan allows now.
 
-use super::Errand;
 use super::intention::{Choice, Intention, View};
+use super::{Errand, Manner};
 use coact_joint_task::Agent;
 use rand::{Rng, RngExt};
 
@@ -76,5 +76,5 @@ fn valid(view: &View, chain: usize, subgoal: usize) -> Option<(Intention, f64)> 
         _ => return None,
     };
     let part = (errand != Errand::Request).then_some(part);
-    Some((Intention { errand, chain, subgoal: Some(subgoal), part }, weight))
+    Some((Intention { errand, chain, subgoal: Some(subgoal), part, manner: Manner::default() }, weight))
 }

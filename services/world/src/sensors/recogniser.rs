@@ -15,8 +15,16 @@ const ORIENTATION: f64 = 0.015;
 /// Share of sightings that the recogniser misses.
 const MISSED: f64 = 0.02;
 
-/// Takes a frame of all parts when one is due; parts in hands and mounted parts are seen where they are.
-pub(crate) fn recognise(tick: u64, last: Option<u64>, noise: &Noise, parts: &Parts, view: &mut SceneView) {
+/// Takes a frame of all parts when one is due, from `eye` (m); parts in hands and mounted parts are seen where they are,
+/// those behind one of the `occluders` are not.
+pub(crate) fn recognise(
+    tick: u64,
+    last: Option<u64>,
+    noise: &Noise,
+    parts: &Parts,
+    (eye, occluders): ([f64; 3], &[[f64; 6]]),
+    view: &mut SceneView,
+) {
     if !is_frame_due(RATE, last, tick) {
         return;
     }
@@ -24,6 +32,9 @@ pub(crate) fn recognise(tick: u64, last: Option<u64>, noise: &Noise, parts: &Par
     view.frame += u64::from(last.is_some());
     view.captured_cycle = tick;
     view.sighting = [Sighting::default(); _];
+    view.occluder = [[0.0; 6]; _];
+    view.occluder[..occluders.len()].copy_from_slice(occluders);
+    view.occluders = occluders.len() as u32;
     let mut seen = 0;
     for part in 0..parts.all().len() {
         let missed = rng.random_bool(MISSED);
@@ -31,7 +42,7 @@ pub(crate) fn recognise(tick: u64, last: Option<u64>, noise: &Noise, parts: &Par
         let mut deviates = || DVec3::from_array(std::array::from_fn(|_| StandardNormal.sample(&mut rng)));
         let position = parts.position(part) + POSITION * deviates();
         let turn = DQuat::from_scaled_axis(ORIENTATION * deviates()) * parts.orientation(part);
-        if missed {
+        if missed || view.hides(eye, parts.position(part).into(), 0.0) {
             continue;
         }
         view.sighting[seen] = Sighting {

@@ -1,7 +1,7 @@
 use super::is_frame_due;
 use crate::noise::{Noise, Stream};
 use bytemuck::{Pod, Zeroable};
-use coact_messages::{HandView, Keypoint};
+use coact_messages::{HandView, Keypoint, KeypointName};
 use glam::DVec3;
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -35,6 +35,8 @@ impl PartialEq for TrackerMemory {
 
 /// What is before the camera.
 pub(crate) enum Capture {
+    /// The tracker is blind.
+    Nothing,
     /// A simulated hand, m: the tracker's noise and gaps are added.
     Simulated([DVec3; 9]),
     /// A recorded one, with what its own detector misplaced and missed.
@@ -42,13 +44,14 @@ pub(crate) enum Capture {
 }
 
 /// When a frame is due: delivers the one before, and captures a new one. So a frame is one frame time old when it
-/// comes.
+/// comes. Keypoints that `hides` names are lost; a frame without any is not delivered.
 pub(crate) fn track(
     tick: u64,
     last: Option<u64>,
     noise: &Noise,
     memory: &mut TrackerMemory,
     capture: impl FnOnce() -> Capture,
+    hides: impl Fn([f64; 3]) -> bool,
 ) {
     if !is_frame_due(RATE, last, tick) {
         return;
@@ -58,11 +61,16 @@ pub(crate) fn track(
         memory.delivered = memory.pending;
         memory.has_delivered = 1;
     }
-    let (seen, keypoints) = match capture() {
-        Capture::Recorded(keypoints) => (keypoints.iter().any(|point| point.confidence > 0.0), keypoints),
+    let (came, mut keypoints) = match capture() {
+        Capture::Nothing => (false, [Keypoint::default(); 9]),
+        Capture::Recorded(keypoints) => (true, keypoints),
         Capture::Simulated(points) => blur(tick, noise, &points),
     };
-    memory.is_pending = u64::from(seen);
+    for point in keypoints.iter_mut().filter(|point| hides(point.position)) {
+        *point = Keypoint::default();
+    }
+    let hand = &keypoints[KeypointName::Wrist as usize..];
+    memory.is_pending = u64::from(came && hand.iter().any(|point| point.confidence > 0.0));
     memory.pending.captured_cycle = tick;
     memory.pending.keypoints = keypoints;
 }

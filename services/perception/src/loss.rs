@@ -1,0 +1,86 @@
+use crate::evidence::follow;
+use crate::objects::{ObjectsMemory, Places, Surroundings};
+use bytemuck::{Pod, Zeroable};
+use coact_messages::{JointReading, Percept};
+
+/// Force that tells that the robot's fingers hold something, N.
+const TOUCH: f64 = 0.2;
+/// Fingers that stand this much further open than when they held the part have let go of it, rad.
+const OPENED: f64 = 0.02;
+/// Distance of a part from the robot's grasp point beyond which it is not in the hand any more, m.
+const AWAY: f64 = 0.08;
+/// How long after the loss of touch a part must be unseen to be lost, and how long the suspicion lasts, cycles.
+const UNSEEN: u64 = 250;
+const SUSPECTED: u64 = 1000;
+/// How long a loss is told, cycles, and the time in which its evidence rises or falls from end to end.
+const TOLD: u64 = 3000;
+const RAMP: f64 = 60.0;
+
+/// What becomes of the part in the robot's hand when the fingers do not feel it any more.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+pub(crate) struct Loss {
+    /// Index of the held part's track plus one; 0: none is held.
+    held: u64,
+    /// Its kind.
+    kind: u64,
+    /// How far the fingers were closed on it, rad.
+    grip: f64,
+    /// Cycle at which touch was lost though the fingers were not opened; 0: it was not.
+    suspected: u64,
+    /// Cycle up to which a loss is told, and the kind that was lost.
+    told: u64,
+    lost: u64,
+}
+
+impl Loss {
+    /// One cycle of proprioception.
+    pub fn feel(&mut self, tick: u64, joints: &JointReading, objects: &ObjectsMemory) {
+        let closing = joints.position[8..11].iter().sum::<f64>() / 3.0;
+        if joints.touch > TOUCH {
+            self.suspected = 0;
+            if let Some((track, kind)) = objects.with_the_robot() {
+                let same = self.held == track as u64 + 1;
+                self.grip = if same { self.grip.max(closing) } else { closing };
+                (self.held, self.kind) = (track as u64 + 1, kind as u64);
+                self.told = if self.lost == self.kind { 0 } else { self.told };
+            }
+        } else if self.held > 0 && self.suspected == 0 {
+            let opened = !(closing > self.grip - OPENED);
+            (self.held, self.suspected) = if opened { (0, 0) } else { (self.held, tick.max(1)) };
+        } else if self.suspected > 0 && tick > self.suspected + SUSPECTED {
+            (self.held, self.suspected) = (0, 0);
+        }
+    }
+
+    /// One frame of sight: a part that went out of the closed fingers and is seen elsewhere, or nowhere, is lost.
+    pub fn look(&mut self, objects: &ObjectsMemory, around: &Surroundings, places: &Places) {
+        let Some(track) = self.held.checked_sub(1).filter(|_| self.suspected > 0) else { return };
+        let seen = objects.track(track as usize).filter(|part| part.kind() == Some(self.kind as usize));
+        let after = |cycle: u64| cycle > self.suspected;
+        let lost = match seen {
+            Some(part) if part.is_held() || places.is_mounted(self.kind as usize, part.position) => {
+                (self.held, self.suspected) = (0, 0);
+                return;
+            }
+            Some(part) if after(part.seen) => {
+                let body = places.body(self.kind as usize);
+                let away = |point| part.distance_to_axis(body, point) > AWAY;
+                around.grasp_point.map_or(!places.is_airborne(self.kind as usize, part.position), away)
+            }
+            _ => objects.captured > self.suspected + UNSEEN,
+        };
+        if lost {
+            (self.told, self.lost) = (objects.captured + TOLD, self.kind);
+            (self.held, self.suspected) = (0, 0);
+        }
+    }
+
+    /// Moves the evidence of lost parts one cycle on.
+    pub fn report(&self, tick: u64, kinds: usize, out: &mut Percept) {
+        for (kind, evidence) in out.lost.iter_mut().enumerate().take(kinds) {
+            let told = tick < self.told && self.lost == kind as u64;
+            follow(evidence, f64::from(u8::from(told)), RAMP);
+        }
+    }
+}

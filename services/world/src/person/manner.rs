@@ -1,0 +1,11 @@
+use bytemuck::{Pod, Zeroable};
+
+/// How the person carries out an action. All zero: to the end, and clearly.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct Manner {
+    /// Ticks after grasp completion at which the action is given up; 0: never.
+    pub gives_up: u64,
+    /// How unclearly the hand shows the grip: 0 as it should be, 1 no more than any other.
+    pub blur: f64,
+}
