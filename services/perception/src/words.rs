@@ -4,7 +4,7 @@ use coact_messages::{Heard, MAX_ACTS};
 /// How long a sentence stays in mind, cycles.
 const STAYS: u64 = 3000;
 /// Share of a phrase's words below which a sentence says nothing of the kind, and from which it counts.
-const SAYS: (f64, f64) = (0.4, 0.6);
+const SAYS: (f64, f64) = (0.5, 0.65);
 /// How much what fits less well than the best is left out: the exponent of its share of the best.
 const SHARPNESS: i32 = 16;
 /// Words that no phrase and no sentence is told apart by.

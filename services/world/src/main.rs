@@ -1,5 +1,7 @@
 //! The process that stands in for the hardware: released by the timer, it starts each cycle of the chain.
 
+mod ears;
+
 use anyhow::Context;
 use coact_joint_task::Task;
 use coact_messages::{Command, Header, SensorSample, Truth, WorldState, topic};
@@ -8,6 +10,7 @@ use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick, now};
 use coact_recordings::{Order, read_folder};
 use coact_robot::Robot;
 use coact_world::{BodyKind, Partner, Replay, Settings, World, has_part_for};
+use ears::Ears;
 use std::path::Path;
 
 /// What `RunSettings::partner` begins with when recorded reaches are to be played.
@@ -20,6 +23,9 @@ struct Hardware {
     sample: Output<SensorSample>,
     truth: Output<Truth>,
     state: Output<WorldState>,
+    ears: Ears,
+    /// Actions of the script of which it is known that they could not be done.
+    skipped: u64,
 }
 
 impl Cycle for Hardware {
@@ -30,7 +36,10 @@ impl Cycle for Hardware {
     }
 
     fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
-        let Self { world, command, sample, truth, state } = self;
+        if let Some(speech) = self.ears.next() {
+            self.world.hear(speech.sentence());
+        }
+        let Self { world, command, sample, truth, state, .. } = self;
         let (mut sample, mut truth, mut state) = (sample.loan()?, truth.loan()?, state.loan()?);
         world.step(tick.cycle, command.latest(), &mut sample, &mut truth, &mut state);
         // The sensors are read now. What the simulation of the bodies before them cost is no part of a real robot.
@@ -38,6 +47,10 @@ impl Cycle for Hardware {
         let header = sample.send(tick.cycle, sensor_ns)?;
         truth.send(tick.cycle, sensor_ns)?;
         state.send(tick.cycle, sensor_ns)?;
+        if self.world.skipped() > self.skipped {
+            self.skipped = self.world.skipped();
+            tracing::warn!("the script's next action was left out: no part for it came within reach");
+        }
         Ok(header)
     }
 }
@@ -107,7 +120,8 @@ fn simulate(mut process: Process) -> anyhow::Result<()> {
         sample.continue_after(&last.header);
         truth.continue_after(&last.header);
     }
-    Ok(process.run_cycles(Hardware { world, command, sample, truth, state })?)
+    let (ears, skipped) = (Ears::open(process.run())?, world.skipped());
+    Ok(process.run_cycles(Hardware { world, command, sample, truth, state, ears, skipped })?)
 }
 
 fn world(run: &RunSettings) -> anyhow::Result<World> {

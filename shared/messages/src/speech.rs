@@ -2,7 +2,7 @@ use crate::Header;
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
-/// A sentence that the robot says (on occasion).
+/// A sentence that the robot says, or that the person says to it (on occasion).
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
 #[type_name("coact::Speech")]
@@ -13,4 +13,20 @@ pub struct Speech {
     pub length: u64,
     /// The sentence, UTF-8.
     pub text: [u8; 256],
+}
+
+impl Speech {
+    /// Takes down a sentence; what does not fit is cut off.
+    pub fn write(&mut self, sentence: &str) {
+        let sentence = &sentence[..sentence.floor_char_boundary(self.text.len())];
+        self.length = sentence.len() as u64;
+        self.text = [0; 256];
+        self.text[..sentence.len()].copy_from_slice(sentence.as_bytes());
+    }
+
+    /// The sentence; empty for bytes that are no text.
+    pub fn sentence(&self) -> &str {
+        let length = (self.length as usize).min(self.text.len());
+        std::str::from_utf8(&self.text[..length]).unwrap_or_default()
+    }
 }

@@ -33,7 +33,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 /// The run of this name, or the only one.
-fn living_run(id: Option<&str>) -> Result<Run> {
+pub(crate) fn living_run(id: Option<&str>) -> Result<Run> {
     let mut living: Vec<Run> = Run::all().into_iter().filter(Run::owner_lives).collect();
     let ids: Vec<String> = living.iter().map(|run| run.id().to_owned()).collect();
     let ids = ids.join(", ");

@@ -9,6 +9,7 @@ mod launch;
 mod lockstep;
 mod partner;
 mod reaches;
+mod say;
 mod task;
 mod train;
 
@@ -30,6 +31,8 @@ enum Command {
     Launch(launch::Args),
     /// Inject a fault into a process of a running set
     Inject(inject::Args),
+    /// Say something to the robot of a running set
+    Say(say::Args),
     /// Show how regular and how fast a run was, or is
     Latency(latency::Args),
     /// Show what is made of a task file
@@ -57,6 +60,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Launch(args) => launch::run(args),
         Command::Inject(args) => inject::run(args),
+        Command::Say(args) => say::run(args),
         Command::Latency(args) => latency::run(args),
         Command::Task(args) => task::run(args),
         Command::Reaches(args) => reaches::run(args),

@@ -107,6 +107,11 @@ impl Lockstep {
         self.tick
     }
 
+    /// The person has said something: the next sensor sample tells it.
+    pub fn hear(&mut self, sentence: &str) {
+        self.world.hear(sentence);
+    }
+
     /// Runs one period of every stage.
     pub fn step(&mut self) {
         self.step_watched(&mut |_, stage| stage());
