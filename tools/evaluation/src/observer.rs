@@ -120,21 +120,24 @@ impl<'a> Observer<'a> {
         } else if truth.phase == PartnerPhase::Idle as u32 {
             self.close();
         }
-        let (Some(open), Some(mut action)) = (self.open.clone(), self.trial.actions.pop()) else { return };
+        let Some(open) = &self.open else { return };
+        let inferred = self.highest(LayerKind::Intention, frame);
+        let grasped =
+            self.trial.actions.last().is_some_and(|own| own.grasp_ms.is_none()) && truth.grasp_cycle > 0;
+        let fields = if grasped { self.shown(frame) } else { Vec::new() };
+        let Some(action) = self.trial.actions.last_mut() else { return };
         let rose = open.errors.iter().map(|&error| frame.since[error]).filter(|&since| since > 0).min();
         action.detected_ms = action.detected_ms.or(rose.map(|since| since.max(action.onset_ms)));
-        if action.grasp_ms.is_none() && truth.grasp_cycle > 0 {
+        if grasped {
             action.grasp_ms = Some(truth.grasp_cycle);
-            let inferred = self.highest(LayerKind::Intention, frame);
             action.inference = Some(match inferred {
                 None => Inference::Absent,
                 Some(_) if inferred == open.goal => Inference::Right,
                 Some(_) => Inference::Wrong,
             });
             action.inferred = inferred.map(|goal| self.plan.populations[goal].label.clone());
-            action.fields = self.shown(frame);
+            action.fields = fields;
         }
-        self.trial.actions.push(action);
     }
 
     fn begin(&mut self, truth: &Truth) {
