@@ -85,7 +85,7 @@ impl Person {
         let entry = std::mem::take(&mut memory.says).get()?;
         match &self.plan {
             Plan::Script(script) => script.sentence(entry),
-            Plan::Synthetic => None,
+            Plan::Synthetic | Plan::Erring(_) => None,
         }
     }
 

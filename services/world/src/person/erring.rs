@@ -4,7 +4,7 @@
 
 use super::intention::{Choice, Intention, View};
 use super::rates::Rates;
-use super::{Errand, synthetic};
+use super::{Errand, Manner, synthetic};
 use coact_joint_task::{Act, Agent};
 use coact_messages::PartnerError;
 use rand::{Rng, RngExt};
@@ -68,8 +68,13 @@ fn wrong_goal(view: &View, chain: usize) -> Option<Intention> {
     let rule = &view.task.chains[chain];
     let grasps = matches!(rule.act, Act::Grasp { .. }) && rule.from == Agent::Person;
     let part = view.own_part(rule.kind).filter(|_| grasps)?;
-    let intention =
-        Intention { errand: view.errand(chain), chain, subgoal: view.goal(chain), part: Some(part) };
+    let intention = Intention {
+        errand: view.errand(chain),
+        chain,
+        subgoal: view.goal(chain),
+        part: Some(part),
+        manner: Manner::default(),
+    };
     is_wrong_goal(view, &intention).then_some(intention)
 }
 
@@ -93,7 +98,13 @@ fn is_wrong_goal(view: &View, intention: &Intention) -> bool {
 
 fn request(view: &View, chain: usize) -> Option<Intention> {
     let asks = view.errand(chain) == Errand::Request && view.robot.held.get().is_none();
-    asks.then(|| Intention { errand: Errand::Request, chain, subgoal: view.goal(chain), part: None })
+    asks.then(|| Intention {
+        errand: Errand::Request,
+        chain,
+        subgoal: view.goal(chain),
+        part: None,
+        manner: Manner::default(),
+    })
 }
 
 /// Whether a part of the robot's is needed on the person's side now.

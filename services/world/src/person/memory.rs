@@ -133,7 +133,7 @@ impl PersonMemory {
     /// What the person means by the present action.
     pub fn intention(&self) -> Option<Intention> {
         let (errand, subgoal, part) = (self.errand(), self.subgoal.get(), self.part.get());
-        self.chain.get().map(|chain| Intention { errand, chain, subgoal, part })
+        self.chain.get().map(|chain| Intention { errand, chain, subgoal, part, manner: self.manner })
     }
 
     /// Whether the person can do nothing but wait for the robot.
