@@ -4,10 +4,20 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 pub enum WorldError {
     /// The partner's name is none of the known ones.
-    #[error("partner \"{name}\" is unknown; expected synthetic, script:FILE or recorded:DIR")]
+    #[error(
+        "partner \"{name}\" is unknown; expected synthetic, random, random:KEY=VALUE,..., script:FILE or recorded:DIR"
+    )]
     Partner {
         /// What was given.
         name: String,
+    },
+    /// A rate of the erring partner makes no sense.
+    #[error("partner random: \"{entry}\"; expected {expected}")]
+    Rate {
+        /// What was given.
+        entry: String,
+        /// What was expected.
+        expected: String,
     },
     /// A file could not be read.
     #[error("{}: {source}", path.display())]

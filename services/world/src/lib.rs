@@ -19,7 +19,7 @@ mod staging;
 mod world;
 
 pub use error::WorldError;
-pub use person::{Recorded, Script};
+pub use person::{Rates, Recorded, Script};
 pub use replay::{METRES_PER_PIXEL, Replay, Span, has_part_for};
 pub use settings::{BodyKind, Partner, Settings};
 pub use world::World;

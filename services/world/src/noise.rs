@@ -10,6 +10,8 @@ pub(crate) enum Stream {
     Tracker = 3,
     Recogniser = 4,
     Encoders = 5,
+    Mistake = 6,
+    Dropout = 7,
 }
 
 /// Randomness that depends on the seed, the purpose and the tick alone, so that there is no generator state to

@@ -1,5 +1,5 @@
 use crate::WorldError;
-use crate::person::{Recorded, Script};
+use crate::person::{Rates, Recorded, Script};
 use coact_joint_task::Task;
 use std::path::Path;
 
@@ -28,6 +28,8 @@ pub enum BodyKind {
 pub enum Partner {
     /// Chooses at random among the plan's valid actions, and never errs.
     Synthetic,
+    /// Chooses like the synthetic one, but errs, idles and shows its grips unclearly at these rates.
+    Random(Rates),
     /// Follows a written sequence of actions.
     Script(Script),
     /// Chooses like the synthetic one; the hand is that of a recorded person.
@@ -35,7 +37,8 @@ pub enum Partner {
 }
 
 impl Partner {
-    /// Reads a partner as it is named on a command line: `synthetic`, `script:FILE` or `recorded:DIR`.
+    /// Reads a partner as it is named on a command line: `synthetic`, `random`,
+    /// `random:KEY=VALUE,...` (see [`Rates`]), `script:FILE` or `recorded:DIR`.
     ///
     /// A folder of recordings holds several people: each seed takes another one, in turn.
     ///
@@ -44,6 +47,8 @@ impl Partner {
     pub fn load(name: &str, task: &Task, seed: u64) -> Result<Self, WorldError> {
         match name.split_once(':') {
             None if name == "synthetic" => Ok(Self::Synthetic),
+            None if name == "random" => Ok(Self::Random(Rates::default())),
+            Some(("random", rates)) => Rates::parse(rates).map(Self::Random),
             Some(("script", file)) => Script::load(Path::new(file), task).map(Self::Script),
             Some(("recorded", folder)) => Recorded::load(Path::new(folder), seed).map(Self::Recorded),
             _ => Err(WorldError::Partner { name: name.to_owned() }),

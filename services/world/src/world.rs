@@ -48,6 +48,7 @@ impl World {
         let noise = Noise::new(settings.seed);
         let (plan, recorded, staging) = match settings.partner {
             Partner::Synthetic => (Plan::Synthetic, None, Staging::default()),
+            Partner::Random(rates) => (Plan::Erring(rates), None, Staging::default()),
             Partner::Script(mut script) => {
                 let staging = std::mem::take(&mut script.staging);
                 (Plan::Script(script), None, staging)
@@ -200,6 +201,7 @@ impl World {
         let capture = || match person.recorded_keypoints(moved, tick) {
             _ if staging.is_blind(Sense::Hand, tick) => Capture::Nothing,
             Some(keypoints) => Capture::Recorded(keypoints),
+            None if person.is_lost(tick) => Capture::Nothing,
             None => Capture::Simulated(person.model.keypoints(&moved.hand)),
         };
         track(tick, last, noise, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
@@ -223,6 +225,8 @@ impl World {
         truth.grasp_cycle = person.grasped;
         truth.achieved = self.parts.achieved();
         truth.assemblies = self.memory.assemblies;
+        truth.error = if phase == PartnerPhase::Idle { 0 } else { person.error as u32 };
+        truth.waiting = u32::from(person.waits());
     }
 
     fn remember(&self, state: &mut WorldState) {

@@ -48,7 +48,7 @@ pub use percept::{HandPercept, Percept, PerceptionMemory, WorkspacePercept};
 pub use pulse::Pulse;
 pub use sensor_sample::{HandView, JointReading, Keypoint, KeypointName, SceneView, SensorSample, Sighting};
 pub use speech::Speech;
-pub use truth::{PartnerPhase, Truth};
+pub use truth::{PartnerError, PartnerPhase, Truth};
 pub use world_state::{PartState, WorldState};
 
 /// Joints of arm (7) and hand (8: spread, three finger bases, three finger tips, one reserved), in that order.

@@ -25,6 +25,25 @@ pub struct Truth {
     pub achieved: u64,
     /// Completed assemblies before the present one (the scene is laid out again after each).
     pub assemblies: u64,
+    /// [`PartnerError`] of the present action, as things were at its onset.
+    pub error: u32,
+    /// 1 while the person can do nothing but wait for the robot: with a part at its place until the base is held,
+    /// holding out a part or the open hand, or with the fingers on a part that the robot has not let go. Else 0.
+    pub waiting: u32,
+}
+
+/// What is wrong with one of the person's actions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+pub enum PartnerError {
+    /// Nothing.
+    None = 0,
+    /// Intention: the subgoal's turn has not come.
+    Early = 1,
+    /// Intention: the subgoal is achieved already.
+    Done = 2,
+    /// Means: a part is asked for that lies in the person's own workspace.
+    AtHand = 3,
 }
 
 /// What the person is doing.

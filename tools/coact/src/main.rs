@@ -1,6 +1,7 @@
 //! The operator's command line.
 
 mod closing;
+mod evaluate;
 mod folder_name;
 mod inject;
 mod installation;
@@ -39,6 +40,8 @@ enum Command {
     Task(task::Args),
     /// Measure anticipation on recorded reaches of real people
     Reaches(reaches::Args),
+    /// Evaluate whole assemblies with random partners, against other minds
+    Evaluate(evaluate::Args),
     /// Train the model of preshaping from recorded reaches
     Train(train::Args),
 }
@@ -64,6 +67,7 @@ fn main() -> ExitCode {
         Command::Latency(args) => latency::run(args),
         Command::Task(args) => task::run(args),
         Command::Reaches(args) => reaches::run(args),
+        Command::Evaluate(args) => evaluate::run(args),
         Command::Train(args) => train::run(args),
     };
     outcome.unwrap_or_else(|error| {

@@ -62,7 +62,20 @@ impl Lockstep {
     /// # Errors
     /// The file or setting that a stage refuses.
     pub fn new(settings: &RunSettings) -> Result<Self, LockstepError> {
+        Self::with_plan(settings, |plan| plan)
+    }
+
+    /// The same with another network than the task's files make: `change` is given theirs. So a robot without some of
+    /// its synapses is compared with the whole one.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_plan(
+        settings: &RunSettings,
+        change: impl FnOnce(NetworkPlan) -> NetworkPlan,
+    ) -> Result<Self, LockstepError> {
         let (task, plan) = NetworkPlan::load(&settings.task)?;
+        let plan = change(plan);
         let robot = Robot::load(&settings.robot)?;
         let body = match settings.world {
             WorldMode::Physics => BodyKind::Physics,

@@ -1,9 +1,10 @@
-use super::{Choice, Errand, HandModel, Intention, PersonMemory, Plan, Recorded, Stage, View};
+use super::{Choice, Errand, HandModel, Intention, PersonMemory, Plan, Recorded, Stage, View, erring};
 use crate::noise::{Noise, Stream};
 use crate::parts::{Holder, Parts};
 use crate::robot_hand::RobotHandMemory;
 use crate::slot::Slot;
 use coact_joint_task::Task;
+use coact_messages::PartnerError;
 use rand::RngExt;
 
 /// How long the person waits for the robot's hand at the base, ms.
@@ -53,6 +54,9 @@ impl Person {
     pub fn advance(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
         self.reconsider(memory, around);
         let over = around.tick >= memory.until;
+        if self.notices(memory, around) {
+            return self.give_up(memory, around);
+        }
         match memory.stage() {
             Stage::Rest if over => self.decide(memory, around),
             Stage::Rest => {}
@@ -66,6 +70,7 @@ impl Person {
                 self.begin_mounting(memory, around.tick)
             }
             Stage::AwaitHold => {}
+            Stage::Mount if over && memory.notices > 0 => self.give_up(memory, around),
             Stage::Mount if over => self.put_down(memory, around),
             Stage::Mount => {}
             Stage::Offer => self.offer(memory, around),
@@ -80,7 +85,7 @@ impl Person {
         let entry = std::mem::take(&mut memory.says).get()?;
         match &self.plan {
             Plan::Script(script) => script.sentence(entry),
-            Plan::Synthetic => None,
+            Plan::Synthetic | Plan::Erring(_) => None,
         }
     }
 
@@ -146,6 +151,9 @@ impl Person {
         memory.actions += 1;
         memory.onset = around.tick;
         memory.grasped = 0;
+        memory.notices = 0;
+        let error = memory.intention().map(|intention| around.view().error_of(&intention));
+        memory.error = error.unwrap_or(PartnerError::None) as u64;
         memory.enter(Stage::Reach, memory.movement.end);
         self.move_towards(memory, around);
     }
@@ -175,6 +183,9 @@ impl Person {
     /// The fingers close on the part, or the gesture is fully shown.
     fn arrive(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
         let tick = around.tick;
+        if self.plan.rates().is_some() && memory.error != PartnerError::None as u64 {
+            memory.notices = erring::notices(tick, &mut self.noise.at(Stream::Mistake, tick));
+        }
         let Some(part) = memory.part.get() else {
             memory.grasped = tick;
             return memory.enter(Stage::Show, tick + SHOW_MS);
@@ -188,6 +199,28 @@ impl Person {
         memory.home = around.parts.position(part).into();
         let pause = self.noise.at(Stream::Movement, tick).random_range(80..140);
         memory.enter(Stage::Dwell, tick + pause);
+    }
+
+    /// Whether the person notices now that the present action is wrong: not while the robot has a hand on the part.
+    fn notices(&self, memory: &PersonMemory, around: &Surroundings) -> bool {
+        let acts = !matches!(memory.stage(), Stage::Return | Stage::Withdraw | Stage::Rest | Stage::Prepare);
+        let gripped = memory.grip.get().is_some() && around.robot.held == memory.grip;
+        memory.notices > 0 && around.tick >= memory.notices && acts && !gripped
+    }
+
+    /// Puts the part back to where it lay, or lowers the empty hand.
+    fn give_up(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+        memory.notices = 0;
+        if memory.grip.get().is_none() {
+            return self.withdraw(memory, around);
+        }
+        self.take_back(memory, around);
+    }
+
+    /// Whether the tracker has lost the hand at `tick`, for longer than a frame.
+    pub fn is_lost(&self, tick: u64) -> bool {
+        let slot = |slot| self.noise.at(Stream::Dropout, slot);
+        self.plan.rates().is_some_and(|rates| erring::is_lost(rates, tick, slot))
     }
 
     /// Sets off with the grasped part to where it is wanted.

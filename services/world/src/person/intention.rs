@@ -2,6 +2,7 @@ use super::{Errand, Manner};
 use crate::parts::Parts;
 use crate::robot_hand::RobotHandMemory;
 use coact_joint_task::{Act, Agent, Task};
+use coact_messages::PartnerError;
 use glam::DVec3;
 
 /// What the person sees: the parts, and the robot's hand from the outside.
@@ -42,6 +43,27 @@ impl View<'_> {
             (Act::Gesture(_), _) => Errand::Request,
             (_, Agent::Robot) => Errand::HandOver,
             (_, Agent::Person) => Errand::Mount,
+        }
+    }
+
+    /// The subgoal that `chain` would serve: one that is available, if there is one.
+    pub fn goal(&self, chain: usize) -> Option<usize> {
+        self.task.goal_of(chain, |goal| self.parts.is_available(goal, self.task))
+    }
+
+    /// What is wrong with an intention as things are now.
+    pub fn error_of(&self, intention: &Intention) -> PartnerError {
+        let Some(goal) = intention.subgoal else { return PartnerError::None };
+        if self.parts.achieved() & (1 << goal) != 0 {
+            PartnerError::Done
+        } else if !self.parts.is_available(goal, self.task) {
+            PartnerError::Early
+        } else if intention.errand == Errand::Request
+            && self.own_part(self.task.subgoals[goal].kind).is_some()
+        {
+            PartnerError::AtHand
+        } else {
+            PartnerError::None
         }
     }
 

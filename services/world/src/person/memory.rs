@@ -1,4 +1,4 @@
-use super::{HandPose, Manner, Movement};
+use super::{HandPose, Intention, Manner, Movement};
 use crate::slot::Slot;
 use bytemuck::{Pod, Zeroable};
 use coact_messages::PartnerPhase;
@@ -29,6 +29,10 @@ pub(crate) struct PersonMemory {
     pub ended: u64,
     pub onset: u64,
     pub grasped: u64,
+    /// [`coact_messages::PartnerError`] of the present action, as things were at its onset.
+    pub error: u64,
+    /// Tick at which the person will notice it; 0: never.
+    pub notices: u64,
     /// Tick at which the robot was first felt to pull, or to let go; 0: not yet.
     pub felt: u64,
     pub hand: HandPose,
@@ -124,6 +128,17 @@ impl PersonMemory {
 
     pub fn set_errand(&mut self, errand: Errand) {
         self.errand = errand as u64;
+    }
+
+    /// What the person means by the present action.
+    pub fn intention(&self) -> Option<Intention> {
+        let (errand, subgoal, part) = (self.errand(), self.subgoal.get(), self.part.get());
+        self.chain.get().map(|chain| Intention { errand, chain, subgoal, part, manner: self.manner })
+    }
+
+    /// Whether the person can do nothing but wait for the robot.
+    pub fn waits(&self) -> bool {
+        matches!(self.stage(), Stage::AwaitHold | Stage::Offer | Stage::Show | Stage::AwaitRelease)
     }
 
     /// What the monitor is told.

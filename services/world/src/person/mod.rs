@@ -1,6 +1,7 @@
 //! The human partner: what the person means to do, and how the hand moves to do it.
 
 mod actor;
+mod erring;
 mod hand_model;
 mod hand_pose;
 mod intention;
@@ -11,6 +12,7 @@ mod movements;
 mod plan;
 mod playback;
 mod profile;
+mod rates;
 mod recorded;
 mod script;
 mod script_file;
@@ -29,5 +31,6 @@ pub(crate) use movement::Movement;
 pub(crate) use plan::Plan;
 #[cfg(test)]
 pub(crate) use profile::FINGERS;
+pub use rates::Rates;
 pub use recorded::Recorded;
 pub use script::Script;

@@ -27,13 +27,19 @@ impl Person {
     /// The reach of the present action, from where the hand is now.
     pub(super) fn reach_movement(&self, memory: &PersonMemory, around: &Surroundings) -> Movement {
         let mut rng = self.noise.at(Stream::Movement, around.tick);
-        let drawn = movement_time(&mut rng);
+        let manner = self.plan.rates();
+        let mut mistakes = self.noise.at(Stream::Mistake, around.tick);
+        let drawn = match manner {
+            None => movement_time(&mut rng),
+            Some(rates) => mistakes.random_range(rates.movement.clone()).round() as u64,
+        };
         let (before, time) = match self.recording(memory) {
             Some(reach) => (LEAD, reach.movement_time),
             None => (time_before_onset(drawn), drawn),
         };
         let deviate: f64 = StandardNormal.sample(&mut rng);
-        let pitch = pitch(memory, around.task) + PITCH_SCATTER * deviate.clamp(-2.0, 2.0);
+        let clarity = manner.map_or(1.0, |rates| mistakes.random_range(rates.clarity.clone()));
+        let pitch = pitch(memory, around.task, clarity) + PITCH_SCATTER * deviate.clamp(-2.0, 2.0);
         let (to, peak) = match memory.part.get() {
             Some(part) => {
                 let width = around.task.kinds[around.parts.kind(part)].width;
@@ -134,11 +140,12 @@ impl Person {
     }
 }
 
-/// The pitch that the present action's chain shows, rad; taking an offered part is grasping it to mount it.
-fn pitch(memory: &PersonMemory, task: &Task) -> f64 {
+/// The pitch that the present action's chain shows, rad; taking an offered part is grasping it to mount it. A grip of
+/// little clarity lies nearer to the middle between it and the nearest other one.
+fn pitch(memory: &PersonMemory, task: &Task, clarity: f64) -> f64 {
     let act = memory.chain.get().map(|chain| task.chains[chain].act);
     match (act, memory.errand()) {
-        (Some(Act::Grasp { grip, .. }), _) => blurred(grip, memory.manner.blur, task),
+        (Some(Act::Grasp { grip, .. }), _) => blurred(grip, memory.manner.blur.max(1.0 - clarity), task),
         (Some(Act::Gesture(gesture)), Errand::Request) => task.gestures[gesture].pitch,
         _ => 0.0,
     }

@@ -1,6 +1,7 @@
 use super::intention::{Choice, View};
+use super::rates::Rates;
 use super::script::Script;
-use super::{PersonMemory, synthetic};
+use super::{PersonMemory, erring, synthetic};
 use crate::noise::{Noise, Stream};
 use rand::{Rng, RngExt};
 
@@ -12,6 +13,8 @@ const PAUSE_MS: std::ops::Range<u64> = 500..2000;
 pub(crate) enum Plan {
     /// Chosen at random among the plan's valid actions.
     Synthetic,
+    /// The same, but for mistakes and pauses at these rates.
+    Erring(Rates),
     /// Read from a file.
     Script(Script),
 }
@@ -21,6 +24,7 @@ impl Plan {
     pub fn next<R: Rng>(&self, view: &View, memory: &mut PersonMemory, rng: &mut R) -> Choice {
         match self {
             Self::Synthetic => synthetic::choose(view, rng),
+            Self::Erring(rates) => erring::choose(rates, view, rng),
             Self::Script(script) => script.next(view, memory),
         }
     }
@@ -28,8 +32,16 @@ impl Plan {
     /// Rest before the next thought, ms.
     pub fn pause_ms(&self, noise: &Noise, tick: u64) -> u64 {
         match self {
-            Self::Synthetic => noise.at(Stream::Choice, tick).random_range(PAUSE_MS),
+            Self::Synthetic | Self::Erring(_) => noise.at(Stream::Choice, tick).random_range(PAUSE_MS),
             Self::Script(_) => 1,
+        }
+    }
+
+    /// How a person who errs at times moves and is seen; none for one who never does.
+    pub fn rates(&self) -> Option<&Rates> {
+        match self {
+            Self::Erring(rates) => Some(rates),
+            Self::Synthetic | Self::Script(_) => None,
         }
     }
 }

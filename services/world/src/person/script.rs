@@ -102,7 +102,7 @@ fn is_patience_over(tick: u64, memory: &mut PersonMemory) -> bool {
 /// The intention to carry out `chain` now; none while no part for it is within reach.
 fn intend(view: &View, chain: usize, manner: Manner) -> Option<Intention> {
     let (errand, kind) = (view.errand(chain), view.task.chains[chain].kind);
-    let subgoal = view.task.goal_of(chain, |goal| view.parts.is_available(goal, view.task));
+    let subgoal = view.goal(chain);
     if errand == Errand::Request {
         return Some(Intention { errand, chain, subgoal, part: None, manner });
     }

@@ -8,9 +8,9 @@ use rand::{Rng, RngExt};
 /// Share of the choices in which the person idles instead.
 const IDLES: f64 = 0.15;
 /// How long, ms.
-const IDLE_MS: std::ops::Range<u64> = 2000..6000;
+pub(super) const IDLE_MS: std::ops::Range<u64> = 2000..6000;
 /// How soon the person thinks again when there is nothing to do, ms.
-const RETHINK_MS: std::ops::Range<u64> = 200..400;
+pub(super) const RETHINK_MS: std::ops::Range<u64> = 200..400;
 
 /// What the person does next: takes what the robot offers, or one of the valid actions, or nothing for a while.
 pub(crate) fn choose<R: Rng>(view: &View, rng: &mut R) -> Choice {
@@ -25,7 +25,7 @@ pub(crate) fn choose<R: Rng>(view: &View, rng: &mut R) -> Choice {
 }
 
 /// One of the valid intentions, drawn with their weights.
-fn draw<R: Rng>(view: &View, rng: &mut R) -> Option<Intention> {
+pub(super) fn draw<R: Rng>(view: &View, rng: &mut R) -> Option<Intention> {
     let (mut drawn, mut total) = (None, 0.0);
     for chain in 0..view.task.chains.len() {
         for subgoal in 0..view.task.subgoals.len() {

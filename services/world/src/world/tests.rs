@@ -1,5 +1,6 @@
 #![allow(clippy::unwrap_used)]
 
+mod erring;
 mod fake_robot;
 mod partner;
 mod physics;

@@ -1,0 +1,126 @@
+use crate::WorldError;
+use std::ops::RangeInclusive;
+
+/// How often an erring partner does what, and how plainly: what `random:KEY=VALUE,...` sets.
+///
+/// | key | value | meaning |
+/// |---|---|---|
+/// | `idle` | share | of the choices, the person idles for 2 to 6 s instead |
+/// | `goal` | share | a part is taken for a subgoal whose turn has not come, or that is achieved |
+/// | `ask` | share | a part is asked for whose turn has not come |
+/// | `means` | share | a part is asked for that lies in the person's own workspace |
+/// | `clarity` | range in 0..1 | of a grip: 1 is the grip's own pitch, 0 the middle between it and the nearest other grip's |
+/// | `dropouts` | per second | bursts in which the tracker loses the hand, 50 to 300 ms long; at most 2 |
+/// | `movement` | range in ms | movement time of a reach, 300 to 3000 |
+///
+/// A share is from 0 to 1; the four shares add up to at most 1. A range is written `LOW..HIGH`. What is not named has
+/// its default value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rates {
+    pub(crate) idle: f64,
+    pub(crate) goal: f64,
+    pub(crate) ask: f64,
+    pub(crate) means: f64,
+    pub(crate) clarity: RangeInclusive<f64>,
+    pub(crate) dropouts: f64,
+    pub(crate) movement: RangeInclusive<f64>,
+}
+
+impl Default for Rates {
+    /// One choice in ten goes wrong. Movement time goes from the 5th percentile of real reaches to the longest one.
+    fn default() -> Self {
+        Self {
+            idle: 0.15,
+            goal: 0.06,
+            ask: 0.02,
+            means: 0.02,
+            clarity: 0.5..=1.0,
+            dropouts: 0.05,
+            movement: 429.0..=895.0,
+        }
+    }
+}
+
+const KEYS: &str = "idle, goal, ask, means, clarity, dropouts, movement";
+
+impl Rates {
+    /// Reads `KEY=VALUE,...`; an empty text leaves all defaults.
+    ///
+    /// # Errors
+    /// [`WorldError::Rate`] for an unknown key, or a value that is out of its range.
+    pub fn parse(text: &str) -> Result<Self, WorldError> {
+        let mut rates = Self::default();
+        for entry in text.split(',').filter(|entry| !entry.is_empty()) {
+            let fault = |expected: &str| WorldError::Rate { entry: entry.into(), expected: expected.into() };
+            let (key, value) = entry.split_once('=').ok_or_else(|| fault("KEY=VALUE"))?;
+            let number = |highest: f64, expected: &str| {
+                let number = value.parse().ok().filter(|number| (0.0..=highest).contains(number));
+                number.ok_or_else(|| fault(expected))
+            };
+            let share = || number(1.0, "a share from 0 to 1");
+            match key {
+                "idle" => rates.idle = share()?,
+                "goal" => rates.goal = share()?,
+                "ask" => rates.ask = share()?,
+                "means" => rates.means = share()?,
+                "dropouts" => rates.dropouts = number(2.0, "bursts per second, from 0 to 2")?,
+                "clarity" => {
+                    rates.clarity = range(value, 0.0..=1.0).ok_or_else(|| fault("LOW..HIGH within 0..1"))?;
+                }
+                "movement" => {
+                    let milliseconds = range(value, 300.0..=3000.0);
+                    rates.movement = milliseconds.ok_or_else(|| fault("LOW..HIGH within 300..3000 ms"))?;
+                }
+                _ => return Err(fault(&format!("one of the keys {KEYS}"))),
+            }
+        }
+        let sum = rates.idle + rates.goal + rates.ask + rates.means;
+        match sum <= 1.0 {
+            true => Ok(rates),
+            false => Err(WorldError::Rate {
+                entry: text.into(),
+                expected: format!("idle, goal, ask and means to add up to at most 1, not {sum:.2}"),
+            }),
+        }
+    }
+}
+
+/// `LOW..HIGH`, both within `limits`, in this order.
+fn range(text: &str, limits: RangeInclusive<f64>) -> Option<RangeInclusive<f64>> {
+    let (low, high) = text.split_once("..")?;
+    let (low, high) = (low.parse().ok()?, high.parse().ok()?);
+    (limits.contains(&low) && limits.contains(&high) && low <= high).then_some(low..=high)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn keys_set_their_rates_and_leave_the_others() {
+        let rates = Rates::parse("goal=0.2,clarity=0..0.25,movement=600..600").unwrap();
+        assert_eq!(
+            rates,
+            Rates { goal: 0.2, clarity: 0.0..=0.25, movement: 600.0..=600.0, ..Rates::default() }
+        );
+        assert_eq!(Rates::parse("").unwrap(), Rates::default());
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_with_what_was_expected() {
+        for (text, expected) in [
+            ("gaol=0.2", "random: \"gaol=0.2\"; expected one of the keys idle, goal"),
+            ("goal", "random: \"goal\"; expected KEY=VALUE"),
+            ("goal=1.2", "random: \"goal=1.2\"; expected a share from 0 to 1"),
+            ("goal=NaN", "expected a share"),
+            ("dropouts=-1", "expected bursts per second"),
+            ("clarity=0.9..0.2", "expected LOW..HIGH within 0..1"),
+            ("movement=10..500", "expected LOW..HIGH within 300..3000 ms"),
+            ("goal=0.6,means=0.6", "to add up to at most 1"),
+        ] {
+            let error = Rates::parse(text).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! `coact evaluate`: whole assemblies with random partners, counted.
+
+use crate::installation::Installation;
+use crate::partner;
+use anyhow::{Context, Result, bail};
+use clap::ValueEnum;
+use coact_evaluation::{
+    Ablation, Campaign, Comparison, Interval, Mind, Report, Share, Trial, draw_fluency, draw_leads,
+};
+use coact_joint_task::NetworkPlan;
+use coact_pipeline::{RunSettings, WorldMode};
+use coact_world::Partner;
+use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::{Path, PathBuf, absolute};
+use std::process::ExitCode;
+
+/// Runs whole assemblies in lockstep with the kinematic world, on all cores, and counts what the robot understood.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  coact evaluate                                      100 assemblies with a partner who errs now and then
+  coact evaluate --trials 10000 --out reports/random  ... many, with every action written down
+  coact evaluate --baseline reactive                  against the same robot without anticipation
+  coact evaluate --without oml                        without object memory
+  coact evaluate --partner random:goal=0.2,clarity=0.3..1
+
+Keys of random, after a colon, separated by commas:
+  idle, goal, ask, means   shares of the person's choices: idling, a part taken for a subgoal whose turn has not come
+                           or that is achieved, a part asked for out of turn, a part asked for that is at hand
+  clarity=LOW..HIGH        of a grip: 1 its own pitch, 0 the middle between it and the nearest other grip's
+  dropouts                 bursts per second in which the tracker loses the hand
+  movement=LOW..HIGH       movement time of a reach, ms
+
+Exit status: 0, or 2 for bad usage or configuration.")]
+pub struct Args {
+    /// The task [default: the toy vehicle]
+    #[arg(long, value_name = "FILE")]
+    task: Option<PathBuf>,
+    /// How many assemblies
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..))]
+    trials: u64,
+    /// Seed of the first assembly; the others follow
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Who works with the robot: random[:KEY=VALUE,...], synthetic, script:FILE or recorded:DIR
+    #[arg(long, default_value = "random")]
+    partner: String,
+    /// Evaluate another robot with the same seeds, and compare
+    #[arg(long, value_enum)]
+    baseline: Option<Baseline>,
+    /// Take a layer, or the noise, away from the network; may be repeated
+    #[arg(long, value_enum, value_name = "LAYER")]
+    without: Vec<Without>,
+    /// How many assemblies at the same time [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Print one JSON document instead of tables
+    #[arg(long)]
+    json: bool,
+    /// Write evaluation.json, every assembly as a line of JSON, and pictures to this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// The robot to compare with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Baseline {
+    /// Without anticipation: it answers what the person has done, never what the person is about to do
+    Reactive,
+}
+
+/// What is taken away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Without {
+    /// Object memory
+    Oml,
+    /// Common subgoals
+    Csgl,
+    /// Error monitoring
+    Eml,
+    /// The decision layers' noise
+    Noise,
+}
+
+/// What `evaluation.json` holds.
+#[derive(Debug, Serialize)]
+struct Evaluation {
+    task: String,
+    partner: String,
+    seed: u64,
+    trials: u64,
+    report: Report,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    baseline: Option<Report>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    comparison: Option<Comparison>,
+}
+
+/// Runs all assemblies and prints what came of them.
+///
+/// # Errors
+/// A file, partner or setting is refused, or the folder cannot be written to.
+pub fn run(args: Args) -> Result<ExitCode> {
+    let settings = settings(&args)?;
+    let (task, _) = NetworkPlan::load(&settings.task)?;
+    Partner::load(&settings.partner, &task, settings.seed)?;
+    if let Some(out) = &args.out {
+        std::fs::create_dir_all(out)
+            .with_context(|| format!("--out {}: expected a folder that can be written to", out.display()))?;
+    }
+    let mind = Mind { reactive: false, without: args.without.iter().map(|layer| layer.ablation()).collect() };
+    let trials = assemble(&args, &settings, &mind, "assemblies")?;
+    let baseline = match args.baseline {
+        None => None,
+        Some(Baseline::Reactive) => {
+            let mind = Mind { reactive: true, ..mind.clone() };
+            let trials = assemble(&args, &settings, &mind, "without anticipation")?;
+            Some((Report::new(&mind, &trials), trials))
+        }
+    };
+    let evaluation = Evaluation {
+        task: task.name.clone(),
+        partner: settings.partner.clone(),
+        seed: args.seed,
+        trials: args.trials,
+        report: Report::new(&mind, &trials),
+        comparison: baseline.as_ref().map(|(_, rivals)| Comparison::new(&trials, rivals)),
+        baseline: baseline.as_ref().map(|(report, _)| report.clone()),
+    };
+    if let Some(out) = &args.out {
+        write(out, &evaluation, &trials, baseline.as_ref().map(|(_, rivals)| rivals.as_slice()))?;
+    }
+    match args.json {
+        true => println!("{}", serde_json::to_string_pretty(&evaluation)?),
+        false => show(&evaluation),
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+impl Without {
+    fn ablation(self) -> Ablation {
+        match self {
+            Self::Oml => Ablation::Oml,
+            Self::Csgl => Ablation::Csgl,
+            Self::Eml => Ablation::Eml,
+            Self::Noise => Ablation::Noise,
+        }
+    }
+}
+
+fn settings(args: &Args) -> Result<RunSettings> {
+    let Installation { configuration, .. } = Installation::find()?;
+    let below = |path: &str| configuration.join(path);
+    if args.seed.checked_add(args.trials).is_none() {
+        bail!("--seed {}: too large for {} trials", args.seed, args.trials);
+    }
+    Ok(RunSettings {
+        task: absolute(args.task.clone().unwrap_or_else(|| below("tasks/toy-vehicle.toml")))?,
+        robot: below("robots/aros.toml"),
+        model: below("perception/preshape.toml"),
+        pipeline: below("pipeline.toml"),
+        report: PathBuf::new(),
+        seed: args.seed,
+        partner: partner::absolute(&args.partner),
+        world: WorldMode::Kinematic,
+    })
+}
+
+fn assemble(args: &Args, settings: &RunSettings, mind: &Mind, what: &'static str) -> Result<Vec<Trial>> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = args.threads.map_or(cores, usize::from);
+    let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left")?;
+    let bar = ProgressBar::new(args.trials).with_style(style).with_message(what);
+    let campaign = Campaign { settings, mind, trials: args.trials, threads };
+    let trials = coact_evaluation::run(&campaign, || bar.inc(1));
+    bar.finish_and_clear();
+    Ok(trials?)
+}
+
+fn write(out: &Path, evaluation: &Evaluation, trials: &[Trial], baseline: Option<&[Trial]>) -> Result<()> {
+    let save = |name: &str, text: String| {
+        let path = out.join(name);
+        std::fs::write(&path, text).with_context(|| format!("{}: cannot be written", path.display()))
+    };
+    save("evaluation.json", serde_json::to_string_pretty(evaluation)?)?;
+    save("trials.jsonl", lines(trials)?)?;
+    if let Some(baseline) = baseline {
+        save("baseline.jsonl", lines(baseline)?)?;
+    }
+    draw_leads(trials, &out.join("leads.svg"))?;
+    let mut minds = vec![("with anticipation", &evaluation.report)];
+    minds.extend(evaluation.baseline.as_ref().map(|report| ("without", report)));
+    draw_fluency(&minds, &out.join("fluency.svg"))?;
+    Ok(())
+}
+
+fn lines(trials: &[Trial]) -> Result<String> {
+    let mut text = String::new();
+    for trial in trials {
+        writeln!(text, "{}", serde_json::to_string(trial)?)?;
+    }
+    Ok(text)
+}
+
+fn show(evaluation: &Evaluation) {
+    let Evaluation { task, partner, seed, trials, report, baseline, comparison } = evaluation;
+    println!("{task}: {trials} assemblies with {partner}, seeds from {seed}; 95 % intervals");
+    let mut table = Table::new();
+    table.load_style(UTF8_HORIZONTAL_ONLY);
+    let one = rows(report);
+    match baseline.as_ref().map(rows) {
+        None => {
+            table.set_header(["figure", "value"]);
+            table.add_rows(one.into_iter().map(|(name, value)| [name, value]));
+        }
+        Some(other) => {
+            table.set_header(["figure", "with anticipation", "without"]);
+            let both = one.into_iter().zip(other);
+            table.add_rows(both.map(|((name, value), (_, rival))| [name, value, rival]));
+        }
+    }
+    println!("{table}");
+    if let Some(Comparison { pairs, .. }) = comparison {
+        println!("with against without anticipation, {pairs} assemblies that both completed:");
+    }
+    for (name, figure) in comparison.iter().flat_map(|comparison| {
+        [
+            ("functional delay, ratio", comparison.functional_delay_ratio),
+            ("functional delay, difference", comparison.functional_delay_difference),
+            ("waiting of the person, ratio", comparison.waiting_ratio),
+            ("task time, ratio", comparison.time_ratio),
+        ]
+    }) {
+        println!("  {name:30} {}", interval(figure, 1.0, 3, ""));
+    }
+}
+
+fn rows(report: &Report) -> Vec<(String, String)> {
+    let row = |name: &str, value: String| (name.to_owned(), value);
+    let percent = |figure: Option<Interval>| interval(figure, 100.0, 1, " %");
+    let lead =
+        report.lead_ms.map_or("-".into(), |lead| format!("{:.0} {:.0} {:.0}", lead.p5, lead.p50, lead.p95));
+    let mut rows = vec![
+        row("completed", share(&report.completed)),
+        row("deadlocks", share(&report.deadlocks)),
+        row("task time, s", interval(report.seconds, 1.0, 1, "")),
+        row("goal inferred rightly at grasp", share(&report.right)),
+        row("  wrongly", share(&report.wrong)),
+        row("  not", share(&report.absent)),
+        row("  rightly, of wrong actions", share(&report.right_of_errors)),
+        row("answer decided before grasp", share(&report.anticipated)),
+        row("decision lead p5 p50 p95, ms", lead),
+        row("  mean", interval(report.mean_lead_ms, 1.0, 0, "")),
+    ];
+    for tally in &report.errors {
+        let late = format!("; {} late, {} missed", tally.late.count, tally.missed.count);
+        rows.push(row(&format!("noticed in time: {}", tally.kind.name()), share(&tally.in_time) + &late));
+    }
+    rows.extend([
+        row("false alarms per valid action", share(&report.false_alarms)),
+        row("ticks with two peaks", report.double_peaks.to_string()),
+        row("human idle", percent(report.human_idle)),
+        row("robot idle", percent(report.robot_idle)),
+        row("concurrent activity", percent(report.concurrent)),
+        row("functional delay", percent(report.functional_delay)),
+        row("person waits within actions", percent(report.human_waits)),
+    ]);
+    rows
+}
+
+fn share(share: &Share) -> String {
+    let Share { count, of, share, low, high } = share;
+    match of {
+        0 => "none".into(),
+        _ => format!("{:.1} % ({:.1} to {:.1}), {count} of {of}", 100.0 * share, 100.0 * low, 100.0 * high),
+    }
+}
+
+fn interval(figure: Option<Interval>, scale: f64, digits: usize, unit: &str) -> String {
+    figure.map_or("-".into(), |Interval { value, low, high, .. }| {
+        let [value, low, high] = [value, low, high].map(|figure| format!("{:.digits$}", scale * figure));
+        format!("{value}{unit} ({low} to {high})")
+    })
+}

@@ -1,0 +1,71 @@
+use crate::observer::Observer;
+use crate::{Mind, Trial};
+use coact_lockstep::{Lockstep, LockstepError};
+use coact_pipeline::RunSettings;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// An assembly without a new subgoal for so long is given up, ticks.
+const STALLED: u64 = 60_000;
+/// The longest assembly that is watched, ticks.
+const LONGEST: u64 = 600_000;
+
+/// Many assemblies.
+#[derive(Debug, Clone)]
+pub struct Campaign<'a> {
+    /// Task, robot, model, partner; the seed is that of the first assembly, the next ones follow.
+    pub settings: &'a RunSettings,
+    /// The robot's mind.
+    pub mind: &'a Mind,
+    /// How many assemblies.
+    pub trials: u64,
+    /// How many at the same time.
+    pub threads: usize,
+}
+
+/// Runs all assemblies in parallel and returns them in the order of their seeds; `done` is called after each.
+///
+/// # Errors
+/// A file or setting that a stage refuses.
+pub fn run(campaign: &Campaign, done: impl Fn() + Sync) -> Result<Vec<Trial>, LockstepError> {
+    let next = AtomicU64::new(0);
+    let work = || {
+        let mut trials = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            if index >= campaign.trials {
+                return Ok(trials);
+            }
+            trials.push(assemble(campaign, campaign.settings.seed.wrapping_add(index))?);
+            done();
+        }
+    };
+    let gathered: Result<Vec<Vec<Trial>>, LockstepError> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..campaign.threads.max(1)).map(|_| scope.spawn(work)).collect();
+        let joined = workers.into_iter().map(|worker| worker.join());
+        joined.map(|trials| trials.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
+    });
+    let mut trials: Vec<Trial> = gathered?.into_iter().flatten().collect();
+    trials.sort_by_key(|trial| trial.seed.wrapping_sub(campaign.settings.seed));
+    Ok(trials)
+}
+
+/// One assembly, until it is complete, nothing is achieved for a minute, or ten minutes are over.
+fn assemble(campaign: &Campaign, seed: u64) -> Result<Trial, LockstepError> {
+    let settings = RunSettings { seed, ..campaign.settings.clone() };
+    let mut stages = Lockstep::with_plan(&settings, |plan| campaign.mind.of(plan))?;
+    let (task, plan) = (stages.task().clone(), stages.plan().clone());
+    let mut observer = Observer::new(&task, &plan, seed);
+    let (mut achieved, mut advanced) = (0, 0);
+    while stages.ticks() < LONGEST && stages.ticks() < advanced + STALLED {
+        stages.step();
+        observer.tick(&stages);
+        if stages.truth.achieved != achieved {
+            (achieved, advanced) = (stages.truth.achieved, stages.ticks());
+        }
+        if achieved.count_ones() as usize == task.subgoals.len() {
+            return Ok(observer.finish(&stages, false));
+        }
+    }
+    let stalled = stages.ticks() < LONGEST;
+    Ok(observer.finish(&stages, stalled))
+}

@@ -1,0 +1,44 @@
+use crate::statistics::Interval;
+use crate::{Fluency, Trial};
+use serde::Serialize;
+
+/// One mind against another that met the same partners. Pairs are those seeds whose assembly both completed; a ratio is
+/// that of the means, with its paired bootstrap interval.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Pairs.
+    pub pairs: usize,
+    /// Functional delay, the one's against the other's; none where the other's is not above 0.
+    pub functional_delay_ratio: Option<Interval>,
+    /// Functional delay, the one's minus the other's, as a share of the task time.
+    pub functional_delay_difference: Option<Interval>,
+    /// How long the person waits for the robot within actions, the one's against the other's.
+    pub waiting_ratio: Option<Interval>,
+    /// Task time, the one's against the other's.
+    pub time_ratio: Option<Interval>,
+}
+
+impl Comparison {
+    /// Compares `one` with the `other`.
+    pub fn new(one: &[Trial], other: &[Trial]) -> Self {
+        let partner = |trial: &Trial| other.iter().find(|rival| rival.seed == trial.seed);
+        let both = one.iter().filter_map(|trial| Some((trial, partner(trial)?)));
+        let pairs: Vec<(&Trial, &Trial)> = both
+            .filter(|(trial, rival)| trial.completed_ms.is_some() && rival.completed_ms.is_some())
+            .collect();
+        let figures = |figure: &dyn Fn(&Trial) -> f64| -> Vec<(f64, f64)> {
+            pairs.iter().map(|(trial, rival)| (figure(trial), figure(rival))).collect()
+        };
+        let fluency = |figure: fn(&Fluency) -> f64| figures(&|trial| figure(&trial.fluency));
+        let delays = fluency(|fluency| fluency.functional_delay);
+        let differences: Vec<f64> = delays.iter().map(|(one, other)| one - other).collect();
+        let waits = |trial: &Trial| trial.fluency.human_waits * trial.ended_ms as f64;
+        Self {
+            pairs: pairs.len(),
+            functional_delay_ratio: Interval::ratio(&delays),
+            functional_delay_difference: Interval::mean(&differences),
+            waiting_ratio: Interval::ratio(&figures(&waits)),
+            time_ratio: Interval::ratio(&figures(&|trial| trial.ended_ms as f64)),
+        }
+    }
+}

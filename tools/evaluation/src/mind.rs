@@ -1,0 +1,118 @@
+use coact_joint_task::{Channel, NetworkPlan, Synapse};
+use coact_messages::LayerKind;
+use serde::Serialize;
+
+/// How the robot's network differs from the one that the task's files make.
+///
+/// The reactive robot is the baseline: the links from predicted goals are cut, all else is the same. It is the
+/// strictest robot that can still do its part, for it answers what the person *has* done:
+/// - A grip counts from the moment at which the part is in the person's hand. The shape and the way of a hand that
+///   still reaches are kept from AOL: evidence of a grip passes a gate that sight of the held part opens.
+/// - A gesture counts once the hand is no longer on its way.
+/// - A hand that is hidden shows nothing, so that nothing is inferred from it.
+/// - An inferred goal does not count as achieved before it is: synapses from IL to CSGL are removed.
+///
+/// What the person says, what lies where and the robot's own initiative are no predictions and stay.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct Mind {
+    /// Without anticipation.
+    pub reactive: bool,
+    /// Layers, or the noise, that are taken away.
+    pub without: Vec<Ablation>,
+}
+
+/// What can be taken away from the network.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Ablation {
+    /// Object memory: what lies where.
+    Oml,
+    /// Common subgoals, both sublayers: the plan, and what is achieved.
+    Csgl,
+    /// Error monitoring.
+    Eml,
+    /// The noise in the decision layers.
+    Noise,
+}
+
+impl Mind {
+    /// The network of this mind.
+    pub fn of(&self, mut plan: NetworkPlan) -> NetworkPlan {
+        if self.reactive {
+            await_the_deed(&mut plan);
+        }
+        for ablation in &self.without {
+            match ablation {
+                Ablation::Oml => {
+                    silence(&mut plan, &[LayerKind::ObjectMemoryRobot, LayerKind::ObjectMemoryPerson]);
+                }
+                Ablation::Csgl => {
+                    silence(&mut plan, &[LayerKind::SubgoalsAchieved, LayerKind::SubgoalsAvailable]);
+                }
+                Ablation::Eml => silence(&mut plan, &[LayerKind::ErrorMonitoring]),
+                Ablation::Noise => plan.layers.iter_mut().for_each(|layer| layer.noise = 0.0),
+            }
+        }
+        plan.synapses.sort_by_key(|synapse| (synapse.to, synapse.from));
+        plan
+    }
+}
+
+/// Removes every synapse of the layers: they stay at rest and say nothing.
+fn silence(plan: &mut NetworkPlan, kinds: &[LayerKind]) {
+    let rows: Vec<_> = kinds.iter().map(|kind| plan.layer(*kind).populations.clone()).collect();
+    let apart =
+        |synapse: &Synapse| !rows.iter().any(|row| row.contains(&synapse.from) || row.contains(&synapse.to));
+    plan.synapses.retain(apart);
+}
+
+/// Cuts what runs ahead of the person's deeds.
+fn await_the_deed(plan: &mut NetworkPlan) {
+    let rows = |kind: LayerKind| plan.layer(kind).populations.clone();
+    let (acts, goals) = (rows(LayerKind::ActionObservation), rows(LayerKind::Intention));
+    let subgoals = [rows(LayerKind::SubgoalsAchieved), rows(LayerKind::SubgoalsAvailable)];
+    let hidden =
+        |synapse: &Synapse| acts.contains(&synapse.to) && plan.populations[synapse.to].role == "hidden";
+    let predicted = |synapse: &Synapse| {
+        goals.contains(&synapse.from) && subgoals.iter().any(|row| row.contains(&synapse.to))
+    };
+    let kept = plan.synapses.iter().filter(|synapse| !hidden(synapse) && !predicted(synapse));
+    let mut synapses: Vec<Synapse> = kept.copied().collect();
+    let rule = plan.reasons.len();
+    let mut gate = |from: Option<usize>, to: usize, weight: f64| {
+        synapses.extend(from.map(|from| Synapse { from, to, weight, rule }));
+    };
+    for act in acts {
+        let strength = evidence(plan, act);
+        let meaning = &plan.populations[act];
+        match (meaning.role, meaning.kind) {
+            ("grasp", Some(kind)) => {
+                gate(channel(plan, |own, _| own == Channel::Always), act, -strength);
+                gate(channel(plan, |own, _| own == Channel::PersonHolds(kind)), act, strength);
+            }
+            ("gesture", _) => {
+                let reach = channel(plan, |own, role| matches!(own, Channel::Act(_)) && role == "reach");
+                gate(reach, act, -strength);
+            }
+            _ => {}
+        }
+    }
+    plan.synapses = synapses;
+    plan.reasons.push("a robot that does not anticipate waits for the deed".into());
+}
+
+/// Weight with which perception's evidence drives an act.
+fn evidence(plan: &NetworkPlan, act: usize) -> f64 {
+    let from_acts = |synapse: &&Synapse| {
+        let channel =
+            synapse.from.checked_sub(plan.populations.len()).map(|index| plan.channels[index].channel);
+        synapse.to == act && matches!(channel, Some(Channel::Act(_)))
+    };
+    plan.synapses.iter().filter(from_acts).map(|synapse| synapse.weight).sum()
+}
+
+/// Place of a channel in the row of populations and channels.
+fn channel(plan: &NetworkPlan, is_it: impl Fn(Channel, &str) -> bool) -> Option<usize> {
+    let index = plan.channels.iter().position(|own| is_it(own.channel, own.meaning.role))?;
+    Some(plan.populations.len() + index)
+}

@@ -1,0 +1,247 @@
+use crate::activity::Activity;
+use crate::fluency::FluencyAccount;
+use crate::trial::{Alarm, Detection, DoublePeak, ErrorKind, Inference, PartnerAction, Trial};
+use coact_joint_task::{Act, NetworkPlan, Population, Task};
+use coact_lockstep::Lockstep;
+use coact_messages::{FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
+use coact_monitor::{Anticipation, Event, Intentions};
+
+/// Layers in which at most one peak may stand.
+const DECISIONS: [LayerKind; 4] = [
+    LayerKind::ActionSimulation,
+    LayerKind::Intention,
+    LayerKind::ErrorMonitoring,
+    LayerKind::ActionExecution,
+];
+/// A peak whose signal is above this has formed; two below it are a change from one to the other.
+const FORMED: f64 = 0.5;
+/// Signals from which a population is worth telling.
+const SHOWN: f64 = 0.05;
+
+/// Watches one assembly, tick by tick, and writes down what it was like.
+#[derive(Debug)]
+pub(crate) struct Observer<'a> {
+    task: &'a Task,
+    plan: &'a NetworkPlan,
+    anticipation: Anticipation,
+    fluency: FluencyAccount,
+    trial: Trial,
+    open: Option<OpenAction>,
+    /// Populations of EML whose peaks stand.
+    alarmed: Vec<bool>,
+}
+
+/// The person's present action.
+#[derive(Debug, Clone)]
+struct OpenAction {
+    /// Its populations of IL and EML: what should be inferred, and what should be detected.
+    goal: Option<usize>,
+    errors: Vec<usize>,
+}
+
+impl<'a> Observer<'a> {
+    pub fn new(task: &'a Task, plan: &'a NetworkPlan, seed: u64) -> Self {
+        Self {
+            anticipation: Anticipation::new(task, Intentions::from(plan)),
+            fluency: FluencyAccount::default(),
+            trial: Trial {
+                seed,
+                completed_ms: None,
+                ended_ms: 0,
+                stalled: false,
+                last_fields: Vec::new(),
+                achieved: Vec::new(),
+                actions: Vec::new(),
+                false_alarms: Vec::new(),
+                double_peaks: 0,
+                first_double: None,
+                fluency: crate::Fluency::default(),
+            },
+            open: None,
+            alarmed: vec![false; plan.populations.len()],
+            task,
+            plan,
+        }
+    }
+
+    /// Takes notice of one tick.
+    pub fn tick(&mut self, stages: &Lockstep) {
+        let (truth, frame) = (&*stages.truth, &*stages.frame);
+        self.fluency.tick(Activity::now(self.task, truth, &stages.command));
+        let mut events = Vec::new();
+        self.anticipation.observe(truth, frame, &mut events);
+        self.keep(&events);
+        self.follow_action(truth, frame);
+        self.look_for_alarms(truth, frame);
+        self.look_for_doubles(frame);
+    }
+
+    /// The record of the assembly, which ends now.
+    pub fn finish(mut self, stages: &Lockstep, stalled: bool) -> Trial {
+        let mut events = Vec::new();
+        self.anticipation.finish(&mut events);
+        self.keep(&events);
+        self.close();
+        let achieved = stages.truth.achieved;
+        let done = |goal: &usize| achieved & (1 << goal) != 0;
+        let names =
+            (0..self.task.subgoals.len()).filter(done).map(|goal| self.task.subgoals[goal].name.clone());
+        let achieved: Vec<_> = names.collect();
+        let complete = achieved.len() == self.task.subgoals.len();
+        let last_fields = if complete { Vec::new() } else { self.shown(&stages.frame) };
+        Trial {
+            completed_ms: complete.then_some(stages.ticks()),
+            ended_ms: stages.ticks(),
+            stalled,
+            last_fields,
+            achieved,
+            fluency: self.fluency.shares(),
+            ..self.trial
+        }
+    }
+
+    /// Writes down how an action was answered.
+    fn keep(&mut self, events: &[Event]) {
+        for answer in events.iter().filter_map(Event::as_action) {
+            let own = self.trial.actions.iter_mut().find(|own| own.number == answer.action);
+            if let Some(own) = own.filter(|own| own.error.is_none()) {
+                own.lead_ms = answer.lead_ms.filter(|_| answer.correct);
+                own.decided.clone_from(&answer.decided);
+                own.answered = answer.correct;
+            }
+        }
+    }
+
+    fn follow_action(&mut self, truth: &Truth, frame: &FieldFrame) {
+        let last = self.trial.actions.last().map_or(0, |action| action.number);
+        if truth.actions != last {
+            self.close();
+            self.begin(truth);
+        } else if truth.phase == PartnerPhase::Idle as u32 {
+            self.close();
+        }
+        let Some(open) = &self.open else { return };
+        let inferred = self.highest(LayerKind::Intention, frame);
+        let grasped =
+            self.trial.actions.last().is_some_and(|own| own.grasp_ms.is_none()) && truth.grasp_cycle > 0;
+        let fields = if grasped { self.shown(frame) } else { Vec::new() };
+        let Some(action) = self.trial.actions.last_mut() else { return };
+        let rose = open.errors.iter().map(|&error| frame.since[error]).filter(|&since| since > 0).min();
+        action.detected_ms = action.detected_ms.or(rose.map(|since| since.max(action.onset_ms)));
+        if grasped {
+            action.grasp_ms = Some(truth.grasp_cycle);
+            action.inference = Some(match inferred {
+                None => Inference::Absent,
+                Some(_) if inferred == open.goal => Inference::Right,
+                Some(_) => Inference::Wrong,
+            });
+            action.inferred = inferred.map(|goal| self.plan.populations[goal].label.clone());
+            action.fields = fields;
+        }
+    }
+
+    fn begin(&mut self, truth: &Truth) {
+        let (chain, subgoal) = (truth.chain as usize, truth.subgoal as usize);
+        let (Some(rule), Some(goal)) = (self.task.chains.get(chain), self.task.subgoals.get(subgoal)) else {
+            return;
+        };
+        let asks = matches!(rule.act, Act::Gesture(_));
+        let error = match truth.error {
+            error if error == PartnerError::None as u32 => None,
+            error if error == PartnerError::AtHand as u32 => Some(ErrorKind::AtHand),
+            _ if asks => Some(ErrorKind::Asked),
+            error if error == PartnerError::Done as u32 => Some(ErrorKind::Done),
+            _ => Some(ErrorKind::Early),
+        };
+        let told = |meaning: &Population| match error {
+            None => false,
+            Some(ErrorKind::AtHand) => meaning.role == "means" && meaning.kind == Some(rule.kind),
+            Some(ErrorKind::Asked) => meaning.role == "goal",
+            Some(ErrorKind::Early | ErrorKind::Done) => {
+                meaning.role == "goal" && meaning.subgoal == Some(subgoal)
+            }
+        };
+        let row = self.plan.layer(LayerKind::ErrorMonitoring).populations.clone();
+        let errors = row.filter(|&index| told(&self.plan.populations[index])).collect();
+        self.open = Some(OpenAction { goal: self.plan.goal(chain, subgoal), errors });
+        self.trial.actions.push(PartnerAction {
+            number: truth.actions,
+            chain: format!("{}: {}", rule.name, self.task.kinds[rule.kind].name),
+            subgoal: goal.name.clone(),
+            error,
+            onset_ms: truth.onset_cycle,
+            grasp_ms: None,
+            inferred: None,
+            inference: None,
+            lead_ms: None,
+            decided: None,
+            answered: false,
+            detected_ms: None,
+            detection: None,
+            fields: Vec::new(),
+        });
+    }
+
+    fn close(&mut self) {
+        let (Some(_), Some(action)) = (self.open.take(), self.trial.actions.last_mut()) else { return };
+        let Some(grasp) = action.grasp_ms.filter(|_| action.error.is_some()) else { return };
+        action.detection = Some(match action.detected_ms {
+            Some(detected) if detected <= grasp => Detection::InTime,
+            Some(_) => Detection::Late,
+            None => Detection::Missed,
+        });
+    }
+
+    /// A peak in EML that rises while the person does nothing wrong; a part that the robot lost is its own affair.
+    fn look_for_alarms(&mut self, truth: &Truth, frame: &FieldFrame) {
+        let row = self.plan.layer(LayerKind::ErrorMonitoring).populations.clone();
+        for index in row.filter(|&index| self.plan.populations[index].role != "loss") {
+            let stands = frame.since[index] != 0;
+            let rises = stands && !std::mem::replace(&mut self.alarmed[index], stands);
+            let action = self.open.as_ref().and(self.trial.actions.last());
+            if rises && action.is_none_or(|action| action.error.is_none()) {
+                let (error, action) =
+                    (self.plan.populations[index].label.clone(), action.map(|own| own.number));
+                let (at_ms, fields) = (truth.header.cycle, self.shown(frame));
+                self.trial.false_alarms.push(Alarm { at_ms, error, action, fields });
+            }
+        }
+    }
+
+    fn look_for_doubles(&mut self, frame: &FieldFrame) {
+        for layer in DECISIONS {
+            let formed = |index: &usize| frame.signal[*index] > FORMED;
+            if self.plan.layer(layer).populations.clone().filter(formed).count() < 2 {
+                continue;
+            }
+            self.trial.double_peaks += 1;
+            if self.trial.first_double.is_none() {
+                let peaks = self.plan.layer(layer).populations.clone().filter(formed);
+                self.trial.first_double = Some(DoublePeak {
+                    at_ms: frame.header.cycle,
+                    layer: layer.name().into(),
+                    peaks: peaks.map(|index| self.plan.populations[index].label.clone()).collect(),
+                });
+            }
+        }
+    }
+
+    /// The population of `layer` with the highest peak.
+    fn highest(&self, layer: LayerKind, frame: &FieldFrame) -> Option<usize> {
+        let peaks = self.plan.layer(layer).populations.clone().filter(|&index| frame.since[index] != 0);
+        peaks.max_by(|&one, &other| frame.signal[one].total_cmp(&frame.signal[other]))
+    }
+
+    /// All populations that are active: layer, name, signal.
+    fn shown(&self, frame: &FieldFrame) -> Vec<String> {
+        let tell = |layer: &coact_joint_task::LayerPlan| {
+            let (name, row) = (layer.kind.name(), layer.populations.clone());
+            let active = row.filter(|&index| frame.signal[index] > SHOWN);
+            let told = |index: usize| {
+                format!("{name} {} {:.2}", self.plan.populations[index].label, frame.signal[index])
+            };
+            active.map(told).collect::<Vec<_>>()
+        };
+        self.plan.layers.iter().flat_map(tell).collect()
+    }
+}

@@ -1,0 +1,140 @@
+use crate::Fluency;
+use serde::Serialize;
+
+/// What one assembly was like. Times are ms from its start.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Trial {
+    /// Seed of partner, sensors and noise.
+    pub seed: u64,
+    /// When the last part came into its place.
+    pub completed_ms: Option<u64>,
+    /// How long it was watched.
+    pub ended_ms: u64,
+    /// It was given up because no subgoal had been achieved for a minute, though one was open: a deadlock.
+    pub stalled: bool,
+    /// What the layers showed in the end of an assembly that was not completed.
+    pub last_fields: Vec<String>,
+    /// Subgoals that were then achieved, by name.
+    pub achieved: Vec<String>,
+    /// The person's actions.
+    pub actions: Vec<PartnerAction>,
+    /// Errors that were none.
+    pub false_alarms: Vec<Alarm>,
+    /// Ticks with two peaks in one decision layer.
+    pub double_peaks: u64,
+    /// The first of them.
+    pub first_double: Option<DoublePeak>,
+    /// Until completion, or the end.
+    pub fluency: Fluency,
+}
+
+/// One of the person's actions, and what the robot made of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PartnerAction {
+    /// From 1.
+    pub number: u32,
+    /// What the person did, e.g. "insert: wheel".
+    pub chain: String,
+    /// The subgoal that was meant.
+    pub subgoal: String,
+    /// What was wrong with it.
+    pub error: Option<ErrorKind>,
+    /// Reach onset.
+    pub onset_ms: u64,
+    /// Grasp completion, or when the gesture was fully shown; none when it was broken off before.
+    pub grasp_ms: Option<u64>,
+    /// What stood in IL at grasp completion.
+    pub inferred: Option<String>,
+    /// Whether that was what was meant.
+    pub inference: Option<Inference>,
+    /// Grasp completion minus the decision for the complementary action; none for errors, and without a decision.
+    pub lead_ms: Option<i64>,
+    /// The decision that counts; none for errors.
+    pub decided: Option<String>,
+    /// Whether it was the complementary action.
+    pub answered: bool,
+    /// When the right error's peak rose in EML.
+    pub detected_ms: Option<u64>,
+    /// Whether that was in time; none for valid actions, and for what was broken off before the grasp.
+    pub detection: Option<Detection>,
+    /// What the layers showed at grasp completion.
+    pub fields: Vec<String>,
+}
+
+/// What is wrong with an action.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ErrorKind {
+    /// Intention: the subgoal's turn has not come, shown by a grip.
+    Early,
+    /// Intention: the subgoal is achieved already.
+    Done,
+    /// Intention: a part is asked for whose turn has not come. A gesture names no part: that an error is detected counts,
+    /// whatever the part.
+    Asked,
+    /// Means: a part is asked for that lies in the person's own workspace.
+    AtHand,
+}
+
+impl ErrorKind {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Early, Self::Done, Self::Asked, Self::AtHand];
+
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Early => "taken too early",
+            Self::Done => "taken for what is done",
+            Self::Asked => "asked for too early",
+            Self::AtHand => "asked for what is at hand",
+        }
+    }
+}
+
+/// What was inferred of an action, at grasp completion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Inference {
+    /// The goal that was meant.
+    Right,
+    /// Another one.
+    Wrong,
+    /// None.
+    Absent,
+}
+
+/// Whether an error was noticed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Detection {
+    /// Before the grasp was complete.
+    InTime,
+    /// Later, in the same action.
+    Late,
+    /// Not in this action.
+    Missed,
+}
+
+/// A peak in EML for which there was no reason.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Alarm {
+    /// When it rose.
+    pub at_ms: u64,
+    /// The population.
+    pub error: String,
+    /// Number of the valid action during which it rose; none while the person rested.
+    pub action: Option<u32>,
+    /// What the layers showed.
+    pub fields: Vec<String>,
+}
+
+/// Two peaks in one decision layer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DoublePeak {
+    /// When.
+    pub at_ms: u64,
+    /// Where.
+    pub layer: String,
+    /// The populations.
+    pub peaks: Vec<String>,
+}

@@ -1,0 +1,79 @@
+//! Assemblies with random partners, judged.
+#![allow(clippy::unwrap_used)]
+
+use coact_evaluation::{Ablation, Campaign, Comparison, Mind, Report, Trial, draw_fluency, draw_leads, run};
+use coact_joint_task::NetworkPlan;
+use coact_messages::LayerKind;
+use coact_pipeline::{RunSettings, WorldMode};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+fn settings(partner: &str) -> RunSettings {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
+    RunSettings {
+        task: folder.join("tasks/toy-vehicle.toml"),
+        robot: folder.join("robots/aros.toml"),
+        model: folder.join("perception/preshape.toml"),
+        pipeline: folder.join("pipeline.toml"),
+        report: PathBuf::new(),
+        seed: 1,
+        partner: partner.into(),
+        world: WorldMode::Kinematic,
+    }
+}
+
+fn trials(partner: &str, mind: &Mind, trials: u64, threads: usize) -> Vec<Trial> {
+    run(&Campaign { settings: &settings(partner), mind, trials, threads }, || {}).unwrap()
+}
+
+#[test]
+fn same_seeds_give_the_same_trials_with_any_number_of_threads() {
+    let done = AtomicUsize::new(0);
+    let (settings, mind) = (settings("random:goal=0.2"), Mind::default());
+    let campaign = Campaign { settings: &settings, mind: &mind, trials: 3, threads: 2 };
+    let one = run(&campaign, || _ = done.fetch_add(1, Ordering::Relaxed)).unwrap();
+    assert_eq!(done.into_inner(), 3);
+    assert_eq!(one.iter().map(|trial| trial.seed).collect::<Vec<_>>(), [1, 2, 3]);
+    assert_eq!(one, trials("random:goal=0.2", &mind, 3, 1));
+    assert!(one.iter().all(|trial| trial.actions.len() >= 3), "every action is written down: {one:?}");
+    assert!(one.iter().flat_map(|trial| &trial.actions).any(|action| action.error.is_some()));
+}
+
+#[test]
+fn a_robot_that_waits_for_the_deed_decides_later_and_lets_the_person_wait_longer() {
+    let reactive = Mind { reactive: true, ..Mind::default() };
+    let (one, other) = (trials("synthetic", &Mind::default(), 4, 2), trials("synthetic", &reactive, 4, 2));
+    let (with, without) = (Report::new(&Mind::default(), &one), Report::new(&reactive, &other));
+    assert!(with.anticipated.share > 0.8, "{:?}", with.anticipated);
+    assert!(without.anticipated.share < 0.3, "{:?}", without.anticipated);
+    let waiting = Comparison::new(&one, &other).waiting_ratio.unwrap();
+    assert!(waiting.value < 1.0, "{waiting:?}");
+    let folder = tempfile::tempdir().unwrap();
+    draw_leads(&one, &folder.path().join("leads.svg")).unwrap();
+    draw_fluency(&[("with", &with), ("without", &without)], &folder.path().join("fluency.svg")).unwrap();
+    let picture = std::fs::read_to_string(folder.path().join("fluency.svg")).unwrap();
+    assert!(picture.contains("functional delay"));
+}
+
+#[test]
+fn what_is_taken_away_is_silent_and_all_else_stays() {
+    let (_, plan) = NetworkPlan::load(&settings("synthetic").task).unwrap();
+    let without = |ablation| Mind { without: vec![ablation], ..Mind::default() }.of(plan.clone());
+    let quiet = without(Ablation::Eml);
+    let row = quiet.layer(LayerKind::ErrorMonitoring).populations.clone();
+    assert!(quiet.synapses.iter().all(|own| !row.contains(&own.from) && !row.contains(&own.to)));
+    assert!(!quiet.synapses.is_empty() && quiet.synapses.len() < plan.synapses.len());
+    let calm = without(Ablation::Noise);
+    assert!(calm.layers.iter().all(|layer| layer.noise == 0.0));
+    assert_eq!(calm.synapses, plan.synapses);
+    assert_eq!(Mind::default().of(plan.clone()), plan);
+}
+
+#[test]
+fn without_common_subgoals_nothing_is_achieved_and_that_is_told_as_a_deadlock() {
+    let mind = Mind { without: vec![Ablation::Csgl, Ablation::Oml], ..Mind::default() };
+    let found = trials("random:idle=1,goal=0,ask=0,means=0", &mind, 1, 1);
+    assert!(found[0].stalled && found[0].completed_ms.is_none(), "{:?}", found[0]);
+    assert_eq!(found[0].ended_ms, 60_000);
+    assert!(found[0].actions.is_empty());
+}
