@@ -4,6 +4,7 @@
 mod check;
 mod error;
 mod file;
+mod learned;
 mod load;
 mod model;
 mod network_file;

@@ -1,6 +1,7 @@
-use coact_joint_task::{LayerPlan, NetworkPlan};
+use crate::layer::Layer;
+use coact_joint_task::NetworkPlan;
 use coact_messages::LayerKind;
-use coact_neural_field::{Field, ParameterError};
+use coact_neural_field::ParameterError;
 
 /// Strength of what is seen and of the way from the second sublayer to the first, in units of the ignition threshold:
 /// each ignites its target alone. The network file has the same for what is seen to be achieved.
@@ -18,17 +19,6 @@ pub(crate) struct Sublayers {
     /// From each memory to the same subgoal of the second sublayer.
     silences: Vec<f64>,
     input: Vec<f64>,
-}
-
-/// One field and its state.
-struct Layer {
-    field: Field,
-    gain: f64,
-    resting: Vec<f64>,
-    now: Vec<f64>,
-    next: Vec<f64>,
-    input: Vec<f64>,
-    signal: Vec<f64>,
 }
 
 impl Sublayers {
@@ -71,34 +61,5 @@ impl Sublayers {
     /// Signal of each subgoal's memory, and of its transient peak.
     pub fn signals(&self) -> (&[f64], &[f64]) {
         (&self.memory.signal, &self.change.signal)
-    }
-}
-
-impl Layer {
-    fn new(plan: &LayerPlan, width: usize) -> Result<Self, ParameterError> {
-        let field = Field::new(plan.parameters, plan.populations.len(), width)?;
-        let (sites, populations) = (field.sites(), field.populations());
-        Ok(Self {
-            field,
-            gain: plan.gain,
-            resting: vec![plan.resting; populations],
-            now: vec![plan.resting; sites],
-            next: vec![0.0; sites],
-            input: vec![0.0; sites],
-            signal: vec![0.0; populations],
-        })
-    }
-
-    fn rest(&mut self) {
-        self.now.fill(self.resting[0]);
-        self.signal.fill(0.0);
-    }
-
-    fn step(&mut self, strength: &[f64]) {
-        let strength: Vec<f64> = strength.iter().map(|strength| self.gain * strength).collect();
-        self.field.spread(&strength, &mut self.input);
-        self.field.step(1.0, &self.now, &self.input, &self.resting, &mut self.next);
-        std::mem::swap(&mut self.now, &mut self.next);
-        self.field.signals(&self.now, &mut self.signal);
     }
 }

@@ -1,5 +1,6 @@
 //! `coact learn`: connections of the network, learned from what was seen.
 
+mod mapping;
 mod order;
 
 use std::process::ExitCode;
@@ -15,6 +16,8 @@ pub struct Args {
 enum Command {
     /// Learn a task's plan from demonstrations, and write a task file that runs
     Order(order::Args),
+    /// Learn which act of the person shows which chain, from actions that succeed
+    Mapping(mapping::Args),
 }
 
 /// Runs the command.
@@ -24,5 +27,6 @@ enum Command {
 pub fn run(args: Args) -> anyhow::Result<ExitCode> {
     match args.command {
         Command::Order(args) => order::run(args),
+        Command::Mapping(args) => mapping::run(args),
     }
 }

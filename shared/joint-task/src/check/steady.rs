@@ -1,4 +1,4 @@
-use crate::{Channel, LayerPlan, NetworkPlan};
+use crate::{Channel, LayerPlan, NetworkPlan, Pool, Synapse};
 use coact_messages::LayerKind;
 use coact_neural_field::sigmoid;
 
@@ -19,7 +19,8 @@ const DECIDE: [LayerKind; 4] = [
 /// interaction follow their input; all others hold a peak wherever the input ignites one.
 pub(super) struct Steady<'a> {
     plan: &'a NetworkPlan,
-    incoming: Vec<Vec<(usize, f64)>>,
+    /// Synapses of each population, in the order of the plan: those of one rule side by side.
+    incoming: Vec<Vec<Synapse>>,
 }
 
 /// The strongest input of a layer, and the strongest of the others.
@@ -35,7 +36,7 @@ impl<'a> Steady<'a> {
     pub fn of(plan: &'a NetworkPlan) -> Self {
         let mut incoming = vec![Vec::new(); plan.populations.len()];
         for synapse in &plan.synapses {
-            incoming[synapse.to].push((synapse.from, synapse.weight));
+            incoming[synapse.to].push(*synapse);
         }
         Self { plan, incoming }
     }
@@ -49,13 +50,25 @@ impl<'a> Steady<'a> {
         for _ in 0..PASSES {
             for layer in &self.plan.layers {
                 for population in layer.populations.clone() {
-                    let sum = self.incoming[population].iter().map(|(from, weight)| weight * signal[*from]);
-                    inputs[population] = sum.sum();
+                    inputs[population] = self.input(population, &signal);
                 }
                 respond(layer, &inputs, &mut signal);
             }
         }
         inputs
+    }
+
+    fn input(&self, population: usize, signal: &[f64]) -> f64 {
+        let rules = self.incoming[population].chunk_by(|one, other| one.rule == other.rule);
+        let pooled = |group: &[Synapse]| {
+            let signals = group.iter().map(|synapse| signal[synapse.from]);
+            match self.plan.pools[group[0].rule] {
+                Pool::Sum => group.iter().map(|synapse| synapse.weight * signal[synapse.from]).sum(),
+                Pool::Any => group[0].weight * signals.fold(0.0, f64::max),
+                Pool::Every => group[0].weight * signals.fold(1.0, f64::min),
+            }
+        };
+        rules.map(pooled).sum()
     }
 
     /// Who wins in `layer`, and how near the next one is; none where nothing ignites.
