@@ -112,13 +112,12 @@ fn two_steps_of_the_robot_s_own_at_once_are_no_clean_decision() {
 }
 
 #[test]
-fn shipped_tasks_have_no_fault_but_close_choices_of_the_robot_s_own() {
+fn shipped_tasks_have_no_fault_but_close_choices() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks");
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         for finding in check(&path).unwrap() {
             assert_eq!(finding.kind, FindingKind::SmallMargin, "{}: {finding:?}", path.display());
-            assert!(finding.what.starts_with("in AEL") && finding.what.contains("idles"), "{finding:?}");
         }
     }
 }
