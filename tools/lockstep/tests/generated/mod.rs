@@ -12,7 +12,8 @@ pub fn write(folder: &Path, subgoals: usize, parts: usize) -> PathBuf {
     let network = configuration.join("joint-action.toml").display().to_string();
     let template = std::fs::read_to_string(configuration.join("tasks/template.toml")).expect("it is shipped");
     // Grips, gestures, chains, actions and scene of the template serve any task.
-    let rest = template.find("# ---------------------------------------------------------------- what the person's")
+    let rest = template
+        .find("# ---------------------------------------------------------------- what the person's")
         .expect("the template has this heading");
     let mut text = format!("name = \"generated\"\nnetwork = {network:?}\n");
     let kinds = KINDS.min(subgoals);
@@ -33,8 +34,11 @@ pub fn write(folder: &Path, subgoals: usize, parts: usize) -> PathBuf {
             _ => ("robot", -0.50 + 0.1 * column, 0.46 + 0.07 * row),
         };
         let kind = part / 2 % kinds;
-        writeln!(text, "[[part]]\nkind = \"kind {kind}\"\nworkspace = \"{workspace}\"\nat = [{x:.2}, {y:.2}]")
-            .expect("a string takes any text");
+        writeln!(
+            text,
+            "[[part]]\nkind = \"kind {kind}\"\nworkspace = \"{workspace}\"\nat = [{x:.2}, {y:.2}]"
+        )
+        .expect("a string takes any text");
     }
     for goal in 0..subgoals {
         let (kind, side) = (goal % kinds, if goal % 2 == 0 { "person" } else { "robot" });
