@@ -12,6 +12,7 @@ pub(crate) type Name = Spanned<String>;
 pub(crate) struct TaskFile {
     pub name: String,
     pub network: Name,
+    pub learned: Option<Name>,
     pub kind: Vec<KindEntry>,
     pub part: Vec<PartEntry>,
     pub subgoal: Vec<SubgoalEntry>,

@@ -1,8 +1,10 @@
 //! A joint task from a file: parts, plan, what a person's hand can show, what the robot can do, and the rules that
 //! make populations and synapses of the field network from it.
 
+mod check;
 mod error;
 mod file;
+mod learned;
 mod load;
 mod model;
 mod network_file;
@@ -11,6 +13,7 @@ mod population;
 mod task;
 mod wiring;
 
+pub use check::{Finding, FindingKind, check};
 pub use error::TaskError;
 pub use model::{Act, Action, Agent, Chain, Gesture, Grip, Kind, Motion, Part, Scene, Shape, Subgoal};
 pub use network_plan::{Channel, ChannelPlan, LayerPlan, NetworkPlan, Pool, Synapse};

@@ -7,17 +7,18 @@ use coact_messages::{MAX_ACTS, MAX_KINDS, MAX_PARTS, MAX_SUBGOALS};
 use std::hash::{DefaultHasher, Hasher};
 use std::path::{Path, PathBuf};
 
-/// Reads the task file and names the network file beside it.
-pub(crate) fn load(path: &Path) -> Result<(Task, PathBuf), TaskError> {
+/// Reads the task file and names the network file beside it, and that of learned connections, if there is one.
+pub(crate) fn load(path: &Path) -> Result<(Task, PathBuf, Option<PathBuf>), TaskError> {
     let source = Source::read(path)?;
     let file: TaskFile = source.parse()?;
-    let network = path.parent().unwrap_or(Path::new(".")).join(file.network.get_ref());
+    let beside = |name: &Name| path.parent().unwrap_or(Path::new(".")).join(name.get_ref());
+    let network = beside(&file.network);
     if !network.is_file() {
         let problem = format!("no file {}; expected a network file, relative to this one", network.display());
         return Err(source.error(file.network.span(), "network", problem));
     }
     let task = Reader { source: &source, file: &file }.task()?;
-    Ok((task, network))
+    Ok((task, network, file.learned.as_ref().map(beside)))
 }
 
 struct Reader<'a> {

@@ -103,9 +103,12 @@ impl NetworkPlan {
     /// # Errors
     /// A [`TaskError`] that names file, line, key and what was expected.
     pub fn load(path: &Path) -> Result<(Task, Self), TaskError> {
-        let (mut task, network) = crate::load::load(path)?;
-        let (plan, fingerprint) = wiring::wire(&task, &network)?;
+        let (mut task, network, learned) = crate::load::load(path)?;
+        let (mut plan, fingerprint) = wiring::wire(&task, &network)?;
         task.fingerprint ^= fingerprint;
+        if let Some(learned) = learned {
+            plan.learn(&mut task, &learned)?;
+        }
         Ok((task, plan))
     }
 

@@ -7,6 +7,7 @@ mod inject;
 mod installation;
 mod latency;
 mod launch;
+mod learn;
 mod lockstep;
 mod partner;
 mod reaches;
@@ -38,6 +39,8 @@ enum Command {
     Latency(latency::Args),
     /// Show what is made of a task file
     Task(task::Args),
+    /// Learn connections of the network: a task's plan from demonstrations
+    Learn(learn::Args),
     /// Measure anticipation on recorded reaches of real people
     Reaches(reaches::Args),
     /// Evaluate whole assemblies with random partners, against other minds
@@ -66,6 +69,7 @@ fn main() -> ExitCode {
         Command::Say(args) => say::run(args),
         Command::Latency(args) => latency::run(args),
         Command::Task(args) => task::run(args),
+        Command::Learn(args) => learn::run(args),
         Command::Reaches(args) => reaches::run(args),
         Command::Evaluate(args) => evaluate::run(args),
         Command::Train(args) => train::run(args),

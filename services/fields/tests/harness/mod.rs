@@ -17,8 +17,20 @@ pub struct Harness {
 
 impl Harness {
     pub fn of(task: &str) -> Self {
+        Self::made(task, None)
+    }
+
+    /// With the learned connections of a file under `rt-config`.
+    pub fn learned(task: &str, file: &str) -> Self {
+        Self::made(task, Some(file))
+    }
+
+    fn made(task: &str, learned: Option<&str>) -> Self {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks");
-        let (task, plan) = NetworkPlan::load(&folder.join(task).with_extension("toml")).unwrap();
+        let (mut task, mut plan) = NetworkPlan::load(&folder.join(task).with_extension("toml")).unwrap();
+        if let Some(learned) = learned {
+            plan.learn(&mut task, &folder.join("..").join(learned)).unwrap();
+        }
         let network = Network::new(plan, task.fingerprint, 7).unwrap();
         let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
         network.rest(&mut frame);

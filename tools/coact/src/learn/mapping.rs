@@ -1,0 +1,81 @@
+//! `coact learn mapping`: which observed act shows which chain, from actions that succeed.
+
+use crate::installation::Installation;
+use anyhow::{Result, bail};
+use coact_learning::{Mapping, MappingFile, Provenance};
+use coact_lockstep::Lockstep;
+use coact_pipeline::{RunSettings, WorldMode};
+use std::path::{PathBuf, absolute};
+use std::process::ExitCode;
+
+/// Longest construction, ticks.
+const LONGEST: u64 = 180_000;
+
+/// Arguments of `coact learn mapping`.
+#[derive(clap::Args)]
+#[command(after_help = "Example:
+  coact learn mapping --out rt-config/tasks/learned-toy-vehicle.toml
+
+The robot builds with the synthetic partner, under the task's present network, and learns from what it perceives to
+come of the partner's actions. Put learned = \"FILE\" into the task to use the result.")]
+pub struct Args {
+    /// The task [default: the toy vehicle]
+    #[arg(long, value_name = "FILE")]
+    task: Option<PathBuf>,
+    /// How many constructions are watched
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
+    trials: u32,
+    /// Seed of the first partner; each further one has the next
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Where the learned connections go
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+/// Learns and writes the connections.
+///
+/// # Errors
+/// A file that is refused or cannot be written, or nothing that succeeded.
+pub fn run(args: Args) -> Result<ExitCode> {
+    let configuration = Installation::find()?.configuration;
+    let task = absolute(args.task.unwrap_or_else(|| configuration.join("tasks/toy-vehicle.toml")))?;
+    let settings = |seed: u64| RunSettings {
+        task: task.clone(),
+        robot: configuration.join("robots/aros.toml"),
+        model: configuration.join("perception/preshape.toml"),
+        pipeline: configuration.join("pipeline.toml"),
+        report: PathBuf::new(),
+        seed,
+        partner: "synthetic".into(),
+        world: WorldMode::Kinematic,
+    };
+    let first = Lockstep::new(&settings(args.seed))?;
+    let mut mapping = Mapping::new(first.task(), first.plan())?;
+    let name = first.task().name.clone();
+    for trial in 0..args.trials {
+        let mut stages = Lockstep::new(&settings(args.seed.wrapping_add(u64::from(trial))))?;
+        mapping.begin();
+        while !stages.complete() && stages.ticks() < LONGEST {
+            stages.step();
+            mapping.watch(stages.ticks(), &stages.frame, &stages.percept);
+        }
+        eprintln!("construction {}: {} successes so far", trial + 1, mapping.successes());
+    }
+    if mapping.successes() == 0 {
+        bail!("no action of the partner succeeded in {} constructions; try more with --trials", args.trials);
+    }
+    let connections = mapping.connections();
+    for connection in &connections {
+        let source = match connection.successes {
+            0 => "as with other kinds".into(),
+            count => format!("{count} successes"),
+        };
+        println!("{:<28} -> {:<24} {:.2}  {source}", connection.act, connection.chain, connection.weight);
+    }
+    let provenance =
+        Provenance { task: name, trials: args.trials, seed: args.seed, successes: mapping.successes() };
+    MappingFile { provenance, connections }.write(&args.out)?;
+    println!("written to {}", args.out.display());
+    Ok(ExitCode::SUCCESS)
+}
