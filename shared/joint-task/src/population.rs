@@ -90,16 +90,21 @@ pub(crate) fn subgoals(task: &Task) -> Vec<Population> {
     (0..task.subgoals.len()).map(|index| of_subgoal(task, index)).collect()
 }
 
-/// What can be wrong: the goal (its turn has not come), the means (a part is asked for that is at hand), and what the
-/// robot itself does (a part is lost).
+/// What can be wrong: the goal (its turn has not come, or it is done already), the means (a part is asked for that is at
+/// hand), and what the robot itself does (a part is lost).
 fn errors(task: &Task) -> Vec<Population> {
     let goals = subgoals(task).into_iter().map(|goal| Population { role: "goal", ..goal });
+    let done = subgoals(task).into_iter().map(|goal| Population {
+        role: "done",
+        label: format!("done: {}", goal.label),
+        ..goal
+    });
     let of_kind = |role: &'static str, what: &'static str| {
         let error =
             move |part: Population| Population { role, label: format!("{what}: {}", part.label), ..part };
         objects(task, Agent::Person).into_iter().map(error)
     };
-    goals.chain(of_kind("means", "at hand")).chain(of_kind("loss", "lost")).collect()
+    goals.chain(done).chain(of_kind("means", "at hand")).chain(of_kind("loss", "lost")).collect()
 }
 
 fn of_subgoal(task: &Task, index: usize) -> Population {

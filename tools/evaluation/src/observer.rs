@@ -155,11 +155,10 @@ impl<'a> Observer<'a> {
         };
         let told = |meaning: &Population| match error {
             None => false,
-            Some(ErrorKind::AtHand) => meaning.role == "means" && meaning.kind == Some(rule.kind),
-            Some(ErrorKind::Asked) => meaning.role == "goal",
-            Some(ErrorKind::Early | ErrorKind::Done) => {
-                meaning.role == "goal" && meaning.subgoal == Some(subgoal)
-            }
+            // A gesture names no part: that something is wrong with it is all that can be told.
+            Some(ErrorKind::AtHand | ErrorKind::Asked) => meaning.role != "loss",
+            Some(ErrorKind::Early) => meaning.role == "goal" && meaning.subgoal == Some(subgoal),
+            Some(ErrorKind::Done) => meaning.role == "done" && meaning.subgoal == Some(subgoal),
         };
         let row = self.plan.layer(LayerKind::ErrorMonitoring).populations.clone();
         let errors = row.filter(|&index| told(&self.plan.populations[index])).collect();

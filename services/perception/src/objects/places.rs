@@ -16,6 +16,8 @@ const MARGIN: f64 = 0.03;
 const ON_TABLE: f64 = 0.05;
 /// How long a part must lie still in its socket to be mounted, cycles.
 const SETTLED: u32 = 60;
+/// The same while the person's hand is not seen: it may hold the part there.
+const SETTLED_UNSEEN: u32 = 2500;
 /// Age beyond which a sighting of a part tells nothing of where it is now, cycles.
 const RECENT: u64 = 300;
 /// Time in which evidence about parts rises or falls from end to end, cycles.
@@ -154,7 +156,8 @@ impl Places {
         let Subgoal { kind, socket, .. } = self.subgoals[goal];
         let away = |part: &PartTrack| (Vector3::from(socket) - Vector3::from(part.position)).norm();
         let own = objects.parts().filter(|(own, _)| *own == kind);
-        let mounted = |part: &PartTrack| away(part) < IN_PLACE && !part.is_held() && part.still >= SETTLED;
+        let settled = if out.hand.tracked == 1 { SETTLED } else { SETTLED_UNSEEN };
+        let mounted = |part: &PartTrack| away(part) < IN_PLACE && !part.is_held() && part.still >= settled;
         let achieved = own.clone().any(|(_, part)| mounted(part));
         let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !self.is_hidden(socket, view);
         approach(&mut out.achieved[goal], achieved, RAMP);
