@@ -211,7 +211,8 @@ impl Wiring<'_> {
     fn known_role(&self, key: &str, role: &crate::file::Name) -> Result<(), TaskError> {
         const ROLES: [&str; 21] = [
             "rest", "idle", "reach", "hidden", "word", "gesture", "grasp", "grip", "insert", "request",
-            "receive", "give", "hold", "point", "speak", "report", "subgoal", "goal", "done", "means", "loss",
+            "receive", "give", "hold", "point", "speak", "report", "subgoal", "goal", "done", "means",
+            "loss",
         ];
         if ROLES.contains(&role.get_ref().as_str()) {
             return Ok(());
