@@ -80,7 +80,8 @@ impl Stroke {
         for pair in places.windows(2) {
             let [from, to] = [pair[0], pair[1]].map(|place| place.map(f64::from));
             let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-            let point = |way: f64| [0, 1].map(|i| (from[i] + (to[i] - from[i]) * way / length).round() as i32);
+            let point =
+                |way: f64| [0, 1].map(|i| (from[i] + (to[i] - from[i]) * way / length).round() as i32);
             let mut way = 0.0;
             piece.push(pair[0]);
             while way + left < length {

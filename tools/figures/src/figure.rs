@@ -118,7 +118,8 @@ impl Figure {
     /// A number that no figure has, with those that there are.
     pub fn select(numbers: &[u32]) -> Result<Vec<Self>, FigureError> {
         let all = Self::ALL;
-        if let Some(&number) = numbers.iter().find(|number| all.iter().all(|known| known.number != **number)) {
+        if let Some(&number) = numbers.iter().find(|number| all.iter().all(|known| known.number != **number))
+        {
             let known: Vec<String> = all.iter().map(|figure| figure.number.to_string()).collect();
             return Err(FigureError::Unknown { number, known: known.join(", ") });
         }
@@ -166,10 +167,17 @@ impl Figure {
         match runs.first() {
             None => notes.push("One field by itself, kernel and constants of our own.".into()),
             Some(run) => {
-                let scripts: Vec<String> =
-                    runs.iter().map(|run| format!("{} (section {})", run.scenario.file(), run.scenario.section())).collect();
+                let scripts: Vec<String> = runs
+                    .iter()
+                    .map(|run| format!("{} (section {})", run.scenario.file(), run.scenario.section()))
+                    .collect();
                 let scripts = scripts.join(", then ");
                 notes.push(format!("Task: {}; person: {scripts}; seed {seed}.", run.task.name));
+                if !matches!(self.content, Content::ObjectMemory) {
+                    notes.push(
+                        "White is the threshold of activity, or no input; red above, blue below.".into(),
+                    );
+                }
             }
         }
         Caption { number: self.number, title: self.title.to_owned(), notes }

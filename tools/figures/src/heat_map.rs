@@ -56,7 +56,11 @@ impl HeatMap {
         let Some(first) = self.surfaces.first() else { return top };
         let rows = first.labels.len() as i32;
         // Fewer populations have more room each.
-        let site = (480 / (rows * first.sites as i32).max(1)).clamp(2, 3);
+        let site = match first.width() {
+            ..=20 => 8,
+            21..=160 => 3,
+            _ => 2,
+        };
         let row = site * first.sites as i32;
         let bottom = top + rows * row;
         for (surface, span) in self.surfaces.iter().zip(spans) {
@@ -80,20 +84,24 @@ impl HeatMap {
         if value < 0.0 { -value / low } else { value / high }
     }
 
-    fn cells(&self, sheet: &mut Sheet, surface: &Surface, Span { left, right }: Span, (top, site): (i32, i32)) {
+    fn cells(
+        &self,
+        sheet: &mut Sheet,
+        surface: &Surface,
+        Span { left, right }: Span,
+        (top, site): (i32, i32),
+    ) {
         let columns = right - left;
-        let time = |x: i32| {
-            surface.start_ms + surface.duration_ms() * f64::from(x) / f64::from(columns)
-        };
+        let time = |x: i32| surface.start_ms + surface.duration_ms() * f64::from(x) / f64::from(columns);
         let samples: Vec<&[f32]> = (0..columns).map(|x| surface.at(time(x))).collect();
         for place in 0..surface.width() {
             let y = top + site * place as i32;
             let mut begin = 0;
             for x in 1..=columns {
                 let value = samples[begin as usize][place];
-                let same = samples.get(x as usize).is_some_and(|sample| {
-                    (self.shade(sample[place]) - self.shade(value)).abs() < TOLERANCE
-                });
+                let same = samples
+                    .get(x as usize)
+                    .is_some_and(|sample| (self.shade(sample[place]) - self.shade(value)).abs() < TOLERANCE);
                 if !same {
                     // One pixel more to the right and downwards: what comes next covers it, and no gap shows.
                     let (from, to) = ([left + begin, y], [left + x + 1, y + site + 1]);
@@ -115,7 +123,8 @@ impl HeatMap {
         sheet.frame([left, top], [right, top + height], BLACK);
         let [low, high] = self.limits.map(|limit| (limit, number(f64::from(limit))));
         let ends = [high, (0.0, "0".into()), low];
-        for (value, label) in ends.iter().chain(&self.ticks) {
+        let apart = |end: &&(f32, String)| self.ticks.iter().all(|tick| (y(tick.0) - y(end.0)).abs() > 14);
+        for (value, label) in ends.iter().filter(apart).chain(&self.ticks) {
             sheet.path([[right, y(*value)], [right + 5, y(*value)]], BLACK, 1);
             sheet.text(label, [right + 9, y(*value)], LETTERS - 3, Anchor::Start);
         }

@@ -45,9 +45,11 @@ impl Observer {
     /// The intervals of a run that ended at `end_ms`, named from T`first` on.
     pub fn intervals(&self, task: &Task, first: usize, end_ms: f64) -> Vec<Interval> {
         let ends = self.begun.iter().skip(1).map(|(ms, _)| *ms).chain([end_ms]);
-        let lasting = self.begun.iter().zip(ends).filter(|((begin, doing), end)| {
-            *doing != Doing::Rest || end - begin >= SHORTEST_REST
-        });
+        let lasting = self
+            .begun
+            .iter()
+            .zip(ends)
+            .filter(|((begin, doing), end)| *doing != Doing::Rest || end - begin >= SHORTEST_REST);
         let kept: Vec<&(f64, Doing)> = lasting.map(|(begun, _)| begun).collect();
         let ends = kept.iter().skip(1).map(|(ms, _)| *ms).chain([end_ms]);
         let interval = |((nth, (from_ms, doing)), to_ms): ((usize, &&(f64, Doing)), f64)| Interval {

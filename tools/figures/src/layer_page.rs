@@ -42,7 +42,12 @@ impl Column {
         Self {
             from_ms,
             to_ms,
-            intervals: recording.intervals.iter().filter(|interval| inside(&interval.from_ms)).cloned().collect(),
+            intervals: recording
+                .intervals
+                .iter()
+                .filter(|interval| inside(&interval.from_ms))
+                .cloned()
+                .collect(),
             closing: if to_ms >= recording.end_ms() { format!("T{next}") } else { String::new() },
             events_ms: [within(&recording.grasps_ms), within(&recording.achievements_ms)],
         }

@@ -16,8 +16,8 @@ impl Lettering {
     /// # Errors
     /// The compiled-in font is no font.
     pub fn new() -> Result<Self, FigureError> {
-        let font = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT)
-            .map_err(FigureError::drawing)?;
+        let font =
+            FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT).map_err(FigureError::drawing)?;
         Ok(Self { font })
     }
 

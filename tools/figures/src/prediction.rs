@@ -30,8 +30,11 @@ impl<'a> Prediction<'a> {
             };
             goal.is_some_and(|goal| peak.from_ms >= goal.from_ms) && !after.iter().all(achieved)
         };
-        let mut opened: Vec<usize> =
-            recording.peaks_of(LayerKind::SubgoalsAvailable).filter(early).map(|peak| peak.population).collect();
+        let mut opened: Vec<usize> = recording
+            .peaks_of(LayerKind::SubgoalsAvailable)
+            .filter(early)
+            .map(|peak| peak.population)
+            .collect();
         opened.sort_unstable();
         opened.dedup();
         Self { recording, goal, opened }
@@ -52,8 +55,9 @@ impl<'a> Prediction<'a> {
             None => "No goal was inferred in this run.".into(),
         });
         let available = LayerKind::SubgoalsAvailable;
-        let now: Vec<usize> =
-            (0..self.recording.task.subgoals.len()).filter(|subgoal| !self.opened.contains(subgoal)).collect();
+        let now: Vec<usize> = (0..self.recording.task.subgoals.len())
+            .filter(|subgoal| !self.opened.contains(subgoal))
+            .collect();
         let intention = self.recording.surface(LayerKind::Intention, Quantity::Activity);
         let goals = intention.reaching(0.0);
         let map = |letter: &str, layer, quantity, rows: &[usize]| {

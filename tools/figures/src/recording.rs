@@ -122,7 +122,11 @@ impl Recording {
     fn empty(scenario: Scenario, stages: &Lockstep) -> Self {
         let plan = stages.plan();
         let surface = |layer: &LayerPlan| Surface {
-            labels: plan.populations_of(layer.kind).iter().map(|population| population.label.clone()).collect(),
+            labels: plan
+                .populations_of(layer.kind)
+                .iter()
+                .map(|population| population.label.clone())
+                .collect(),
             sites: plan.sites_per_population,
             start_ms: SAMPLE_EVERY as f64,
             period_ms: SAMPLE_EVERY as f64,
@@ -155,7 +159,8 @@ impl Recording {
         for layer in &self.plan.layers {
             for (population, index) in layer.populations.clone().enumerate() {
                 let same = |peak: &&mut Peak| (peak.layer, peak.population) == (layer.kind, population);
-                let standing = self.peaks.iter_mut().rev().find(same).filter(|peak| peak.to_ms == f64::INFINITY);
+                let standing =
+                    self.peaks.iter_mut().rev().find(same).filter(|peak| peak.to_ms == f64::INFINITY);
                 match (frame.signal[index] > 0.0, standing) {
                     (true, None) => self.peaks.push(Peak {
                         layer: layer.kind,

@@ -43,9 +43,8 @@ fn table(sheet: &mut Sheet, recording: &Recording, top: i32) -> i32 {
     let pixels = |metres: f64| (metres * SCALE).round() as i32;
     let top = top + 50;
     // Seen with the robot on top, the world's y runs to the left.
-    let place = |x: f64, y: f64| -> Place {
-        [WIDTH / 2 - pixels(y - scene.table_centre[1]), top + pixels(far - x)]
-    };
+    let place =
+        |x: f64, y: f64| -> Place { [WIDTH / 2 - pixels(y - scene.table_centre[1]), top + pixels(far - x)] };
     let bottom = top + pixels(depth);
     let half = pixels(width / 2.0);
     sheet.text("B  What the robot's camera recognised", [MARGIN + 80, top - 36], LETTERS + 2, Anchor::Start);
