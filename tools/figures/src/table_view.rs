@@ -47,7 +47,8 @@ fn table(sheet: &mut Sheet, recording: &Recording, top: i32) -> i32 {
         |x: f64, y: f64| -> Place { [WIDTH / 2 - pixels(y - scene.table_centre[1]), top + pixels(far - x)] };
     let bottom = top + pixels(depth);
     let half = pixels(width / 2.0);
-    sheet.text("B  What the robot's camera recognised", [MARGIN + 80, top - 36], LETTERS + 2, Anchor::Start);
+    let title = format!("B  What the robot's camera recognised at {:.1} s", Recording::SCENE_MS / 1000.0);
+    sheet.text(title, [MARGIN + 80, top - 36], LETTERS + 2, Anchor::Start);
     sheet.frame([WIDTH / 2 - half, top], [WIDTH / 2 + half, bottom], BLACK);
     sheet.text("robot", [WIDTH / 2, top - 14], LETTERS, Anchor::Middle);
     sheet.text("person", [WIDTH / 2, bottom + 16], LETTERS, Anchor::Middle);
