@@ -58,7 +58,7 @@ impl HeatMap {
         // Fewer populations have more room each.
         let site = match first.width() {
             ..=20 => 8,
-            21..=160 => 3,
+            21..=180 => 3,
             _ => 2,
         };
         let row = site * first.sites as i32;
