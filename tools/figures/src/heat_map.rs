@@ -118,7 +118,7 @@ impl HeatMap {
         let y = |value: f32| top + ((1.0 - self.shade(value)) / 2.0 * height as f32).round() as i32;
         for step in 0..height {
             let value = 1.0 - 2.0 * step as f32 / (height - 1) as f32;
-            sheet.block([left, top + step], [right, top + step + 1], diverging(value));
+            sheet.block([left, top + step], [right, top + (step + 2).min(height)], diverging(value));
         }
         sheet.frame([left, top], [right, top + height], BLACK);
         let [low, high] = self.limits.map(|limit| (limit, number(f64::from(limit))));
