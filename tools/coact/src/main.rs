@@ -2,6 +2,7 @@
 
 mod closing;
 mod evaluate;
+mod figures;
 mod folder_name;
 mod inject;
 mod installation;
@@ -45,6 +46,8 @@ enum Command {
     Reaches(reaches::Args),
     /// Evaluate whole assemblies with random partners, against other minds
     Evaluate(evaluate::Args),
+    /// Draw the chapter's figures from runs made now
+    Figures(figures::Args),
     /// Train the model of preshaping from recorded reaches
     Train(train::Args),
 }
@@ -72,6 +75,7 @@ fn main() -> ExitCode {
         Command::Learn(args) => learn::run(args),
         Command::Reaches(args) => reaches::run(args),
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Figures(args) => figures::run(args),
         Command::Train(args) => train::run(args),
     };
     outcome.unwrap_or_else(|error| {

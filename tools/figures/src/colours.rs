@@ -1,0 +1,32 @@
+use plotters::prelude::RGBColor;
+
+/// ColorBrewer's RdBu from blue over white to red: told apart by people who do not see all colours, too.
+const DIVERGING: [[u8; 3]; 11] = [
+    [5, 48, 97],
+    [33, 102, 172],
+    [67, 147, 195],
+    [146, 197, 222],
+    [209, 229, 240],
+    [247, 247, 247],
+    [253, 219, 199],
+    [244, 165, 130],
+    [214, 96, 77],
+    [178, 24, 43],
+    [103, 0, 31],
+];
+
+/// Lines and letters that are there to help the eye.
+pub const FAINT: RGBColor = RGBColor(150, 150, 150);
+/// Three colours that everybody tells apart (Okabe and Ito).
+pub const TELLING: [RGBColor; 3] = [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115)];
+
+/// The colour of a value from -1 (blue) over 0 (white) to 1 (red); beyond, that of the end.
+pub fn diverging(value: f32) -> RGBColor {
+    let place = (value.clamp(-1.0, 1.0) + 1.0) / 2.0 * (DIVERGING.len() - 1) as f32;
+    let lower = (place as usize).min(DIVERGING.len() - 2);
+    let share = place - lower as f32;
+    let [from, to] = [DIVERGING[lower], DIVERGING[lower + 1]];
+    let [r, g, b] =
+        [0, 1, 2].map(|i| (f32::from(from[i]) * (1.0 - share) + f32::from(to[i]) * share).round() as u8);
+    RGBColor(r, g, b)
+}
