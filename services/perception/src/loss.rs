@@ -46,7 +46,7 @@ impl Loss {
                 self.told = if self.lost == self.kind { 0 } else { self.told };
             }
         } else if self.held > 0 && self.suspected == 0 {
-            let opened = !(closing > self.grip - OPENED);
+            let opened = closing <= self.grip - OPENED || closing.is_nan();
             (self.held, self.suspected) = if opened { (0, 0) } else { (self.held, tick.max(1)) };
         } else if self.suspected > 0 && tick > self.suspected + SUSPECTED {
             (self.held, self.suspected) = (0, 0);

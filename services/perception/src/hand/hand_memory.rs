@@ -59,7 +59,10 @@ impl HandMemory {
     /// While something may `hide` the hand, a frame without wrist or finger tips is none: what is left of it tells nothing
     /// of the hand.
     pub fn observe(&mut self, tick: u64, view: &HandView, hide: bool) -> Option<bool> {
-        let lost = |name: &KeypointName| !(view.keypoints[*name as usize].confidence > 0.0);
+        let lost = |name: &KeypointName| {
+            let confidence = view.keypoints[*name as usize].confidence;
+            confidence <= 0.0 || confidence.is_nan()
+        };
         let [wrist, thumb, index] = [KeypointName::Wrist, KeypointName::ThumbTip, KeypointName::IndexTip];
         if hide && [wrist, thumb, index].iter().any(lost) {
             return None;
