@@ -62,8 +62,8 @@ impl Outcomes {
             }
             let way = &mut self.parts[kind];
             way.held = held;
-            for agent in 0..2 {
-                way.last[agent] = if held[agent] { Some(tick) } else { way.last[agent] };
+            for (last, held) in way.last.iter_mut().zip(held) {
+                *last = if held { Some(tick) } else { *last };
             }
             if percept.workspace[ROBOT].seen[kind] > PERCEIVED {
                 way.with_the_robot = Some(tick);
