@@ -229,6 +229,7 @@ fn show(evaluation: &Evaluation) {
         [
             ("functional delay, ratio", comparison.functional_delay_ratio),
             ("functional delay, difference", comparison.functional_delay_difference),
+            ("functional delay of answers, ratio", comparison.answer_delay_ratio),
             ("waiting of the person, ratio", comparison.waiting_ratio),
             ("task time, ratio", comparison.time_ratio),
         ]
@@ -265,6 +266,7 @@ fn rows(report: &Report) -> Vec<(String, String)> {
         row("robot idle", percent(report.robot_idle)),
         row("concurrent activity", percent(report.concurrent)),
         row("functional delay", percent(report.functional_delay)),
+        row("functional delay of answers, ms", interval(report.answer_delay_ms, 1.0, 1, "")),
         row("person waits within actions", percent(report.human_waits)),
     ]);
     rows

@@ -12,6 +12,9 @@ pub struct Comparison {
     pub functional_delay_ratio: Option<Interval>,
     /// Functional delay, the one's minus the other's, as a share of the task time.
     pub functional_delay_difference: Option<Interval>,
+    /// Functional delay of dependent turns (see [`Trial::answer_delay_ms`]), the one's against the other's; below 0 where
+    /// the one begins before the turn is over.
+    pub answer_delay_ratio: Option<Interval>,
     /// How long the person waits for the robot within actions, the one's against the other's.
     pub waiting_ratio: Option<Interval>,
     /// Task time, the one's against the other's.
@@ -37,6 +40,7 @@ impl Comparison {
             pairs: pairs.len(),
             functional_delay_ratio: Interval::ratio(&delays),
             functional_delay_difference: Interval::mean(&differences),
+            answer_delay_ratio: Interval::ratio(&figures(&Trial::answer_delay_ms)),
             waiting_ratio: Interval::ratio(&figures(&waits)),
             time_ratio: Interval::ratio(&figures(&|trial| trial.ended_ms as f64)),
         }

@@ -4,7 +4,7 @@ use serde::Serialize;
 /// How fluently two agents work together, after Hoffman (2019), "Evaluating fluency in human-robot collaboration", IEEE
 /// Transactions on Human-Machine Systems 49 (3): all are shares of the task time.
 ///
-/// Who is active is defined by [`Activity`]: whoever can do nothing but wait for the other is idle.
+/// Whoever can do nothing but wait for the other is idle.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Fluency {
     /// H-IDLE: the person is not active.

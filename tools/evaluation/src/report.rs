@@ -41,6 +41,8 @@ pub struct Report {
     pub concurrent: Option<Interval>,
     /// F-DEL.
     pub functional_delay: Option<Interval>,
+    /// Functional delay of dependent turns, ms: see [`Trial::answer_delay_ms`].
+    pub answer_delay_ms: Option<Interval>,
     /// Waiting of the person within actions.
     pub human_waits: Option<Interval>,
 }
@@ -96,6 +98,7 @@ impl Report {
             robot_idle: mean(&|trial| trial.fluency.robot_idle),
             concurrent: mean(&|trial| trial.fluency.concurrent),
             functional_delay: mean(&|trial| trial.fluency.functional_delay),
+            answer_delay_ms: mean(&Trial::answer_delay_ms),
             human_waits: mean(&|trial| trial.fluency.human_waits),
         }
     }

@@ -28,6 +28,17 @@ pub struct Trial {
     pub fluency: Fluency,
 }
 
+impl Trial {
+    /// Functional delay of the turns that depend on each other, ms: the mean time from the end of the person's reach, which
+    /// is the grasp, to the beginning of the robot's complementary action, which is its decision; negative where the robot
+    /// began before. Independent work of the two, which overlaps in any case, counts for nothing here. 0 without answers.
+    pub fn answer_delay_ms(&self) -> f64 {
+        let leads = self.actions.iter().filter_map(|action| action.lead_ms);
+        let (count, total) = leads.fold((0, 0), |(count, total), lead| (count + 1, total + lead));
+        -(total as f64) / f64::from(count.max(1))
+    }
+}
+
 /// One of the person's actions, and what the robot made of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PartnerAction {
