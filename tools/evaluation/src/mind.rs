@@ -1,4 +1,4 @@
-use coact_joint_task::{Channel, NetworkPlan, Synapse};
+use coact_joint_task::{Channel, NetworkPlan, Pool, Synapse};
 use coact_messages::LayerKind;
 use serde::Serialize;
 
@@ -53,7 +53,7 @@ impl Mind {
                 Ablation::Noise => plan.layers.iter_mut().for_each(|layer| layer.noise = 0.0),
             }
         }
-        plan.synapses.sort_by_key(|synapse| (synapse.to, synapse.from));
+        plan.synapses.sort_by_key(|synapse| (synapse.to, synapse.rule, synapse.from));
         plan
     }
 }
@@ -99,6 +99,7 @@ fn await_the_deed(plan: &mut NetworkPlan) {
     }
     plan.synapses = synapses;
     plan.reasons.push("a robot that does not anticipate waits for the deed".into());
+    plan.pools.push(Pool::Sum);
 }
 
 /// Weight with which perception's evidence drives an act.

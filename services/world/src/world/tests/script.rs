@@ -166,13 +166,13 @@ fn an_occluder_hides_the_part_and_the_hand_that_takes_it_and_nothing_else() {
     let (mut before, mut behind, mut frames) = (0, 0, 0);
     let mut mounted = false;
     run(&mut world, 12, |tick, world, out| {
-        before = before.max(if tick < 2000 { wheels(out) } else { 0 });
-        behind = behind.max(if (2100..4200).contains(&tick) { wheels(out) } else { 0 });
+        before = before.max(if tick < 500 { wheels(out) } else { 0 });
+        behind = behind.max(if (600..700).contains(&tick) { wheels(out) } else { 0 });
         let grasped = out.truth.grasp_cycle;
         let hidden = grasped > 0 && (grasped..grasped + 60).contains(&tick);
         frames += usize::from(hidden && out.sample.hand.captured_cycle == tick - 1);
         assert!(
-            !(500..=4000).contains(&tick) || out.sample.hand.captured_cycle + 100 > tick,
+            !(200..=700).contains(&tick) || out.sample.hand.captured_cycle + 100 > tick,
             "hand lost at {tick}"
         );
         mounted |= world.parts.achieved() & 1 == 1;
