@@ -61,7 +61,8 @@ impl Choice {
     }
 }
 
-/// Counts for how long nothing was decided, and forgets a failure after a while: then the decision counts again.
+/// Counts for how long nothing was decided, and forgets after a while what failed, or was done in vain: then the decision
+/// counts again.
 pub(crate) fn age(memory: &mut Memory, senses: &Senses, actions: &[Action], settings: &Settings) {
     let decided = senses.decision().is_some_and(|decision| (decision.action as usize) < actions.len());
     memory.undecided =
@@ -69,8 +70,12 @@ pub(crate) fn age(memory: &mut Memory, senses: &Senses, actions: &[Action], sett
     memory.finished_age = memory.finished_age.saturating_add(1);
     let action = actions.get(memory.finished as usize);
     let undone = action.and_then(|action| action.subgoal).is_some_and(|subgoal| senses.open(subgoal));
-    let placed = action.is_some_and(|action| action.motion == Motion::Insert);
-    if memory.finished_age > settings.retry_after && (memory.failed == 1 || (placed && undone)) {
+    let in_vain = action.is_some_and(|action| match action.motion {
+        Motion::Insert => true,
+        Motion::Give => !action.kind.is_some_and(|kind| senses.in_person_hand(kind)),
+        _ => false,
+    });
+    if memory.finished_age > settings.retry_after && (memory.failed == 1 || (in_vain && undone)) {
         memory.finished = NONE.into();
         memory.misses = 0;
     }

@@ -141,7 +141,8 @@ impl Control {
 
     /// Stays at the goal; a part held out is let go once the person's hand has it.
     fn stay(&mut self, senses: &Senses) {
-        let met = senses.person_waits_at(&self.places.handover());
+        let kind = self.memory.kind().unwrap_or_default();
+        let met = senses.person_waits_at(&self.places.handover()) && senses.person_can_take(kind);
         self.memory.met = if met { self.memory.met + 1 } else { 0 };
         if self.memory.errand() == Errand::Offer && self.memory.met >= MET.1 {
             self.grip(Leg::Open);

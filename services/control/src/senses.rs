@@ -88,6 +88,12 @@ impl<'a> Senses<'a> {
         self.percept.is_some_and(|percept| percept.person_holds[kind] > BELIEF)
     }
 
+    /// Whether the person's hand holds nothing but perhaps a part of this kind.
+    pub fn person_can_take(&self, kind: usize) -> bool {
+        let other = |(own, evidence): (usize, &f64)| own != kind && *evidence > BELIEF;
+        self.percept.is_some_and(|percept| !percept.person_holds.iter().enumerate().any(other))
+    }
+
     /// Whether the person's hand waits at `place`.
     pub fn person_waits_at(&self, place: &Point3<f64>) -> bool {
         self.percept.is_some_and(|percept| {

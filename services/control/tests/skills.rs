@@ -166,6 +166,17 @@ fn a_part_is_given_and_let_go_only_when_the_person_has_it() {
 }
 
 #[test]
+fn a_hand_that_holds_something_else_is_given_nothing() {
+    let mut world = KinematicWorld::new();
+    lay_down(&mut world, COLUMN_2);
+    world.decide(Some(world.action(Motion::Give, COLUMN_2)));
+    world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Hold);
+    hold_out(&mut world);
+    world.run(2.0);
+    assert!(world.held().is_some(), "the hand at the handover place is full");
+}
+
+#[test]
 fn the_base_is_steadied_until_the_decision_ends() {
     let mut world = KinematicWorld::new();
     let action =
