@@ -107,7 +107,10 @@ impl Anticipation {
     fn begin(&mut self, truth: &Truth) {
         self.seen = truth.actions;
         let (chain, subgoal) = (truth.chain as usize, truth.subgoal as usize);
-        let expectation = Expectation::new(&self.task, &self.intentions, chain, subgoal);
+        let expectation = match Expectation::of_error(&self.task, truth.error, subgoal) {
+            None => Expectation::new(&self.task, &self.intentions, chain, subgoal),
+            correction => correction,
+        };
         let (number, onset) = (truth.actions, truth.onset_cycle);
         self.open = Some(OpenAction { number, chain, subgoal, onset, grasp: None, expectation, late: false });
     }

@@ -1,6 +1,6 @@
 use crate::Intentions;
-use coact_joint_task::Task;
-use coact_messages::{FieldFrame, LayerKind};
+use coact_joint_task::{Motion, Task};
+use coact_messages::{FieldFrame, LayerKind, PartnerError};
 
 /// Which peak shows that the partner's action was understood.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +19,21 @@ impl Expectation {
         }
         let intention = || intentions.population(chain, subgoal).map(Self::Intention);
         task.complement(chain, subgoal).map(Self::Action).or_else(intention)
+    }
+
+    /// The correction that a mistake calls for: a word about the subgoal, or a hint at the part that lies at hand. None
+    /// for an action without one, and where the task knows no such answer.
+    pub(crate) fn of_error(task: &Task, error: u32, subgoal: usize) -> Option<Self> {
+        let kind = task.subgoals.get(subgoal)?.kind;
+        let intention = [PartnerError::Early as u32, PartnerError::Done as u32].contains(&error);
+        let at_hand = error == PartnerError::AtHand as u32;
+        let answers = |motion: Motion, of: Option<usize>, own: Option<usize>| match motion {
+            Motion::Speak => intention && of == Some(subgoal),
+            Motion::Point => at_hand && own == Some(kind),
+            _ => false,
+        };
+        let action = task.actions.iter().position(|own| answers(own.motion, own.subgoal, own.kind));
+        action.map(Self::Action)
     }
 
     /// Its name, for the report.
