@@ -3,7 +3,7 @@
 
 mod support;
 
-use coact_messages::{FieldFrame, LayerKind, Truth};
+use coact_messages::{FieldFrame, LayerKind, PartnerError, Truth};
 use coact_monitor::{ActionEvent, Anticipation, AnticipationReport, Event};
 use support::*;
 
@@ -42,6 +42,25 @@ fn right_decision_leads_by_the_time_from_its_crossing_to_the_grasp() {
     assert_eq!(event.lead_ms, Some(200));
     assert_eq!(event.decided.as_deref(), Some("steady: lid"));
     assert!(event.anticipated() && !event.wrong());
+}
+
+#[test]
+fn a_mistake_is_answered_rightly_by_its_correction() {
+    let mistaken = |mut truth: Truth| {
+        truth.error = PartnerError::Early as u32;
+        truth
+    };
+    let answered = |action: usize| {
+        let ticks = (0..1200).map(|cycle| {
+            let grasp = if cycle >= 800 { 800 } else { 0 };
+            let truth = mistaken(acting(cycle, u32::from(cycle >= 100), MOUNT, HINGE, 100, grasp));
+            (truth, from(600, cycle, action))
+        });
+        play(ticks).remove(0)
+    };
+    assert!(answered(OBJECT_TO_HINGE).anticipated());
+    let helped = answered(TAKE_HINGE);
+    assert!(helped.wrong() && helped.expected.as_deref() == Some("object: hinge"), "{helped:?}");
 }
 
 #[test]

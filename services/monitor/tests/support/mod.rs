@@ -13,6 +13,7 @@ pub const HINGE: u32 = 1;
 pub const HOLD_LID: usize = 0;
 pub const TAKE_HINGE: usize = 1;
 pub const ASK: usize = 2;
+pub const OBJECT_TO_HINGE: usize = 3;
 
 fn subgoal(name: &str, held: bool, after: Vec<usize>) -> Subgoal {
     let (name, axis, side) = (name.into(), [0.0, 0.0, 1.0], Agent::Person);
@@ -50,6 +51,7 @@ pub fn task() -> Task {
             action("steady", Motion::Hold, 0, "lid"),
             action("take", Motion::Receive, 1, "hinge"),
             action("ask", Motion::Request, 1, "hinge"),
+            action("object", Motion::Speak, 1, "hinge"),
         ],
         scene: Scene {
             table_height: 0.0,
@@ -74,7 +76,7 @@ pub fn intentions() -> Intentions {
 }
 
 const LAYERS: [(LayerKind, u32); 3] =
-    [(LayerKind::SubgoalsAchieved, 2), (LayerKind::Intention, 2), (LayerKind::ActionExecution, 3)];
+    [(LayerKind::SubgoalsAchieved, 2), (LayerKind::Intention, 2), (LayerKind::ActionExecution, 4)];
 
 /// A frame of the network of [`task`] at rest.
 pub fn frame(cycle: u64) -> Box<FieldFrame> {
