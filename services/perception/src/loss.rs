@@ -1,10 +1,8 @@
 use crate::evidence::follow;
-use crate::objects::{ObjectsMemory, Places, Surroundings};
+use crate::objects::{ObjectsMemory, Places, Surroundings, TOUCH};
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{JointReading, Percept};
 
-/// Force that tells that the robot's fingers hold something, N.
-const TOUCH: f64 = 0.2;
 /// Fingers that stand this much further open than when they held the part have let go of it, rad.
 const OPENED: f64 = 0.02;
 /// Distance of a part from the robot's grasp point beyond which it is not in the hand any more, m.
@@ -36,7 +34,7 @@ pub(crate) struct Loss {
 impl Loss {
     /// One cycle of proprioception.
     pub fn feel(&mut self, tick: u64, joints: &JointReading, objects: &ObjectsMemory) {
-        let closing = joints.position[8..11].iter().sum::<f64>() / 3.0;
+        let closing = coact_messages::closing(&joints.position);
         if joints.touch > TOUCH {
             self.suspected = 0;
             if let Some((track, kind)) = objects.with_the_robot() {

@@ -34,12 +34,7 @@ fn main() -> anyhow::Result<()> {
 
 fn publish(speech: &mut Output<Speech>, sentence: &Sentence, sensor_ns: u64) -> Result<(), PortError> {
     let mut message = speech.loan()?;
-    let fits = (0..=sentence.text.len().min(message.text.len())).rev();
-    let end = fits.into_iter().find(|&end| sentence.text.is_char_boundary(end)).unwrap_or(0);
-    let text = &sentence.text[..end];
-    message.text = [0; 256];
-    message.text[..text.len()].copy_from_slice(text.as_bytes());
-    message.length = text.len() as u64;
+    message.write(&sentence.text);
     message.send(sentence.cycle, sensor_ns)?;
     Ok(())
 }

@@ -97,7 +97,7 @@ impl RobotHand {
         Palm {
             grasp_point: DVec3::new(point.x, point.y, point.z),
             orientation: DQuat::from_xyzw(turn.x, turn.y, turn.z, turn.w),
-            closing: closing(position),
+            closing: coact_messages::closing(position),
         }
     }
 
@@ -191,11 +191,6 @@ impl RobotHand {
         memory.offering_since = since(at_handover && memory.brought == 1, memory.offering_since);
         memory.holding_since = since(at_base && empty, memory.holding_since);
     }
-}
-
-/// Mean angle of the three finger bases, rad.
-pub(crate) fn closing(position: &[f64; JOINTS]) -> f64 {
-    position[8..11].iter().sum::<f64>() / 3.0
 }
 
 fn attach(palm: &Palm, memory: &mut RobotHandMemory, parts: &Parts, part: usize) {

@@ -192,7 +192,7 @@ impl World {
     fn sense(&mut self, tick: u64, command: Option<&Command>, out: &mut SensorSample) {
         let last = self.last_tick();
         let Self { task, noise, hand, person, joints, parts, memory, staging, .. } = self;
-        let wanted = command.map_or(0.0, |command| crate::robot_hand::closing(&command.position));
+        let wanted = command.map_or(0.0, |command| coact_messages::closing(&command.position));
         let touch = hand.touch(&memory.robot, parts, wanted);
         read_joints(tick, noise, (&joints.position, &joints.velocity), touch, &mut out.joints);
         let (eye, (blocks, count)) = (task.scene.eye(), staging.occluders(tick));

@@ -1,3 +1,4 @@
+use crate::sentence;
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -18,18 +19,14 @@ pub struct Heard {
 impl Heard {
     /// Takes down another sentence; what does not fit is cut off.
     pub fn hear(&mut self, cycle: u64, sentence: &str) {
-        let sentence = &sentence[..sentence.floor_char_boundary(self.text.len())];
         self.sentences += 1;
         self.cycle = cycle;
-        self.length = sentence.len() as u64;
-        self.text = [0; 256];
-        self.text[..sentence.len()].copy_from_slice(sentence.as_bytes());
+        self.length = sentence::write(sentence, &mut self.text);
     }
 
     /// The newest sentence; empty before the first, and for bytes that are no text.
     pub fn sentence(&self) -> &str {
-        let length = (self.length as usize).min(self.text.len());
-        std::str::from_utf8(&self.text[..length]).unwrap_or_default()
+        sentence::read(&self.text, self.length)
     }
 }
 

@@ -34,6 +34,7 @@ mod line_of_sight;
 mod percept;
 mod pulse;
 mod sensor_sample;
+mod sentence;
 mod speech;
 pub mod topic;
 mod truth;
@@ -53,6 +54,12 @@ pub use world_state::{PartState, WorldState};
 
 /// Joints of arm (7) and hand (8: spread, three finger bases, three finger tips, one reserved), in that order.
 pub const JOINTS: usize = 15;
+
+/// Mean angle of the three finger bases in a row of [`JOINTS`], rad; growing angles close the hand.
+pub fn closing(position: &[f64; JOINTS]) -> f64 {
+    position[8..11].iter().sum::<f64>() / 3.0
+}
+
 /// Arm joints: the first seven of [`JOINTS`].
 pub const ARM_JOINTS: usize = 7;
 /// Observable acts that a task may name (populations of the action observation layer).

@@ -1,4 +1,4 @@
-use crate::Header;
+use crate::{Header, sentence};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -18,15 +18,11 @@ pub struct Speech {
 impl Speech {
     /// Takes down a sentence; what does not fit is cut off.
     pub fn write(&mut self, sentence: &str) {
-        let sentence = &sentence[..sentence.floor_char_boundary(self.text.len())];
-        self.length = sentence.len() as u64;
-        self.text = [0; 256];
-        self.text[..sentence.len()].copy_from_slice(sentence.as_bytes());
+        self.length = sentence::write(sentence, &mut self.text);
     }
 
     /// The sentence; empty for bytes that are no text.
     pub fn sentence(&self) -> &str {
-        let length = (self.length as usize).min(self.text.len());
-        std::str::from_utf8(&self.text[..length]).unwrap_or_default()
+        sentence::read(&self.text, self.length)
     }
 }

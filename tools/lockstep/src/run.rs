@@ -93,9 +93,7 @@ fn monitor(settings: &RunSettings, stages: &Lockstep) -> Result<Monitor, RunErro
 /// The message that the voice's process would publish.
 fn speech(sentence: &Sentence) -> Speech {
     let mut speech: Speech = bytemuck::Zeroable::zeroed();
-    let text = &sentence.text[..sentence.text.floor_char_boundary(speech.text.len())];
     speech.header = Header { cycle: sentence.cycle, ..Header::default() };
-    speech.text[..text.len()].copy_from_slice(text.as_bytes());
-    speech.length = text.len() as u64;
+    speech.write(&sentence.text);
     speech
 }

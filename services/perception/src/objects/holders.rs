@@ -19,7 +19,7 @@ const SLOW: f64 = 0.15;
 const SETTLED: u32 = 60;
 const LEFT: f64 = 0.035;
 /// Force that tells that the robot's fingers hold something, N.
-const TOUCH: f64 = 0.2;
+pub(crate) const TOUCH: f64 = 0.2;
 /// Distance of the robot's grasp point from the axis of the part that it holds, m; beyond twice that, it holds it not.
 const GRASPED: f64 = 0.045;
 

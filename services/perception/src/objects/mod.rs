@@ -6,6 +6,7 @@ mod part_track;
 mod places;
 mod surroundings;
 
+pub(crate) use holders::TOUCH;
 pub(crate) use objects_memory::ObjectsMemory;
 pub(crate) use part_track::PartTrack;
 pub(crate) use places::Places;

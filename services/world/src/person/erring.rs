@@ -1,6 +1,6 @@
 //! A partner as people are: mostly right, in any order that the plan allows, at times idle, and now and then wrong.
 //!
-//! Occlusions are not among the rates: the world has nothing to hide a hand behind.
+//! Occlusions are not among the rates: occluders stand in scenarios, and this partner follows none.
 
 use super::intention::{Choice, Intention, View};
 use super::rates::Rates;
