@@ -4,8 +4,8 @@
 //! each population's input; each layer is integrated from the previous frame straight into the new one; signals,
 //! peaks and the decision are read off it. The frame is the whole state: nothing else is remembered.
 
-mod afferents;
 mod network;
+mod projections;
 
-use afferents::Afferents;
 pub use network::Network;
+use projections::Projections;

@@ -1,4 +1,4 @@
-use crate::Afferents;
+use crate::Projections;
 use coact_joint_task::{Channel, LayerPlan, NetworkPlan, Synapse};
 use coact_messages::{Decision, FieldFrame, LayerKind, NONE, Percept};
 use coact_neural_field::{Field, ParameterError, forget};
@@ -12,7 +12,7 @@ const PERCEPT_LIFETIME: u64 = 200;
 /// The network stage: percept in, field frame out, one period at a time.
 pub struct Network {
     plan: NetworkPlan,
-    afferents: Afferents,
+    projections: Projections,
     task: u64,
     seed: u64,
     fields: Vec<Field>,
@@ -39,7 +39,7 @@ impl Network {
             sources: vec![0.0; populations + plan.channels.len()],
             strength: vec![0.0; populations],
             gone: vec![0.0; populations],
-            afferents: Afferents::of(&plan),
+            projections: Projections::of(&plan),
             plan,
             task,
             seed,
@@ -130,7 +130,7 @@ impl Network {
 
     /// Sends the sources through the synapse table (chapter, eq. 4), adds noise.
     fn transmit(&mut self, tick: u64) {
-        self.afferents.gather(&self.sources, &mut self.strength);
+        self.projections.gather(&self.sources, &mut self.strength);
         // The generator is made anew from seed and tick, so that a restarted network makes the same noise.
         let mut random = Pcg64Mcg::seed_from_u64(self.seed ^ tick.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         for layer in &self.plan.layers {

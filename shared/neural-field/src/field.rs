@@ -109,7 +109,8 @@ impl Field {
         let Parameters { slope, threshold, .. } = self.parameters;
         for (signal, tile) in signal.iter_mut().zip(activity.chunks_exact(self.width)) {
             let centre = f64::midpoint(tile[(self.width - 1) / 2], tile[self.width / 2]);
-            *signal = (2.0 * sigmoid(centre, slope, threshold) - 1.0).max(0.0);
+            // Most populations are below threshold, and need no exponential to say so.
+            *signal = if centre > threshold { 2.0 * sigmoid(centre, slope, threshold) - 1.0 } else { 0.0 };
         }
     }
 }
@@ -118,7 +119,7 @@ impl Field {
 ///
 /// The two hot loops are compiled for wider registers as well, and chosen at run time: neither fuses nor reorders
 /// operations, so that every machine computes the same bits.
-#[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx512f"))]
+#[multiversion::multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn fire(output: &mut [f64], now: &[f64], slope: f64, threshold: f64) {
     for (output, &u) in output.iter_mut().zip(now) {
         *output = sigmoid(u, slope, threshold);
@@ -139,7 +140,7 @@ fn sum(output: &[f64]) -> f64 {
 }
 
 /// Writes the interaction integral, but for inhibition that reaches everywhere; `output` has a border of zeros as wide as the taps.
-#[multiversion::multiversion(targets("x86_64+avx2", "x86_64+avx512f"))]
+#[multiversion::multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn excite(output: &[f64], centre: f64, taps: &[f64], interaction: &mut [f64]) {
     let (reach, sites) = (taps.len(), interaction.len());
     for (interaction, &own) in interaction.iter_mut().zip(&output[reach..]) {

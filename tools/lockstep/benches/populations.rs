@@ -9,6 +9,8 @@ mod generated;
 use coact_fields::Network;
 use coact_joint_task::NetworkPlan;
 use coact_messages::{FieldFrame, Percept};
+use hdrhistogram::Histogram;
+use std::hint::black_box;
 use std::time::Instant;
 
 /// Steps that are measured for each task.
@@ -17,6 +19,7 @@ const STEPS: u64 = 100_000;
 const TARGET_US: f64 = 60.0;
 
 fn main() {
+    let mut last = 0;
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     for (subgoals, parts) in [(10, 10), (20, 16), (30, 20), (40, 26), (50, 30)] {
         let path = generated::write(folder.path(), subgoals, parts);
@@ -41,10 +44,35 @@ fn main() {
             taken.saturating_record(begin.elapsed().as_nanos() as u64);
             std::mem::swap(&mut now, &mut next);
         }
-        let [p50, p99, p999] = [0.5, 0.99, 0.999].map(|share| taken.value_at_quantile(share) as f64 / 1e3);
         println!(
             "{subgoals} subgoals, {parts} parts: {populations:4} populations, {synapses:5} synapses: \
-             p50 {p50:6.1} µs  p99 {p99:6.1} µs  p99.9 {p999:6.1} µs  (target {TARGET_US})"
+             {}  (target {TARGET_US})",
+            percentiles(&taken)
         );
+        last = taken.value_at_quantile(0.5);
     }
+    println!(
+        "the machine itself, in plain arithmetic of the last length:     {}",
+        percentiles(&arithmetic(last))
+    );
+}
+
+fn percentiles(taken: &Histogram<u64>) -> String {
+    let [p50, p99, p999] = [0.5, 0.99, 0.999].map(|share| taken.value_at_quantile(share) as f64 / 1e3);
+    format!("p50 {p50:6.1} µs  p99 {p99:6.1} µs  p99.9 {p999:6.1} µs")
+}
+
+/// Work that touches no memory and always takes the same number of operations, about `length_ns` each time: what
+/// it takes longer now and then is the machine's.
+fn arithmetic(length_ns: u64) -> Histogram<u64> {
+    let timed = |rounds: u64| {
+        let begin = Instant::now();
+        black_box((0..rounds).fold(1.0_f64, |value, round| value * 0.999 + round as f64));
+        begin.elapsed().as_nanos() as u64
+    };
+    const SAMPLE: u64 = 10_000;
+    let fastest = (0..100).map(|_| timed(SAMPLE)).min().unwrap_or(1).max(1);
+    let mut taken = coact_monitor::histogram();
+    (0..STEPS).for_each(|_| taken.saturating_record(timed(SAMPLE * length_ns / fastest)));
+    taken
 }

@@ -1,0 +1,120 @@
+use coact_joint_task::{NetworkPlan, Pool};
+
+/// Where each source projects to, laid out so that silent sources cost nothing: most of a network is silent.
+#[derive(Debug, Clone)]
+pub(crate) struct Projections {
+    /// Of each source, the synapses that add up at their target.
+    summed: Vec<Vec<Link>>,
+    /// Of each source, the groups that it belongs to.
+    pooled: Vec<Vec<u32>>,
+    /// Groups of synapses that count as one.
+    groups: Vec<Group>,
+    /// What each group has heard from its sources in this step.
+    heard: Vec<Heard>,
+    /// The groups that have heard anything in this step.
+    active: Vec<u32>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Link {
+    to: u32,
+    weight: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Group {
+    pool: Pool,
+    to: u32,
+    /// Weight of each of its synapses.
+    weight: f64,
+    sources: u32,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Heard {
+    sources: u32,
+    strongest: f64,
+    weakest: f64,
+}
+
+const NOTHING: Heard = Heard { sources: 0, strongest: 0.0, weakest: f64::INFINITY };
+
+impl Projections {
+    pub fn of(plan: &NetworkPlan) -> Self {
+        let sources = plan.populations.len() + plan.channels.len();
+        let (mut summed, mut pooled) = (vec![Vec::new(); sources], vec![Vec::new(); sources]);
+        let mut groups = Vec::new();
+        for group in plan.synapses.chunk_by(|a, b| (a.to, a.rule) == (b.to, b.rule)) {
+            let (to, weight, pool) = (group[0].to as u32, group[0].weight, plan.pools[group[0].rule]);
+            for synapse in group {
+                match pool {
+                    Pool::Sum => summed[synapse.from].push(Link { to, weight: synapse.weight }),
+                    Pool::Any | Pool::Every => pooled[synapse.from].push(groups.len() as u32),
+                }
+            }
+            if pool != Pool::Sum {
+                groups.push(Group { pool, to, weight, sources: group.len() as u32 });
+            }
+        }
+        let heard = vec![NOTHING; groups.len()];
+        Self { summed, pooled, active: Vec::with_capacity(groups.len()), groups, heard }
+    }
+
+    /// Input strength of each population from the signals of all sources, each between 0 and 1 (chapter, eq. 4,
+    /// without K).
+    pub fn gather(&mut self, signal: &[f64], strength: &mut [f64]) {
+        strength.fill(0.0);
+        for (source, &signal) in signal.iter().enumerate().filter(|(_, signal)| **signal > 0.0) {
+            for &Link { to, weight } in &self.summed[source] {
+                strength[to as usize] += weight * signal;
+            }
+            for &group in &self.pooled[source] {
+                let heard = &mut self.heard[group as usize];
+                if heard.sources == 0 {
+                    self.active.push(group);
+                }
+                heard.sources += 1;
+                heard.strongest = heard.strongest.max(signal);
+                heard.weakest = heard.weakest.min(signal);
+            }
+        }
+        for group in self.active.drain(..) {
+            let Group { pool, to, weight, sources } = self.groups[group as usize];
+            let heard = std::mem::replace(&mut self.heard[group as usize], NOTHING);
+            let counts = match pool {
+                Pool::Every if heard.sources < sources => 0.0,
+                Pool::Every => heard.weakest,
+                Pool::Any | Pool::Sum => heard.strongest,
+            };
+            strength[to as usize] += weight * counts;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use coact_joint_task::Synapse;
+    use std::path::Path;
+
+    /// A plan whose only synapses are those of three rules from sources 0 to 2 to target 0.
+    fn gathered(signal: [f64; 3]) -> f64 {
+        let task = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/toy-vehicle.toml");
+        let (_, mut plan) = NetworkPlan::load(&task).unwrap();
+        plan.pools = vec![Pool::Sum, Pool::Any, Pool::Every];
+        let synapse = |rule, from| Synapse { from, to: 0, weight: [1.0, 10.0, 100.0][rule], rule };
+        plan.synapses = (0..3).flat_map(|rule| (0..3).map(move |from| synapse(rule, from))).collect();
+        let mut strength = [0.0; 3];
+        Projections::of(&plan).gather(&signal, &mut strength);
+        assert_eq!(strength[1..], [0.0; 2]);
+        strength[0]
+    }
+
+    #[test]
+    fn sources_add_up_as_their_rule_says() {
+        assert_eq!(gathered([0.0; 3]), 0.0);
+        assert_eq!(gathered([1.0, 0.0, 1.0]), 2.0 + 10.0);
+        assert_eq!(gathered([1.0, 0.5, 0.5]), 2.0 + 10.0 + 50.0);
+    }
+}
