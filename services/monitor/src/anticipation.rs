@@ -29,6 +29,8 @@ struct OpenAction {
     subgoal: usize,
     onset: u64,
     grasp: Option<u64>,
+    /// What is wrong with it: [`Truth::error`].
+    error: u32,
     expectation: Option<Expectation>,
     /// The state at grasp completion was looked at, and nothing was decided then.
     late: bool,
@@ -63,15 +65,20 @@ impl Anticipation {
         if truth.actions > self.seen {
             self.begin(truth);
         }
-        if let Some(open) = self.open.as_mut().filter(|open| open.number == truth.actions) {
-            open.grasp = open.grasp.or(Some(truth.grasp_cycle).filter(|&cycle| cycle != 0));
+        let Some(mut open) = self.open.filter(|open| open.number == truth.actions) else { return };
+        open.grasp = open.grasp.or(Some(truth.grasp_cycle).filter(|&cycle| cycle != 0));
+        if open.error != truth.error {
+            // Its turn has come on the way.
+            open.error = truth.error;
+            open.expectation = self.expected(truth);
         }
+        self.open = Some(open);
     }
 
     /// Looks at the fields; an action that is answered is appended to `events`.
     pub fn frame(&mut self, frame: &FieldFrame, events: &mut Vec<Event>) {
         let Some(mut open) = self.open else { return };
-        if open.grasp.is_none() && self.is_given(&open, frame) {
+        if open.grasp.is_none() && self.is_served(&open, frame) {
             let goal = self.intentions.population(open.chain, open.subgoal);
             open.expectation = goal.map(Expectation::Intention).or(open.expectation);
             self.open = Some(open);
@@ -97,22 +104,35 @@ impl Anticipation {
         }
     }
 
-    /// Whether the robot is handing over the very part: its hand is full, so that it answers by understanding alone.
-    fn is_given(&self, open: &OpenAction, frame: &FieldFrame) -> bool {
+    /// Whether the robot brings the very part, or the one that the person's next step needs (chapter, section 5.2): its
+    /// hand is full, so that it answers by understanding alone.
+    fn is_served(&self, open: &OpenAction, frame: &FieldFrame) -> bool {
         let action = self.task.actions.get(frame.decision.action as usize);
-        action.is_some_and(|action| action.motion == Motion::Give && action.subgoal == Some(open.subgoal))
+        let goal = action.filter(|action| action.motion == Motion::Give).and_then(|action| action.subgoal);
+        let serves =
+            |goal: usize| goal == open.subgoal || self.task.subgoals[goal].after.contains(&open.subgoal);
+        goal.is_some_and(serves)
             && self.task.chains.get(open.chain).is_some_and(|chain| chain.from == Agent::Person)
     }
 
     fn begin(&mut self, truth: &Truth) {
         self.seen = truth.actions;
+        self.open = Some(OpenAction {
+            number: truth.actions,
+            chain: truth.chain as usize,
+            subgoal: truth.subgoal as usize,
+            onset: truth.onset_cycle,
+            grasp: None,
+            error: truth.error,
+            expectation: self.expected(truth),
+            late: false,
+        });
+    }
+
+    fn expected(&self, truth: &Truth) -> Option<Expectation> {
         let (chain, subgoal) = (truth.chain as usize, truth.subgoal as usize);
-        let expectation = match Expectation::of_error(&self.task, truth.error, subgoal) {
-            None => Expectation::new(&self.task, &self.intentions, chain, subgoal),
-            correction => correction,
-        };
-        let (number, onset) = (truth.actions, truth.onset_cycle);
-        self.open = Some(OpenAction { number, chain, subgoal, onset, grasp: None, expectation, late: false });
+        Expectation::of_error(&self.task, truth.error, subgoal)
+            .or_else(|| Expectation::new(&self.task, &self.intentions, chain, subgoal))
     }
 
     /// Forgets the open action; an action without grasp completion has no lead and gives no event.

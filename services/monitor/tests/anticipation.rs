@@ -64,6 +64,33 @@ fn a_mistake_is_answered_rightly_by_its_correction() {
 }
 
 #[test]
+fn a_mistake_whose_turn_comes_on_the_way_is_answered_like_any_action() {
+    let ticks = (0..1200).map(|cycle| {
+        let grasp = if cycle >= 800 { 800 } else { 0 };
+        let mut truth = acting(cycle, u32::from(cycle >= 100), MOUNT, LID, 100, grasp);
+        truth.error = if cycle < 400 { PartnerError::Early } else { PartnerError::None } as u32;
+        (truth, from(600, cycle, HOLD_LID))
+    });
+    assert!(play(ticks).remove(0).anticipated());
+}
+
+#[test]
+fn bringing_what_the_next_step_needs_answers_by_understanding() {
+    let brings = |understood: bool| {
+        one_action(MOUNT, LID, move |cycle| {
+            let mut frame = from(600, cycle, GIVE_HINGE);
+            if understood && cycle >= 500 {
+                let goal = frame.populations(LayerKind::Intention).nth(MOUNTING_LID).unwrap();
+                frame.since[goal] = 500;
+            }
+            frame
+        })
+    };
+    assert_eq!((brings(true).anticipated(), brings(true).lead_ms), (true, Some(300)));
+    assert!(!brings(false).correct);
+}
+
+#[test]
 fn wrong_decision_during_the_reach_is_counted_as_wrong() {
     let event = one_action(MOUNT, LID, |cycle| from(600, cycle, TAKE_HINGE));
     assert_eq!(event.expected.as_deref(), Some("steady: lid"));

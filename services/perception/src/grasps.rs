@@ -62,10 +62,11 @@ impl Grasps {
         out: &Percept,
     ) -> f64 {
         let held = out.person_holds.iter().copied().fold(0.0, f64::max);
-        let shown = |pitch: Option<f64>, trust: f64| resemblance(&self.grips, grip, pitch, trust);
-        let holds = out.person_holds[kind] * shown(memory.grip_pitch(), 1.0);
-        let prepares = preparing.kind[kind] * shown(memory.hand.pitch_ahead(), preparing.trust);
-        holds + (1.0 - held) * prepares
+        let shown = |evidence: f64, pitch: Option<f64>, trust: f64| {
+            if evidence > 0.0 { evidence * resemblance(&self.grips, grip, pitch, trust) } else { 0.0 }
+        };
+        let holds = shown(out.person_holds[kind], memory.grip_pitch(), 1.0);
+        holds + (1.0 - held) * shown(preparing.kind[kind], memory.hand.pitch_ahead(), preparing.trust)
     }
 
     /// What the present movement prepares for.

@@ -64,7 +64,8 @@ impl Perception {
     pub fn step(&mut self, tick: u64, sample: Option<&SensorSample>, out: &mut Percept) {
         if let Some(sample) = sample {
             self.sense(tick, sample);
-            self.places.report(tick, &self.memory.objects, &sample.scene, &mut self.state);
+            let followed = self.memory.hand.is_followed(tick);
+            self.places.report(tick, &self.memory.objects, &sample.scene, followed, &mut self.state);
         }
         self.classifier.learn(&mut self.memory.preshape);
         let heard = self.words.heard(tick);

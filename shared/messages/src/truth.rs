@@ -25,7 +25,8 @@ pub struct Truth {
     pub achieved: u64,
     /// Completed assemblies before the present one (the scene is laid out again after each).
     pub assemblies: u64,
-    /// [`PartnerError`] of the present action, as things were at its onset.
+    /// [`PartnerError`] of the present action, as things were at its onset; none once its turn has come before the
+    /// grasp is complete.
     pub error: u32,
     /// 1 while the person can do nothing but wait for the robot: with a part at its place until the base is held,
     /// holding out a part or the open hand, or with the fingers on a part that the robot has not let go. Else 0.

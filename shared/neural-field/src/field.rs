@@ -82,15 +82,7 @@ impl Field {
         let sites = self.sites();
         assert_eq!((now.len(), input.len(), next.len()), (sites, sites, sites));
         assert_eq!(resting.len(), self.populations);
-        let Parameters { slope, threshold, spacing, kernel, .. } = self.parameters;
-        let reach = self.taps.len();
-        fire(&mut self.output[reach..][..sites], now, slope, threshold);
-        excite(&self.output, self.centre, &self.taps, next);
-        // Inhibition without a range is the same everywhere: one sum serves all sites.
-        let everywhere = match kernel.range {
-            None => kernel.inhibition * spacing * sum(&self.output[reach..][..sites]),
-            Some(_) => 0.0,
-        };
+        let everywhere = self.interact(now, next);
         let rate = dt / self.parameters.tau;
         let tiles = next.chunks_exact_mut(self.width).zip(now.chunks_exact(self.width));
         for ((tile, &h), input) in tiles.zip(resting).zip(input.chunks_exact(self.width)) {
@@ -98,6 +90,24 @@ impl Field {
             for ((next, &u), &s) in next.iter_mut().zip(now).zip(input) {
                 *next = u + rate * (h - u + s + *next - everywhere);
             }
+        }
+    }
+
+    /// Writes the interaction integral of each site (chapter, eq. 1 and 2), but for inhibition that reaches everywhere,
+    /// which is the same for all sites and returned.
+    fn interact(&mut self, now: &[f64], interaction: &mut [f64]) -> f64 {
+        let Parameters { slope, threshold, spacing, kernel, .. } = self.parameters;
+        if kernel.amplitude == 0.0 && kernel.inhibition == 0.0 {
+            interaction.fill(0.0);
+            return 0.0;
+        }
+        let reach = self.taps.len();
+        let sites = reach..reach + now.len();
+        fire(&mut self.output[sites.clone()], now, slope, threshold);
+        excite(&self.output, self.centre, &self.taps, interaction);
+        match kernel.range {
+            None => kernel.inhibition * spacing * sum(&self.output[sites]),
+            Some(_) => 0.0,
         }
     }
 

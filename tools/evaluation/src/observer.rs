@@ -129,6 +129,8 @@ impl<'a> Observer<'a> {
         let rose = open.errors.iter().map(|&error| frame.since[error]).filter(|&since| since > 0).min();
         action.detected_ms = action.detected_ms.or(rose.map(|since| since.max(action.onset_ms)));
         if grasped {
+            // A step whose turn has come on the way is no mistake any more.
+            action.error = action.error.filter(|_| truth.error != PartnerError::None as u32);
             action.grasp_ms = Some(truth.grasp_cycle);
             action.inference = Some(match inferred {
                 None => Inference::Absent,

@@ -14,6 +14,9 @@ pub const HOLD_LID: usize = 0;
 pub const TAKE_HINGE: usize = 1;
 pub const ASK: usize = 2;
 pub const OBJECT_TO_HINGE: usize = 3;
+pub const GIVE_HINGE: usize = 4;
+/// The goal of mounting the lid, in the intention layer.
+pub const MOUNTING_LID: usize = 1;
 
 fn subgoal(name: &str, held: bool, after: Vec<usize>) -> Subgoal {
     let (name, axis, side) = (name.into(), [0.0, 0.0, 1.0], Agent::Person);
@@ -52,6 +55,7 @@ pub fn task() -> Task {
             action("take", Motion::Receive, 1, "hinge"),
             action("ask", Motion::Request, 1, "hinge"),
             action("object", Motion::Speak, 1, "hinge"),
+            action("give", Motion::Give, 1, "hinge"),
         ],
         scene: Scene {
             table_height: 0.0,
@@ -76,7 +80,7 @@ pub fn intentions() -> Intentions {
 }
 
 const LAYERS: [(LayerKind, u32); 3] =
-    [(LayerKind::SubgoalsAchieved, 2), (LayerKind::Intention, 2), (LayerKind::ActionExecution, 4)];
+    [(LayerKind::SubgoalsAchieved, 2), (LayerKind::Intention, 2), (LayerKind::ActionExecution, 5)];
 
 /// A frame of the network of [`task`] at rest.
 pub fn frame(cycle: u64) -> Box<FieldFrame> {

@@ -234,6 +234,11 @@ impl HandMemory {
         self.age(tick) <= USABLE
     }
 
+    /// Whether it has been tracked for so many frames that what it does is known.
+    pub fn is_followed(&self, tick: u64) -> bool {
+        self.is_tracked(tick) && self.frames == FRAMES as u64
+    }
+
     fn point(&self, name: KeypointName) -> Vector3<f64> {
         self.keypoint[name as usize].into()
     }

@@ -16,7 +16,7 @@ const MARGIN: f64 = 0.03;
 const ON_TABLE: f64 = 0.05;
 /// How long a part must lie still in its socket to be mounted, cycles.
 const SETTLED: u32 = 60;
-/// The same while the person's hand is not seen: it may hold the part there.
+/// The same while the person's hand is not seen, or is seen for the first time again: it may hold the part there.
 const SETTLED_UNSEEN: u32 = 2500;
 /// Age beyond which a sighting of a part tells nothing of where it is now, cycles.
 const RECENT: u64 = 300;
@@ -96,8 +96,15 @@ impl Places {
         !track.is_held() && !mounted && self.workspace_at(track.position) == Some(side)
     }
 
-    /// Moves all evidence about parts and places one cycle on.
-    pub fn report(&self, tick: u64, objects: &ObjectsMemory, view: &SceneView, out: &mut Percept) {
+    /// Moves all evidence about parts and places one cycle on; `followed`: what the person's hand does is known.
+    pub fn report(
+        &self,
+        tick: u64,
+        objects: &ObjectsMemory,
+        view: &SceneView,
+        followed: bool,
+        out: &mut Percept,
+    ) {
         if !objects.is_seeing(tick) {
             return;
         }
@@ -108,7 +115,7 @@ impl Places {
             approach(&mut out.person_holds[kind], holds(BY_PERSON), RAMP);
         }
         (0..self.subgoals.len().min(MAX_SUBGOALS))
-            .for_each(|goal| self.report_subgoal(goal, objects, view, out));
+            .for_each(|goal| self.report_subgoal(goal, objects, view, followed, out));
     }
 
     fn report_workspace(
@@ -152,11 +159,18 @@ impl Places {
         }
     }
 
-    fn report_subgoal(&self, goal: usize, objects: &ObjectsMemory, view: &SceneView, out: &mut Percept) {
+    fn report_subgoal(
+        &self,
+        goal: usize,
+        objects: &ObjectsMemory,
+        view: &SceneView,
+        followed: bool,
+        out: &mut Percept,
+    ) {
         let Subgoal { kind, socket, .. } = self.subgoals[goal];
         let away = |part: &PartTrack| (Vector3::from(socket) - Vector3::from(part.position)).norm();
         let own = objects.parts().filter(|(own, _)| *own == kind);
-        let settled = if out.hand.tracked == 1 { SETTLED } else { SETTLED_UNSEEN };
+        let settled = if followed { SETTLED } else { SETTLED_UNSEEN };
         let mounted = |part: &PartTrack| away(part) < IN_PLACE && !part.is_held() && part.still >= settled;
         let achieved = own.clone().any(|(_, part)| mounted(part));
         let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !self.is_hidden(socket, view);

@@ -183,6 +183,9 @@ impl Person {
     /// The fingers close on the part, or the gesture is fully shown.
     fn arrive(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
         let tick = around.tick;
+        if memory.intention().is_some_and(|own| around.view().error_of(&own) == PartnerError::None) {
+            memory.error = PartnerError::None as u64;
+        }
         if self.plan.rates().is_some() && memory.error != PartnerError::None as u64 {
             memory.notices = erring::notices(tick, &mut self.noise.at(Stream::Mistake, tick));
         }

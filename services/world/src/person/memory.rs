@@ -29,7 +29,8 @@ pub(crate) struct PersonMemory {
     pub ended: u64,
     pub onset: u64,
     pub grasped: u64,
-    /// [`coact_messages::PartnerError`] of the present action, as things were at its onset.
+    /// [`coact_messages::PartnerError`] of the present action, as things were at its onset; none once its turn has come before the
+    /// grasp is complete.
     pub error: u64,
     /// Tick at which the person will notice it; 0: never.
     pub notices: u64,
