@@ -31,12 +31,10 @@ impl Schedule {
         ns.saturating_sub(self.start_ns) / self.period_ns
     }
 
-    /// The tick to begin after `tick` at `ns`. One that overran skips those that have passed meanwhile, and the present one
-    /// as well if it should have started by now: there is no catching up, and no second late one because of the first.
-    pub(crate) fn following(&self, tick: u64, ns: u64, latest_start_ns: u64) -> u64 {
-        let present = self.tick_at(ns);
-        let is_late = ns > self.release(present) + latest_start_ns;
-        (tick + 1).max(present + u64::from(is_late && present > tick))
+    /// The tick to begin after `tick` at `ns`. One that overran is followed by the next that is released, so that all stages
+    /// resume with the same one: there is no catching up, and no second late one because of the first.
+    pub(crate) fn following(&self, tick: u64, ns: u64) -> u64 {
+        (tick + 1).max(self.next_after(ns))
     }
 
     /// The first tick that is not yet released at `ns`.
@@ -63,12 +61,11 @@ mod tests {
     }
 
     #[test]
-    fn tick_that_overran_is_followed_by_the_next_that_can_start_in_time() {
-        let follows = |ns: u64| SCHEDULE.following(3, ns, 400);
-        assert_eq!([8_001, 8_999].map(follows), [4, 4], "it ended within its period");
-        assert_eq!([9_000, 9_400].map(follows), [4, 4], "a little later");
-        assert_eq!([9_401, 9_999].map(follows), [5, 5], "too late for its successor");
-        assert_eq!([40_000, 40_400, 40_401].map(follows), [35, 35, 36], "much later");
+    fn tick_that_overran_is_followed_by_the_next_release() {
+        let follows = |ns: u64| SCHEDULE.following(3, ns);
+        assert_eq!([8_001, 8_999, 9_000].map(follows), [4; 3], "it ended within its period");
+        assert_eq!([9_001, 10_000].map(follows), [5; 2], "its successor is released already");
+        assert_eq!([40_000, 40_001].map(follows), [35, 36], "much later");
     }
 
     #[test]

@@ -62,7 +62,7 @@ impl Executor {
                 self.slow_cycles = SLOW_CYCLES;
             }
             self.cycle(cycle, scheduled_ns, work)?;
-            cycle = self.schedule.following(cycle, now(), self.latest_start_ns.unwrap_or(0));
+            cycle = self.schedule.following(cycle, now());
         }
     }
 
