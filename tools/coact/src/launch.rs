@@ -1,6 +1,6 @@
 use crate::folder_name::unused_report_folder;
 use crate::installation::Installation;
-use crate::{closing, lockstep, partner};
+use crate::{closed_pipe, closing, lockstep, partner};
 use anyhow::{Context, Result};
 use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
@@ -75,6 +75,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     } else if let Err(error) = launch.run() {
         return gave_up(error, &report, json);
     }
+    closed_pipe::ends_the_program();
     closing::show(&report, json)
 }
 

@@ -1,5 +1,6 @@
 //! The operator's command line.
 
+mod closed_pipe;
 mod closing;
 mod evaluate;
 mod figures;
@@ -66,7 +67,11 @@ fn main() -> ExitCode {
         .without_time()
         .with_target(false)
         .init();
-    let outcome = match Cli::parse().command {
+    let command = Cli::parse().command;
+    if !matches!(command, Command::Launch(_)) {
+        closed_pipe::ends_the_program();
+    }
+    let outcome = match command {
         Command::Launch(args) => launch::run(args),
         Command::Inject(args) => inject::run(args),
         Command::Say(args) => say::run(args),
