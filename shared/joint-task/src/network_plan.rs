@@ -1,8 +1,7 @@
-use crate::{Population, Task, TaskError, wiring};
+use crate::Population;
 use coact_messages::LayerKind;
 use coact_neural_field::{Forgetting, Parameters};
 use std::ops::Range;
-use std::path::Path;
 
 /// The network of a task, ready to be integrated: layers, populations and the synapse table.
 ///
@@ -98,20 +97,6 @@ pub enum Pool {
 }
 
 impl NetworkPlan {
-    /// Makes the network of the task file at `path` by the rules of the network file that it names.
-    ///
-    /// # Errors
-    /// A [`TaskError`] that names file, line, key and what was expected.
-    pub fn load(path: &Path) -> Result<(Task, Self), TaskError> {
-        let (mut task, network, learned) = crate::load::load(path)?;
-        let (mut plan, fingerprint) = wiring::wire(&task, &network)?;
-        task.fingerprint ^= fingerprint;
-        if let Some(learned) = learned {
-            plan.learn(&mut task, &learned)?;
-        }
-        Ok((task, plan))
-    }
-
     /// The layer of `kind`.
     pub fn layer(&self, kind: LayerKind) -> &LayerPlan {
         &self.layers[kind as usize]

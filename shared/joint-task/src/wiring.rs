@@ -11,8 +11,24 @@ use std::hash::{DefaultHasher, Hasher};
 use std::ops::Range;
 use std::path::Path;
 
+impl NetworkPlan {
+    /// Makes the network of the task file at `path` by the rules of the network file that it names.
+    ///
+    /// # Errors
+    /// A [`TaskError`] that names file, line, key and what was expected.
+    pub fn load(path: &Path) -> Result<(Task, Self), TaskError> {
+        let (mut task, network, learned) = crate::load::load(path)?;
+        let (mut plan, fingerprint) = wire(&task, &network)?;
+        task.fingerprint ^= fingerprint;
+        if let Some(learned) = learned {
+            plan.learn(&mut task, &learned)?;
+        }
+        Ok((task, plan))
+    }
+}
+
 /// The network of `task` by the rules at `path`, and the fingerprint of those rules.
-pub(crate) fn wire(task: &Task, path: &Path) -> Result<(NetworkPlan, u64), TaskError> {
+fn wire(task: &Task, path: &Path) -> Result<(NetworkPlan, u64), TaskError> {
     let source = Source::read(path)?;
     let file: NetworkFile = source.parse()?;
     let mut hash = DefaultHasher::new();

@@ -1,6 +1,6 @@
 use super::actor::{Person, Surroundings};
-use super::playback::LEAD;
 use super::profile::{FINGERS, minimum_jerk, movement_time, peak_aperture, peak_time, time_before_onset};
+use super::recorded::LEAD;
 use super::{Errand, HandPose, Movement, PersonMemory, Stage};
 use crate::noise::Stream;
 use crate::parts::{height, upright_along};

@@ -1,12 +1,10 @@
 //! A recorded person's hand in place of the model's: while a recorded reach drives it.
 
-use super::recorded::{RecordedFrame, RecordedReach};
+use super::recorded::{LEAD, RecordedFrame, RecordedReach};
 use super::{HandPose, Person, PersonMemory, Stage};
 use coact_messages::{Keypoint, KeypointName};
 use glam::DVec3;
 
-/// How long before its onset a recorded reach takes the hand over, ticks.
-pub(super) const LEAD: u64 = 300;
 /// How long after the grasp it leaves it again, ticks.
 const TRAIL: u64 = 150;
 

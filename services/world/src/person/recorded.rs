@@ -1,11 +1,12 @@
 use super::FOREARM;
-use super::playback::LEAD;
 use crate::WorldError;
 use coact_messages::KeypointName;
 use coact_recordings::{Frame, Reach, read_folder};
 use glam::DVec2;
 use std::path::Path;
 
+/// How long before its onset a recorded reach takes the hand over, ticks.
+pub(super) const LEAD: u64 = 300;
 /// Shortest way of the wrist on the image that says where a reach leads, pixels.
 const SHORTEST_WAY: f64 = 10.0;
 /// Frames further apart than this have lost frames between them, s.
