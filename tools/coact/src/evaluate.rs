@@ -29,6 +29,8 @@ use std::process::ExitCode;
 Keys of random, after a colon, separated by commas:
   idle, goal, ask, means   shares of the person's choices: idling, a part taken for a subgoal whose turn has not come
                            or that is achieved, a part asked for out of turn, a part asked for that is at hand
+  hidden, words            shares as well, of valid actions: a part taken behind something that hides it and the hand
+                           at it; an action that comes with a sentence of the task that means the same
   clarity=LOW..HIGH        of a grip: 1 its own pitch, 0 the middle between it and the nearest other grip's
   dropouts                 bursts per second in which the tracker loses the hand
   movement=LOW..HIGH       movement time of a reach, ms
