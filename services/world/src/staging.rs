@@ -85,14 +85,13 @@ impl Staging {
         mounted
     }
 
-    /// The boxes that stand in the scene at `tick`, and how many they are.
-    pub fn occluders(&self, tick: u64) -> ([[f64; 6]; MOST_OCCLUDERS], usize) {
+    /// The boxes that stand in the scene at `tick`, and how many they are; `screen`, where there is one, is the person's.
+    pub fn occluders(&self, tick: u64, screen: Option<[f64; 6]>) -> ([[f64; 6]; MOST_OCCLUDERS], usize) {
         let (mut blocks, mut count) = ([[0.0; 6]; MOST_OCCLUDERS], 0);
-        for occluder in self.occluders.iter().filter(|occluder| occluder.during.holds(tick)) {
-            if let Some(block) = blocks.get_mut(count) {
-                *block = occluder.block;
-                count += 1;
-            }
+        let own = self.occluders.iter().filter(|occluder| occluder.during.holds(tick));
+        for block in own.map(|occluder| occluder.block).chain(screen).take(MOST_OCCLUDERS) {
+            blocks[count] = block;
+            count += 1;
         }
         (blocks, count)
     }
@@ -110,5 +109,26 @@ impl Staging {
             slip.kind == kind && carried > slip.after && done & (1 << index) == 0
         };
         self.slips.iter().copied().enumerate().find(due)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_persons_own_box_stands_beside_those_of_the_scenario_as_far_as_a_frame_can_name_them() {
+        let (block, own) = ([1.0; 6], [2.0; 6]);
+        let staging = |count| {
+            let occluders = vec![Occluder { block, during: During(0, 10) }; count];
+            Staging { occluders, ..Staging::default() }
+        };
+        let (blocks, count) = staging(1).occluders(5, Some(own));
+        assert_eq!(blocks[..count], [block, own]);
+        assert_eq!(staging(1).occluders(10, Some(own)), ([own, [0.0; 6], [0.0; 6], [0.0; 6]], 1));
+        assert_eq!(
+            staging(MOST_OCCLUDERS).occluders(5, Some(own)),
+            ([block; MOST_OCCLUDERS], MOST_OCCLUDERS)
+        );
     }
 }

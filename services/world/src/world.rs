@@ -149,7 +149,7 @@ impl World {
         hand.notice(tick, palm, &mut memory.robot);
         let mut around = Surroundings { tick, task, parts, robot: &memory.robot };
         person.advance(&mut memory.person, &mut around);
-        if let Some(sentence) = person.speak(&mut memory.person) {
+        if let Some(sentence) = person.speak(&mut memory.person, task) {
             memory.heard.0.hear(tick, sentence);
         }
         self.tidy();
@@ -195,7 +195,7 @@ impl World {
         let wanted = command.map_or(0.0, |command| coact_messages::closing(&command.position));
         let touch = hand.touch(&memory.robot, parts, wanted);
         read_joints(tick, noise, (&joints.position, &joints.velocity), touch, &mut out.joints);
-        let (eye, (blocks, count)) = (task.scene.eye(), staging.occluders(tick));
+        let (eye, (blocks, count)) = (task.scene.eye(), staging.occluders(tick, memory.person.screen()));
         let occluders = &blocks[..count];
         let Memory { person: moved, tracker, .. } = memory;
         let capture = || match person.recorded_keypoints(moved, tick) {
@@ -227,6 +227,7 @@ impl World {
         truth.assemblies = self.memory.assemblies;
         truth.error = if phase == PartnerPhase::Idle { 0 } else { person.error as u32 };
         truth.waiting = u32::from(person.waits());
+        truth.hidden = u32::from(phase != PartnerPhase::Idle && person.screen().is_some());
     }
 
     fn remember(&self, state: &mut WorldState) {

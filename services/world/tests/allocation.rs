@@ -37,7 +37,7 @@ fn steps_of_a_minute_allocate_nothing() {
     let task = Task::load(&config.join("tasks/toy-vehicle.toml")).unwrap();
     let robot = Robot::load(&config.join("robots/aros.toml")).unwrap();
     let scenario = format!("script:{}", config.join("scenarios/proactive.toml").display());
-    for partner in ["synthetic", "random:goal=0.4,dropouts=1", &scenario] {
+    for partner in ["synthetic", "random:goal=0.4,hidden=0.2,words=0.2,dropouts=1", &scenario] {
         let partner = Partner::load(partner, &task, 0).unwrap();
         let settings = Settings { seed: 1, partner, body: BodyKind::Kinematic };
         let mut world = World::new(&task, &robot, settings).unwrap();

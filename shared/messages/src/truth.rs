@@ -31,6 +31,10 @@ pub struct Truth {
     /// 1 while the person can do nothing but wait for the robot: with a part at its place until the base is held,
     /// holding out a part or the open hand, or with the fingers on a part that the robot has not let go. Else 0.
     pub waiting: u32,
+    /// 1 while the person's action leads behind something that hides the part, and the hand at it, from the robot. Else 0.
+    pub hidden: u32,
+    /// Reserved, zero.
+    pub reserved: u32,
 }
 
 /// What is wrong with one of the person's actions.

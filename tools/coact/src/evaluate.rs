@@ -29,6 +29,8 @@ use std::process::ExitCode;
 Keys of random, after a colon, separated by commas:
   idle, goal, ask, means   shares of the person's choices: idling, a part taken for a subgoal whose turn has not come
                            or that is achieved, a part asked for out of turn, a part asked for that is at hand
+  hidden, words            shares as well, of valid actions: a part taken behind something that hides it and the hand
+                           at it; an action that comes with a sentence of the task that means the same
   clarity=LOW..HIGH        of a grip: 1 its own pitch, 0 the middle between it and the nearest other grip's
   dropouts                 bursts per second in which the tracker loses the hand
   movement=LOW..HIGH       movement time of a reach, ms
@@ -251,6 +253,9 @@ fn rows(report: &Report) -> Vec<(String, String)> {
         row("  wrongly", share(&report.wrong)),
         row("  not", share(&report.absent)),
         row("  rightly, of wrong actions", share(&report.right_of_errors)),
+        row("goal inferred rightly at grasp, hidden hands", share(&report.right_of_hidden)),
+        row("  wrongly, hidden hands", share(&report.wrong_of_hidden)),
+        row("  not, hidden hands", share(&report.absent_of_hidden)),
         row("answer decided before grasp", share(&report.anticipated)),
         row("decision lead p5 p50 p95, ms", lead),
         row("  mean", interval(report.mean_lead_ms, 1.0, 0, "")),

@@ -170,6 +170,7 @@ impl<'a> Observer<'a> {
             chain: format!("{}: {}", rule.name, self.task.kinds[rule.kind].name),
             subgoal: goal.name.clone(),
             error,
+            hidden: truth.hidden != 0,
             onset_ms: truth.onset_cycle,
             grasp_ms: None,
             inferred: None,

@@ -31,12 +31,13 @@ impl PlotError {
     }
 }
 
-/// Draws how long before grasp completion the right answers were decided; leads beyond 1 s stand at the ends.
+/// Draws how long before grasp completion the right answers to actions in full view were decided; leads beyond 1 s stand at the ends.
 ///
 /// # Errors
 /// The file cannot be written.
 pub fn draw_leads(trials: &[Trial], path: &Path) -> Result<(), PlotError> {
-    let leads = trials.iter().flat_map(|trial| &trial.actions).filter_map(|action| action.lead_ms);
+    let seen = trials.iter().flat_map(|trial| &trial.actions).filter(|action| !action.hidden);
+    let leads = seen.filter_map(|action| action.lead_ms);
     leads_to(&leads.collect::<Vec<_>>(), path).map_err(|cause| PlotError::new(path, cause))
 }
 

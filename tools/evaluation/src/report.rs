@@ -13,23 +13,29 @@ pub struct Report {
     pub deadlocks: Share,
     /// Time of the completed ones, s.
     pub seconds: Option<Interval>,
-    /// Valid actions whose goal stood rightly in IL at grasp completion.
+    /// Valid actions in full view whose goal stood rightly in IL at grasp completion.
     pub right: Share,
     /// ... for which another one stood.
     pub wrong: Share,
     /// ... for which none stood.
     pub absent: Share,
+    /// Valid actions of hidden hands whose goal stood rightly in IL at grasp completion.
+    pub right_of_hidden: Share,
+    /// ... for which another one stood.
+    pub wrong_of_hidden: Share,
+    /// ... for which none stood.
+    pub absent_of_hidden: Share,
     /// Wrong actions whose goal stood rightly in IL at grasp completion.
     pub right_of_errors: Share,
-    /// Valid actions whose complementary action was decided before grasp completion.
+    /// Valid actions in full view whose complementary action was decided before grasp completion.
     pub anticipated: Share,
-    /// Decision lead of all that were answered rightly, ms.
+    /// Decision lead of all of them that were answered rightly, ms.
     pub lead_ms: Option<Spread>,
     /// Its mean.
     pub mean_lead_ms: Option<Interval>,
     /// Errors by kind.
     pub errors: Vec<ErrorTally>,
-    /// False alarms against valid actions.
+    /// False alarms against valid actions, hidden ones among them.
     pub false_alarms: Share,
     /// Ticks with two peaks in one decision layer, in all assemblies.
     pub double_peaks: u64,
@@ -68,7 +74,8 @@ impl Report {
         };
         let actions: Vec<&PartnerAction> = trials.iter().flat_map(|trial| &trial.actions).collect();
         let grasped = || actions.iter().copied().filter(|action| action.grasp_ms.is_some());
-        let valid: Vec<_> = grasped().filter(|action| action.error.is_none()).collect();
+        let (hidden, valid): (Vec<_>, Vec<_>) =
+            grasped().filter(|action| action.error.is_none()).partition(|action| action.hidden);
         let wrong: Vec<_> = grasped().filter(|action| action.error.is_some()).collect();
         let inferred = |among: &[&PartnerAction], what: Inference| {
             Share::new(among.iter().filter(|action| action.inference == Some(what)).count(), among.len())
@@ -87,12 +94,18 @@ impl Report {
             right: inferred(&valid, Inference::Right),
             wrong: inferred(&valid, Inference::Wrong),
             absent: inferred(&valid, Inference::Absent),
+            right_of_hidden: inferred(&hidden, Inference::Right),
+            wrong_of_hidden: inferred(&hidden, Inference::Wrong),
+            absent_of_hidden: inferred(&hidden, Inference::Absent),
             right_of_errors: inferred(&wrong, Inference::Right),
             anticipated: Share::new(leads.iter().filter(|lead| **lead > 0.0).count(), valid.len()),
             mean_lead_ms: Interval::mean(&leads),
             lead_ms: Spread::new(leads),
             errors: ErrorKind::ALL.iter().map(|kind| ErrorTally::new(*kind, &wrong)).collect(),
-            false_alarms: Share::new(trials.iter().map(|trial| trial.false_alarms.len()).sum(), valid.len()),
+            false_alarms: Share::new(
+                trials.iter().map(|trial| trial.false_alarms.len()).sum(),
+                valid.len() + hidden.len(),
+            ),
             double_peaks: trials.iter().map(|trial| trial.double_peaks).sum(),
             human_idle: mean(&|trial| trial.fluency.human_idle),
             robot_idle: mean(&|trial| trial.fluency.robot_idle),

@@ -50,6 +50,8 @@ pub struct PartnerAction {
     pub subgoal: String,
     /// What was wrong with it.
     pub error: Option<ErrorKind>,
+    /// Whether it led behind something that hid the part, and the hand at it.
+    pub hidden: bool,
     /// Reach onset.
     pub onset_ms: u64,
     /// Grasp completion, or when the gesture was fully shown; none when it was broken off before.

@@ -56,6 +56,22 @@ fn a_robot_that_waits_for_the_deed_decides_later_and_lets_the_person_wait_longer
 }
 
 #[test]
+fn hidden_actions_have_rows_of_their_own() {
+    let trials = trials("random:hidden=0.5,words=0", &Mind::default(), 3, 2);
+    let report = Report::new(&Mind::default(), &trials);
+    let valid = |hidden: bool| {
+        let actions = trials.iter().flat_map(|trial| &trial.actions).filter(|own| own.hidden == hidden);
+        actions.filter(|own| own.error.is_none() && own.grasp_ms.is_some()).count()
+    };
+    assert!(valid(true) >= 3 && valid(false) >= 3, "{trials:?}");
+    assert_eq!((report.right.of, report.anticipated.of), (valid(false), valid(false)));
+    let inferred = [report.right_of_hidden, report.wrong_of_hidden, report.absent_of_hidden];
+    assert_eq!(inferred.map(|share| share.of), [valid(true); 3]);
+    assert_eq!(inferred.iter().map(|share| share.count).sum::<usize>(), valid(true));
+    assert_eq!(report.false_alarms.of, valid(true) + valid(false));
+}
+
+#[test]
 fn what_is_taken_away_is_silent_and_all_else_stays() {
     let (_, plan) = NetworkPlan::load(&settings("synthetic").task).unwrap();
     let without = |ablation| Mind { without: vec![ablation], ..Mind::default() }.of(plan.clone());
@@ -72,7 +88,7 @@ fn what_is_taken_away_is_silent_and_all_else_stays() {
 #[test]
 fn without_common_subgoals_nothing_is_achieved_and_that_is_told_as_a_deadlock() {
     let mind = Mind { without: vec![Ablation::Csgl, Ablation::Oml], ..Mind::default() };
-    let found = trials("random:idle=1,goal=0,ask=0,means=0", &mind, 1, 1);
+    let found = trials("random:idle=1,goal=0,ask=0,means=0,hidden=0,words=0", &mind, 1, 1);
     assert!(found[0].stalled && found[0].completed_ms.is_none(), "{:?}", found[0]);
     assert_eq!(found[0].ended_ms, 60_000);
     assert!(found[0].actions.is_empty());

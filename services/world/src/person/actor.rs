@@ -80,12 +80,13 @@ impl Person {
         }
     }
 
-    /// The sentence that the script has the person say now.
-    pub fn speak(&self, memory: &mut PersonMemory) -> Option<&str> {
-        let entry = std::mem::take(&mut memory.says).get()?;
+    /// The sentence that the person says now: the script's, or the phrase that goes with the present action.
+    pub fn speak<'a>(&'a self, memory: &mut PersonMemory, task: &'a Task) -> Option<&'a str> {
+        let index = std::mem::take(&mut memory.says).get()?;
         match &self.plan {
-            Plan::Script(script) => script.sentence(entry),
-            Plan::Synthetic | Plan::Erring(_) => None,
+            Plan::Script(script) => script.sentence(index),
+            Plan::Erring(_) => task.chains.get(memory.chain.get()?)?.says.get(index).map(String::as_str),
+            Plan::Synthetic => None,
         }
     }
 
@@ -119,7 +120,13 @@ impl Person {
 
     fn decide(&self, memory: &mut PersonMemory, around: &Surroundings) {
         let mut rng = self.noise.at(Stream::Choice, around.tick);
-        match self.plan.next(&around.view(), memory, &mut rng) {
+        let now = *memory;
+        let can_hide = |intention: &Intention| {
+            let mut imagined = now;
+            self.intend(*intention, &mut imagined, around);
+            imagined.screen().is_some()
+        };
+        match self.plan.next(&around.view(), memory, &can_hide, &mut rng) {
             Choice::Rest(pause) => memory.until = around.tick + pause.max(1),
             Choice::Begin(intention) => self.take_up(intention, memory, around),
         }
@@ -127,6 +134,12 @@ impl Person {
 
     /// Makes an intention the present action.
     fn take_up(&self, intention: Intention, memory: &mut PersonMemory, around: &Surroundings) {
+        self.intend(intention, memory, around);
+        memory.enter(Stage::Prepare, memory.movement.onset);
+    }
+
+    /// What the action will be like: how the hand will reach, and what stands in the way of the robot's sight.
+    fn intend(&self, intention: Intention, memory: &mut PersonMemory, around: &Surroundings) {
         memory.chain = Slot::of(intention.chain);
         memory.subgoal = intention.subgoal.map_or(Slot::EMPTY, Slot::of);
         memory.part = intention.part.map_or(Slot::EMPTY, Slot::of);
@@ -134,7 +147,7 @@ impl Person {
         memory.manner = intention.manner;
         memory.recording = self.choose_recording(intention, around);
         memory.movement = self.reach_movement(memory, around);
-        memory.enter(Stage::Prepare, memory.movement.onset);
+        memory.set_screen(self.screen(memory, around));
     }
 
     /// One of the recorded reaches for a part of this width.
@@ -154,6 +167,9 @@ impl Person {
         memory.notices = 0;
         let error = memory.intention().map(|intention| around.view().error_of(&intention));
         memory.error = error.unwrap_or(PartnerError::None) as u64;
+        if memory.manner.phrase != Slot::EMPTY {
+            memory.says = memory.manner.phrase;
+        }
         memory.enter(Stage::Reach, memory.movement.end);
         self.move_towards(memory, around);
     }
@@ -315,6 +331,7 @@ impl Person {
         memory.hand = memory.movement.pose(around.tick);
         if memory.movement.is_over(around.tick) {
             memory.ended = around.tick;
+            memory.set_screen(None);
             let pause = self.plan.pause_ms(&self.noise, around.tick);
             memory.enter(Stage::Rest, around.tick + pause);
         }

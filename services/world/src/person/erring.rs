@@ -1,10 +1,10 @@
-//! A partner as people are: mostly right, in any order that the plan allows, at times idle, and now and then wrong.
-//!
-//! Occlusions are not among the rates: occluders stand in scenarios, and this partner follows none.
+//! A partner as people are: mostly right, in any order that the plan allows, at times idle or out of sight, at times with
+//! words, and now and then wrong.
 
 use super::intention::{Choice, Intention, View};
 use super::rates::Rates;
 use super::{Errand, Manner, synthetic};
+use crate::slot::Slot;
 use coact_joint_task::{Act, Agent};
 use coact_messages::PartnerError;
 use rand::{Rng, RngExt};
@@ -17,25 +17,48 @@ const NOTICES_MS: std::ops::RangeInclusive<u64> = 1000..=3000;
 const SLOT_MS: u64 = 500;
 const BURST_MS: std::ops::RangeInclusive<u64> = 50..=300;
 
-/// What the person does next: takes what the robot offers, errs, idles, or does one of the valid actions.
-pub(crate) fn choose<R: Rng>(rates: &Rates, view: &View, rng: &mut R) -> Choice {
+/// What the person does next: takes what the robot offers, errs, idles, or does one of the valid actions; one of those
+/// may be hidden, or come with words.
+pub(crate) fn choose<R: Rng>(
+    rates: &Rates,
+    view: &View,
+    can_hide: &dyn Fn(&Intention) -> bool,
+    rng: &mut R,
+) -> Choice {
     if let Some(intention) = view.take_offered() {
         return Choice::Begin(intention);
     }
-    let valid = synthetic::draw(view, rng);
+    let valid = synthetic::draw(view, rng, |_| true);
     let drawn: f64 = rng.random::<f64>() / if valid.is_some() { 1.0 } else { IMPATIENT };
-    let wrong = match drawn {
+    let wrong = rates.goal + rates.ask + rates.means;
+    let special = match drawn {
         drawn if drawn < rates.goal => one_of(view, rng, wrong_goal),
         drawn if drawn < rates.goal + rates.ask => one_of(view, rng, wrong_request),
-        drawn if drawn < rates.goal + rates.ask + rates.means => one_of(view, rng, wrong_means),
+        drawn if drawn < wrong => one_of(view, rng, wrong_means),
+        drawn if drawn < wrong + rates.hidden => hidden(view, can_hide, rng),
+        drawn if drawn < wrong + rates.hidden + rates.words => spoken(view, rng),
         _ => None,
     };
     let idles = drawn >= 1.0 - rates.idle;
-    match wrong.or(valid) {
+    match special.or(valid) {
         None => Choice::Rest(rng.random_range(synthetic::RETHINK_MS)),
-        Some(_) if idles && wrong.is_none() => Choice::Rest(rng.random_range(synthetic::IDLE_MS)),
+        Some(_) if idles && special.is_none() => Choice::Rest(rng.random_range(synthetic::IDLE_MS)),
         Some(intention) => Choice::Begin(intention),
     }
+}
+
+/// To take one of the parts that may be taken, behind something.
+fn hidden<R: Rng>(view: &View, can_hide: &dyn Fn(&Intention) -> bool, rng: &mut R) -> Option<Intention> {
+    let behind = |taking: Intention| Intention { manner: Manner { hidden: 1, ..taking.manner }, ..taking };
+    synthetic::draw(view, rng, |intention| can_hide(&behind(*intention))).map(behind)
+}
+
+/// To do one of the valid actions of which the task knows how they are spoken of, and to say so.
+fn spoken<R: Rng>(view: &View, rng: &mut R) -> Option<Intention> {
+    let phrases = |intention: &Intention| view.task.chains[intention.chain].says.len();
+    let told = synthetic::draw(view, rng, |intention| phrases(intention) > 0)?;
+    let phrase = Slot::of(rng.random_range(0..phrases(&told)));
+    Some(Intention { manner: Manner { phrase, ..told.manner }, ..told })
 }
 
 /// When the person who errs since `grasp` will notice.

@@ -47,7 +47,9 @@ pub(crate) struct PersonMemory {
     pub home: [f64; 3],
     /// How the present action is carried out.
     pub manner: Manner,
-    /// Action of the script whose sentence is to be said now.
+    /// What stands before the part of the present action, if it is hidden: centre and half extents, m; else zeros.
+    screen: [f64; 6],
+    /// What is to be said now: action of the script, or phrase of the present chain.
     pub says: Slot,
     /// Tick since which the script's next action has been waiting for a part; 0: not.
     pub waiting: u64,
@@ -135,6 +137,16 @@ impl PersonMemory {
     pub fn intention(&self) -> Option<Intention> {
         let (errand, subgoal, part) = (self.errand(), self.subgoal.get(), self.part.get());
         self.chain.get().map(|chain| Intention { errand, chain, subgoal, part, manner: self.manner })
+    }
+
+    /// The box that stands before the part of the present action, until the hand is back at rest: centre and half
+    /// extents, m.
+    pub fn screen(&self) -> Option<[f64; 6]> {
+        (self.screen != [0.0; 6]).then_some(self.screen)
+    }
+
+    pub fn set_screen(&mut self, screen: Option<[f64; 6]>) {
+        self.screen = screen.unwrap_or_default();
     }
 
     /// Whether the person can do nothing but wait for the robot.

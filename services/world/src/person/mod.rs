@@ -14,6 +14,7 @@ mod playback;
 mod profile;
 mod rates;
 mod recorded;
+mod screen;
 mod script;
 mod script_file;
 mod script_source;

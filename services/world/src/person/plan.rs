@@ -1,4 +1,4 @@
-use super::intention::{Choice, View};
+use super::intention::{Choice, Intention, View};
 use super::rates::Rates;
 use super::script::Script;
 use super::{PersonMemory, erring, synthetic};
@@ -20,11 +20,18 @@ pub(crate) enum Plan {
 }
 
 impl Plan {
-    /// What comes next for a person at rest.
-    pub fn next<R: Rng>(&self, view: &View, memory: &mut PersonMemory, rng: &mut R) -> Choice {
+    /// What comes next for a person at rest; `can_hide` says whether something that stands before the part may hide an
+    /// action.
+    pub fn next<R: Rng>(
+        &self,
+        view: &View,
+        memory: &mut PersonMemory,
+        can_hide: &dyn Fn(&Intention) -> bool,
+        rng: &mut R,
+    ) -> Choice {
         match self {
             Self::Synthetic => synthetic::choose(view, rng),
-            Self::Erring(rates) => erring::choose(rates, view, rng),
+            Self::Erring(rates) => erring::choose(rates, view, can_hide, rng),
             Self::Script(script) => script.next(view, memory),
         }
     }

@@ -9,18 +9,22 @@ use std::ops::RangeInclusive;
 /// | `goal` | share | a part is taken for a subgoal whose turn has not come, or that is achieved |
 /// | `ask` | share | a part is asked for whose turn has not come |
 /// | `means` | share | a part is asked for that lies in the person's own workspace |
+/// | `hidden` | share | valid takings of a part before which something stands: it hides the part, and the hand at it, but not the hand that sets out |
+/// | `words` | share | valid actions that come with a sentence of the task that means the same, said at reach onset |
 /// | `clarity` | range in 0..1 | of a grip: 1 is the grip's own pitch, 0 the middle between it and the nearest other grip's |
 /// | `dropouts` | per second | bursts in which the tracker loses the hand, 50 to 300 ms long; at most 2 |
 /// | `movement` | range in ms | movement time of a reach, 300 to 3000 |
 ///
-/// A share is from 0 to 1; the four shares add up to at most 1. A range is written `LOW..HIGH`. What is not named has
-/// its default value.
+/// A share is from 0 to 1; the six shares, which are of all choices, add up to at most 1. Taking what the robot offers is
+/// no choice. A range is written `LOW..HIGH`. What is not named has its default value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rates {
     pub(crate) idle: f64,
     pub(crate) goal: f64,
     pub(crate) ask: f64,
     pub(crate) means: f64,
+    pub(crate) hidden: f64,
+    pub(crate) words: f64,
     pub(crate) clarity: RangeInclusive<f64>,
     pub(crate) dropouts: f64,
     pub(crate) movement: RangeInclusive<f64>,
@@ -34,6 +38,8 @@ impl Default for Rates {
             goal: 0.06,
             ask: 0.02,
             means: 0.02,
+            hidden: 0.03,
+            words: 0.03,
             clarity: 0.5..=1.0,
             dropouts: 0.05,
             movement: 429.0..=895.0,
@@ -41,7 +47,7 @@ impl Default for Rates {
     }
 }
 
-const KEYS: &str = "idle, goal, ask, means, clarity, dropouts, movement";
+const KEYS: &str = "idle, goal, ask, means, hidden, words, clarity, dropouts, movement";
 
 impl Rates {
     /// Reads `KEY=VALUE,...`; an empty text leaves all defaults.
@@ -63,6 +69,8 @@ impl Rates {
                 "goal" => rates.goal = share()?,
                 "ask" => rates.ask = share()?,
                 "means" => rates.means = share()?,
+                "hidden" => rates.hidden = share()?,
+                "words" => rates.words = share()?,
                 "dropouts" => rates.dropouts = number(2.0, "bursts per second, from 0 to 2")?,
                 "clarity" => {
                     rates.clarity = range(value, 0.0..=1.0).ok_or_else(|| fault("LOW..HIGH within 0..1"))?;
@@ -74,12 +82,14 @@ impl Rates {
                 _ => return Err(fault(&format!("one of the keys {KEYS}"))),
             }
         }
-        let sum = rates.idle + rates.goal + rates.ask + rates.means;
+        let sum = rates.idle + rates.goal + rates.ask + rates.means + rates.hidden + rates.words;
         match sum <= 1.0 {
             true => Ok(rates),
             false => Err(WorldError::Rate {
                 entry: text.into(),
-                expected: format!("idle, goal, ask and means to add up to at most 1, not {sum:.2}"),
+                expected: format!(
+                    "idle, goal, ask, means, hidden and words to add up to at most 1, not {sum:.2}"
+                ),
             }),
         }
     }
@@ -99,10 +109,17 @@ mod tests {
 
     #[test]
     fn keys_set_their_rates_and_leave_the_others() {
-        let rates = Rates::parse("goal=0.2,clarity=0..0.25,movement=600..600").unwrap();
+        let rates = Rates::parse("goal=0.2,hidden=0.1,words=0.5,clarity=0..0.25,movement=600..600").unwrap();
         assert_eq!(
             rates,
-            Rates { goal: 0.2, clarity: 0.0..=0.25, movement: 600.0..=600.0, ..Rates::default() }
+            Rates {
+                goal: 0.2,
+                hidden: 0.1,
+                words: 0.5,
+                clarity: 0.0..=0.25,
+                movement: 600.0..=600.0,
+                ..Rates::default()
+            }
         );
         assert_eq!(Rates::parse("").unwrap(), Rates::default());
     }
@@ -114,10 +131,16 @@ mod tests {
             ("goal", "random: \"goal\"; expected KEY=VALUE"),
             ("goal=1.2", "random: \"goal=1.2\"; expected a share from 0 to 1"),
             ("goal=NaN", "expected a share"),
+            ("hidden=1.5", "expected a share from 0 to 1"),
+            ("words=often", "expected a share from 0 to 1"),
             ("dropouts=-1", "expected bursts per second"),
             ("clarity=0.9..0.2", "expected LOW..HIGH within 0..1"),
             ("movement=10..500", "expected LOW..HIGH within 300..3000 ms"),
             ("goal=0.6,means=0.6", "to add up to at most 1"),
+            (
+                "idle=0.5,hidden=0.3,words=0.3",
+                "idle, goal, ask, means, hidden and words to add up to at most 1",
+            ),
         ] {
             let error = Rates::parse(text).unwrap_err().to_string();
             assert!(error.contains(expected), "{error}");

@@ -129,7 +129,8 @@ impl Source<'_> {
                 return Err(self.fault(given.span().start, message));
             }
         };
-        Ok(Manner { gives_up: gives_up.map_or(0, |ticks| ticks.max(1)), blur: 1.0 - clarity })
+        let gives_up = gives_up.map_or(0, |ticks| ticks.max(1));
+        Ok(Manner { gives_up, blur: 1.0 - clarity, ..Manner::default() })
     }
 
     fn sentence(&self, say: &Spanned<String>) -> Result<String, WorldError> {

@@ -17,19 +17,24 @@ pub(crate) fn choose<R: Rng>(view: &View, rng: &mut R) -> Choice {
     if let Some(intention) = view.take_offered() {
         return Choice::Begin(intention);
     }
-    match draw(view, rng) {
+    match draw(view, rng, |_| true) {
         None => Choice::Rest(rng.random_range(RETHINK_MS)),
         Some(_) if rng.random_bool(IDLES) => Choice::Rest(rng.random_range(IDLE_MS)),
         Some(intention) => Choice::Begin(intention),
     }
 }
 
-/// One of the valid intentions, drawn with their weights.
-pub(super) fn draw<R: Rng>(view: &View, rng: &mut R) -> Option<Intention> {
+/// One of the valid intentions that are `wanted`, drawn with their weights.
+pub(super) fn draw<R: Rng>(
+    view: &View,
+    rng: &mut R,
+    wanted: impl Fn(&Intention) -> bool,
+) -> Option<Intention> {
     let (mut drawn, mut total) = (None, 0.0);
     for chain in 0..view.task.chains.len() {
         for subgoal in 0..view.task.subgoals.len() {
-            let Some((intention, weight)) = valid(view, chain, subgoal) else { continue };
+            let found = valid(view, chain, subgoal).filter(|(intention, _)| wanted(intention));
+            let Some((intention, weight)) = found else { continue };
             total += weight;
             if rng.random::<f64>() * total < weight {
                 drawn = Some(intention);

@@ -2,12 +2,14 @@
 
 mod erring;
 mod fake_robot;
+mod hidden;
 mod partner;
 mod physics;
 mod profiles;
 mod recorded;
 mod resume;
 mod script;
+mod spoken;
 
 use super::World;
 use crate::parts::Holder;

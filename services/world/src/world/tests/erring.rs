@@ -15,7 +15,7 @@ fn world(seed: u64, rates: &str) -> World {
 }
 
 /// Runs with a helpful robot and calls `look` after each tick with the truth before and after.
-fn run(seed: u64, seconds: u64, rates: &str, mut look: impl FnMut(u64, &World, &Out, &Truth)) {
+pub(super) fn run(seed: u64, seconds: u64, rates: &str, mut look: impl FnMut(u64, &World, &Out, &Truth)) {
     let (mut world, mut robot, mut out) = (world(seed, rates), FakeRobot::new(), Out::new());
     for tick in 1..=seconds * 1000 {
         let before = *out.truth;
@@ -129,7 +129,7 @@ fn movement_time_stays_within_its_range() {
 
 #[test]
 fn same_seed_gives_the_same_person_also_after_a_restart() {
-    let rates = "goal=0.4,dropouts=1";
+    let rates = "goal=0.4,hidden=0.2,words=0.2,dropouts=1";
     let (mut one, mut hand, mut out) = (world(4, rates), FakeRobot::new(), Out::new());
     let (mut other, mut other_hand, mut other_out) = (world(4, rates), FakeRobot::new(), Out::new());
     for tick in 1..=60_000 {

@@ -1,0 +1,105 @@
+//! What stands before a part whose taking the robot is not to see.
+
+use super::actor::{Person, Surroundings};
+use super::{Movement, PersonMemory};
+use crate::parts::Parts;
+use coact_joint_task::{Shape, Task};
+use coact_messages::{KeypointName, is_blocked};
+use glam::DVec3;
+
+/// How far the screen stands before what it hides, and how thick it is, m.
+const GAP: f64 = 0.01;
+const THICKNESS: f64 = 0.02;
+/// How much wider and higher it is than what it hides, m: five times the scatter of the tracker.
+const MARGIN: f64 = 0.01;
+/// Last part of a reach that is hidden as well, as a share of its time: the hand has all but arrived.
+const ARRIVAL: f64 = 0.2;
+/// Places of the hand on it that are looked at.
+const STEPS: u32 = 4;
+
+impl Person {
+    /// The screen before the part of the present action: centre and half extents, m. It hides the part, and the hand from
+    /// the end of the reach on. None for an action in full view, and where the hand would not be seen as it sets out.
+    pub(super) fn screen(&self, memory: &PersonMemory, around: &Surroundings) -> Option<[f64; 6]> {
+        let part = memory.part.get().filter(|_| memory.manner.hidden == 1)?;
+        let Movement { start, end, .. } = memory.movement;
+        let arriving = |step: u32| {
+            let before = ARRIVAL * f64::from(step) / f64::from(STEPS) * (end - start) as f64;
+            memory.movement.pose(end - before as u64)
+        };
+        let hand = |pose| self.model.keypoints(&pose).into_iter().skip(KeypointName::Wrist as usize);
+        let hands = (0..=STEPS).map(arriving).flat_map(hand);
+        let places = hands.chain(corners(part, around.parts, around.task));
+        let (eye, table) = (around.task.scene.eye(), around.task.scene.table_height);
+        let hides = |screen: &[f64; 6], place: DVec3| is_blocked(&[*screen], eye, place.into(), MARGIN);
+        board(eye.into(), table, places).filter(|screen| !hand(memory.hand).any(|place| hides(screen, place)))
+    }
+}
+
+/// Corners of the box around a part, m.
+fn corners(part: usize, parts: &Parts, task: &Task) -> impl Iterator<Item = DVec3> + Clone {
+    let [x, y, z] = match task.kinds[parts.kind(part)].shape {
+        Shape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
+        Shape::Box { size } => size,
+    };
+    let (at, turn) = (parts.position(part), parts.orientation(part));
+    (0..8_u8).map(move |corner| {
+        let side = |bit: u8| f64::from(corner >> bit & 1);
+        at + turn * DVec3::new((side(0) - 0.5) * x, (side(1) - 0.5) * y, side(2) * z)
+    })
+}
+
+/// The smallest upright board on the table top that stands across the way from `eye` to all `places` and hides them; none
+/// when the eye is above them, so that no board does.
+fn board(eye: DVec3, table: f64, places: impl Iterator<Item = DVec3> + Clone) -> Option<[f64; 6]> {
+    let count = places.clone().count().max(1) as f64;
+    let way = eye - places.clone().sum::<DVec3>() / count;
+    let across = if way.x.abs() >= way.y.abs() { 0 } else { 1 };
+    let towards = way[across].signum();
+    let nearest = places.clone().map(|place| towards * place[across]).fold(f64::NEG_INFINITY, f64::max);
+    let face = towards * (nearest + GAP);
+    if towards * (eye[across] - face) <= THICKNESS {
+        return None;
+    }
+    let seen_on_face =
+        |place: DVec3| eye + (place - eye) * ((face - eye[across]) / (place[across] - eye[across]));
+    let (mut low, mut high) = (DVec3::MAX, DVec3::MIN);
+    for place in places.map(seen_on_face) {
+        (low, high) = (low.min(place - MARGIN), high.max(place + MARGIN));
+    }
+    low.z = low.z.min(table);
+    (low[across], high[across]) =
+        (face.min(face + towards * THICKNESS), face.max(face + towards * THICKNESS));
+    let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
+    Some([centre.x, centre.y, centre.z, half.x, half.y, half.z])
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    const EYE: DVec3 = DVec3::new(0.1, 0.3, 1.85);
+    const AT: DVec3 = DVec3::new(-0.98, 0.02, 0.8);
+
+    fn corners_around(middle: DVec3) -> impl Iterator<Item = DVec3> + Clone {
+        (0..8_u8)
+            .map(move |corner| middle + 0.05 * DVec3::from([0, 1, 2].map(|bit| f64::from(corner >> bit & 1))))
+    }
+
+    #[test]
+    fn a_board_on_the_table_hides_all_places_and_nothing_beside_above_or_before_them() {
+        let screen = board(EYE, 0.8, corners_around(AT)).unwrap();
+        let hidden = |place: DVec3| is_blocked(&[screen], EYE.into(), place.into(), 0.0);
+        assert!(corners_around(AT).all(hidden), "{screen:?}");
+        for beside in [[0.0, 0.12, 0.0], [0.0, -0.07, 0.0], [0.0, 0.0, 0.16], [0.12, 0.0, 0.0]] {
+            assert!(!hidden(AT + DVec3::from(beside)), "{beside:?} of {screen:?}");
+        }
+        assert!((screen[2] - screen[5] - 0.8).abs() < 1e-9, "it stands on the table: {screen:?}");
+    }
+
+    #[test]
+    fn no_board_hides_from_an_eye_above() {
+        assert_eq!(board(AT + DVec3::Z, 0.8, corners_around(AT)), None);
+    }
+}

@@ -1,0 +1,74 @@
+//! The partner who reaches behind something.
+
+use super::erring::run;
+use crate::person::Stage;
+use coact_messages::{KeypointName, NONE, SensorSample};
+
+const ALWAYS: &str = "idle=0,goal=0,ask=0,means=0,hidden=1,words=0,dropouts=0";
+
+/// Ticks of one hidden action, and what was seen in it.
+#[derive(Debug, Default)]
+struct Hidden {
+    chosen: u64,
+    grasped: u64,
+    lifted: u64,
+    kind: u32,
+    home: [f64; 3],
+    seen_setting_out: bool,
+    seen_again: bool,
+}
+
+impl Hidden {
+    /// What the newest frames of hand and parts tell, by the ticks of their capture.
+    fn look(&mut self, sample: &SensorSample) {
+        let captured = sample.hand.captured_cycle;
+        let at_the_part =
+            self.grasped > 0 && captured >= self.grasped && (self.lifted == 0 || captured < self.lifted);
+        assert!(!at_the_part, "the hand is seen at the part: {self:?}");
+        let wrist = sample.hand.keypoints[KeypointName::Wrist as usize].confidence > 0.0;
+        self.seen_setting_out |= wrist && self.grasped == 0 && captured > self.chosen;
+        self.seen_again |= wrist && self.lifted > 0 && captured > self.lifted;
+        let scene = &sample.scene;
+        if scene.captured_cycle < self.chosen {
+            return;
+        }
+        assert_eq!(scene.occluders, 1);
+        for sighting in &scene.sighting[..scene.sightings as usize] {
+            let away =
+                (0..3).map(|axis| (sighting.position[axis] - self.home[axis]).powi(2)).sum::<f64>().sqrt();
+            assert!(sighting.kind != self.kind || away > 0.02, "the part is seen where it lies: {self:?}");
+        }
+    }
+}
+
+#[test]
+fn hand_and_part_are_not_seen_until_the_hand_comes_out_again() {
+    let (mut hidden, mut takings) = (0, 0);
+    for seed in 0..4 {
+        let (mut now, mut last): (Option<Hidden>, _) = (None, Stage::Rest);
+        run(seed, 120, ALWAYS, |tick, world, out, _| {
+            let person = &world.memory.person;
+            let before = std::mem::replace(&mut last, person.stage());
+            takings += u64::from(before == Stage::Reach && person.stage() == Stage::Dwell);
+            assert_eq!(person.screen().is_some(), person.manner.hidden == 1 && person.stage() != Stage::Rest);
+            let shown = person.screen().is_some() && out.truth.chain != NONE;
+            assert_eq!(out.truth.hidden, u32::from(shown), "seed {seed}, tick {tick}");
+            let Some(part) = person.part.get().filter(|_| person.screen().is_some()) else {
+                let over = now.take().filter(|over| over.grasped > 0);
+                assert!(over.is_none_or(|over| over.seen_setting_out && over.seen_again));
+                return;
+            };
+            let own = now.get_or_insert_with(|| {
+                let (kind, home) = (world.parts.kind(part) as u32, world.parts.position(part).into());
+                Hidden { chosen: tick, kind, home, ..Hidden::default() }
+            });
+            match (before, person.stage()) {
+                (Stage::Reach, Stage::Dwell) => (own.grasped, hidden) = (tick, hidden + 1),
+                (Stage::Dwell, _) if own.lifted == 0 && person.stage() != Stage::Dwell => own.lifted = tick,
+                _ => {}
+            }
+            own.look(&out.sample);
+        });
+    }
+    assert!(hidden >= 10 && 2 * hidden >= takings, "{hidden} of {takings} were hidden");
+}
