@@ -17,6 +17,7 @@ pub(crate) struct Executor {
     schedule: Schedule,
     /// Offset from the release up to which a cycle waits for its input; `None`: it starts at the release.
     latest_start_ns: Option<u64>,
+    deadline_ns: u64,
     accounts: Accounts,
     pulse: Output<Pulse>,
     slow_cycles: u32,
@@ -44,6 +45,7 @@ impl Executor {
         Self {
             schedule,
             latest_start_ns: waits_for_topic.then_some(entry.latest_start_us * 1000),
+            deadline_ns: pipeline.deadline_us * 1000,
             accounts: Accounts::new(pipeline.deadline_us * 1000),
             pulse,
             slow_cycles: 0,
@@ -77,7 +79,13 @@ impl Executor {
             return Ok(release);
         };
         let latest = release + latest_start;
-        let came = trigger.wait_for(cycle, latest)?;
+        let mut came = trigger.wait_for(cycle, latest)?;
+        let woken = now();
+        if !came && woken > release + self.deadline_ns {
+            // It overslept its deadline, and so did the stages before it, which may not have had the core yet. With the
+            // time that they always have, it works on what they sense now rather than on what is old.
+            came = trigger.wait_for(cycle, woken + latest_start)?;
+        }
         let published = trigger.header().map_or(0, |header| header.published_ns);
         Ok(if came { published.max(release) } else { latest })
     }

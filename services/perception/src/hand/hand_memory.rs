@@ -25,6 +25,15 @@ const PITCH_AHEAD: f64 = 0.08;
 /// Keypoints that differ less in height than this are those of a flat image, m.
 const FLAT: f64 = 1e-6;
 
+/// What must be found of a hand of which a part may be hidden.
+const WHOLE_HAND: [KeypointName; 5] = [
+    KeypointName::Wrist,
+    KeypointName::ThumbTip,
+    KeypointName::IndexTip,
+    KeypointName::IndexKnuckle,
+    KeypointName::LittleKnuckle,
+];
+
 /// The tracked hand.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -56,15 +65,14 @@ pub(crate) struct HandMemory {
 impl HandMemory {
     /// Takes in the tracker's newest frame. `None` if it is not a new and usable one; true if a movement has begun.
     ///
-    /// While something may `hide` the hand, a frame without wrist or finger tips is none: what is left of it tells nothing
-    /// of the hand.
+    /// While something may `hide` the hand, a frame without wrist, knuckles or finger tips is none: a hand that is half out
+    /// of sight tells neither its grip nor its pitch.
     pub fn observe(&mut self, tick: u64, view: &HandView, hide: bool) -> Option<bool> {
         let lost = |name: &KeypointName| {
             let confidence = view.keypoints[*name as usize].confidence;
             confidence <= 0.0 || confidence.is_nan()
         };
-        let [wrist, thumb, index] = [KeypointName::Wrist, KeypointName::ThumbTip, KeypointName::IndexTip];
-        if hide && [wrist, thumb, index].iter().any(lost) {
+        if hide && WHOLE_HAND.iter().any(lost) {
             return None;
         }
         let known = self.seen == view.frame.wrapping_add(1);

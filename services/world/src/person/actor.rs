@@ -15,8 +15,6 @@ const OFFER_MS: u64 = 15_000;
 const SHOW_MS: u64 = 12_000;
 /// How long the person waits for the robot to let go, ms.
 const RELEASE_MS: u64 = 10_000;
-/// How long it takes to feel that the robot has gripped, or let go, ms.
-const FELT_MS: u64 = 200;
 
 /// The human partner: carries out one intention after the other, stage by stage.
 #[derive(Debug, Clone)]
@@ -52,11 +50,10 @@ impl Person {
 
     /// One tick: moves the hand, and what it holds, and goes on to the next stage when the present one is over.
     pub fn advance(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
-        self.reconsider(memory, around);
-        let over = around.tick >= memory.until;
-        if self.notices(memory, around) {
-            return self.give_up(memory, around);
+        if memory.gives_up > 0 && around.tick >= memory.gives_up {
+            self.give_up(memory, around);
         }
+        let over = around.tick >= memory.until;
         match memory.stage() {
             Stage::Rest if over => self.decide(memory, around),
             Stage::Rest => {}
@@ -70,8 +67,8 @@ impl Person {
                 self.begin_mounting(memory, around.tick)
             }
             Stage::AwaitHold => {}
-            Stage::Mount if over && memory.notices > 0 => self.give_up(memory, around),
-            Stage::Mount if over => self.put_down(memory, around),
+            // What is to be given up is not mounted.
+            Stage::Mount if over && memory.gives_up == 0 => self.put_down(memory, around),
             Stage::Mount => {}
             Stage::Offer => self.offer(memory, around),
             Stage::Show => self.show(memory, around),
@@ -90,12 +87,9 @@ impl Person {
         }
     }
 
-    /// Gives the present action up when it is time to: the gesture ends, the part goes back to where it lay.
-    fn reconsider(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
-        let given_up = memory.manner.gives_up;
-        if given_up == 0 || around.tick < memory.grasped + given_up {
-            return;
-        }
+    /// Gives the present action up: the gesture ends, or the part goes back to where it lay, unless the robot has a hand
+    /// on it.
+    fn give_up(&self, memory: &mut PersonMemory, around: &Surroundings) {
         match memory.stage() {
             Stage::Show => self.withdraw(memory, around),
             Stage::AwaitRelease => {
@@ -109,11 +103,11 @@ impl Person {
             }
             _ => return,
         }
-        memory.manner.gives_up = 0;
+        memory.gives_up = 0;
     }
 
     /// Carries the held part back to where it lay.
-    fn take_back(&self, memory: &mut PersonMemory, around: &Surroundings) {
+    pub(super) fn take_back(&self, memory: &mut PersonMemory, around: &Surroundings) {
         self.carry_to(memory, around, memory.home.into(), glam::DVec3::Z);
         memory.enter(Stage::Return, memory.movement.end);
     }
@@ -133,7 +127,7 @@ impl Person {
     }
 
     /// Makes an intention the present action.
-    fn take_up(&self, intention: Intention, memory: &mut PersonMemory, around: &Surroundings) {
+    pub(super) fn take_up(&self, intention: Intention, memory: &mut PersonMemory, around: &Surroundings) {
         self.intend(intention, memory, around);
         memory.enter(Stage::Prepare, memory.movement.onset);
     }
@@ -164,7 +158,7 @@ impl Person {
         memory.actions += 1;
         memory.onset = around.tick;
         memory.grasped = 0;
-        memory.notices = 0;
+        memory.gives_up = 0;
         let error = memory.intention().map(|intention| around.view().error_of(&intention));
         memory.error = error.unwrap_or(PartnerError::None) as u64;
         if memory.manner.phrase != Slot::EMPTY {
@@ -202,9 +196,12 @@ impl Person {
         if memory.intention().is_some_and(|own| around.view().error_of(&own) == PartnerError::None) {
             memory.error = PartnerError::None as u64;
         }
-        if self.plan.rates().is_some() && memory.error != PartnerError::None as u64 {
-            memory.notices = erring::notices(tick, &mut self.noise.at(Stream::Mistake, tick));
-        }
+        let mistaken = self.plan.rates().is_some() && memory.error != PartnerError::None as u64;
+        memory.gives_up = match memory.manner.gives_up {
+            0 if mistaken => tick + erring::notices(&mut self.noise.at(Stream::Mistake, tick)),
+            0 => 0,
+            after => tick + after,
+        };
         let Some(part) = memory.part.get() else {
             memory.grasped = tick;
             return memory.enter(Stage::Show, tick + SHOW_MS);
@@ -220,22 +217,6 @@ impl Person {
         memory.enter(Stage::Dwell, tick + pause);
     }
 
-    /// Whether the person notices now that the present action is wrong: not while the robot has a hand on the part.
-    fn notices(&self, memory: &PersonMemory, around: &Surroundings) -> bool {
-        let acts = !matches!(memory.stage(), Stage::Return | Stage::Withdraw | Stage::Rest | Stage::Prepare);
-        let gripped = memory.grip.get().is_some() && around.robot.held == memory.grip;
-        memory.notices > 0 && around.tick >= memory.notices && acts && !gripped
-    }
-
-    /// Puts the part back to where it lay, or lowers the empty hand.
-    fn give_up(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
-        memory.notices = 0;
-        if memory.grip.get().is_none() {
-            return self.withdraw(memory, around);
-        }
-        self.take_back(memory, around);
-    }
-
     /// Whether the tracker has lost the hand at `tick`, for longer than a frame.
     pub fn is_lost(&self, tick: u64) -> bool {
         let slot = |slot| self.noise.at(Stream::Dropout, slot);
@@ -243,7 +224,7 @@ impl Person {
     }
 
     /// Sets off with the grasped part to where it is wanted.
-    fn lift(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+    pub(super) fn lift(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
         let scene = &around.task.scene;
         match (memory.errand(), memory.subgoal.get()) {
             (Errand::Mount | Errand::Take, Some(subgoal)) => {
@@ -275,7 +256,7 @@ impl Person {
     }
 
     /// The fingers open: the part snaps into its socket, or stays where it was put.
-    fn put_down(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
+    pub(super) fn put_down(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
         if let Some(part) = memory.grip.get() {
             memory.grip = Slot::EMPTY;
             match around.robot.held.get() {
@@ -284,47 +265,6 @@ impl Person {
             }
         }
         self.withdraw(memory, around);
-    }
-
-    fn offer(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
-        let gripped = memory.grip.get().is_some() && around.robot.held == memory.grip;
-        if self.felt(gripped, memory, around.tick) {
-            self.put_down(memory, around);
-        } else if !gripped && around.tick >= memory.until {
-            self.take_back(memory, around);
-        }
-    }
-
-    fn show(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
-        if let Some(taking) = around.view().take_offered() {
-            self.take_up(taking, memory, around);
-        } else if around.tick >= memory.until {
-            self.withdraw(memory, around);
-        }
-    }
-
-    fn await_release(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
-        let released = around.robot.held != memory.grip;
-        if released && let Some(part) = memory.grip.get() {
-            around.parts.give_to(part, Holder::Person);
-            memory.home = around.parts.position(part).into();
-        }
-        if self.felt(released, memory, around.tick) {
-            self.lift(memory, around);
-        } else if !released && around.tick >= memory.until {
-            memory.grip = Slot::EMPTY;
-            self.withdraw(memory, around);
-        }
-    }
-
-    /// Whether `happening` has gone on long enough to be felt.
-    fn felt(&self, happening: bool, memory: &mut PersonMemory, tick: u64) -> bool {
-        memory.felt = match (happening, memory.felt) {
-            (false, _) => 0,
-            (true, 0) => tick.max(1),
-            (true, since) => since,
-        };
-        memory.felt > 0 && tick >= memory.felt + FELT_MS
     }
 
     fn withdrawing(&self, memory: &mut PersonMemory, around: &mut Surroundings) {

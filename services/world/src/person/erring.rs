@@ -61,9 +61,9 @@ fn spoken<R: Rng>(view: &View, rng: &mut R) -> Option<Intention> {
     Some(Intention { manner: Manner { phrase, ..told.manner }, ..told })
 }
 
-/// When the person who errs since `grasp` will notice.
-pub(super) fn notices<R: Rng>(grasp: u64, rng: &mut R) -> u64 {
-    grasp + rng.random_range(NOTICES_MS)
+/// How long after grasp completion the person who errs notices, ms.
+pub(super) fn notices<R: Rng>(rng: &mut R) -> u64 {
+    rng.random_range(NOTICES_MS)
 }
 
 /// Whether the tracker has lost the hand at `tick`; `slot` makes the generator of a slot of time.

@@ -29,11 +29,11 @@ pub(crate) struct PersonMemory {
     pub ended: u64,
     pub onset: u64,
     pub grasped: u64,
-    /// [`coact_messages::PartnerError`] of the present action, as things were at its onset; none once its turn has come before the
-    /// grasp is complete.
+    /// [`coact_messages::PartnerError`] of the present action, as things were at its onset; none once its turn has come
+    /// before the grasp is complete.
     pub error: u64,
-    /// Tick at which the person will notice it; 0: never.
-    pub notices: u64,
+    /// Tick at which the person gives the present action up, as soon as that is possible; 0: never.
+    pub gives_up: u64,
     /// Tick at which the robot was first felt to pull, or to let go; 0: not yet.
     pub felt: u64,
     pub hand: HandPose,

@@ -20,6 +20,7 @@ mod script_file;
 mod script_source;
 mod staging_file;
 mod synthetic;
+mod waiting;
 
 pub(crate) use actor::{Person, Surroundings};
 pub(crate) use hand_model::{FOREARM, HandModel};
