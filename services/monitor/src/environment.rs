@@ -14,7 +14,7 @@ pub struct Environment {
     pub preemption: String,
     /// Frequency governor of the first core; "none" where the kernel governs nothing.
     pub governor: String,
-    /// Cores that this program may use.
+    /// Cores of the machine that are online.
     pub cores: usize,
     /// Every real-time process has all its memory locked.
     pub memory_locked: bool,
@@ -41,6 +41,12 @@ impl From<Punctuality> for MachineReport {
     }
 }
 
+/// Not those that this program may use: the monitor is kept off the core of the chain that it reports on.
+fn cores_online() -> usize {
+    let table = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    table.lines().filter(|line| line.starts_with("processor")).count()
+}
+
 impl Environment {
     /// Of the machine alone.
     pub fn of_machine() -> Self {
@@ -53,7 +59,7 @@ impl Environment {
             kernel,
             preemption: model.unwrap_or("not stated").to_owned(),
             governor: governor.map_or_else(|_| "none".into(), |governor| governor.trim().to_owned()),
-            cores: std::thread::available_parallelism().map_or(0, usize::from),
+            cores: cores_online(),
             memory_locked: false,
             schedulers: BTreeMap::new(),
             machine: None,
