@@ -61,7 +61,8 @@ impl Acts {
         let hidden = memory.hiding.is_hidden();
         let movement = Movement::now(tick, memory, classifier).filter(|_| !hidden);
         let preparing = self.grasps.preparing(movement.as_ref(), memory, classifier, places);
-        let resting = self.resting(tick, memory);
+        let held = out.person_holds.iter().copied().fold(0.0, f64::max);
+        let resting = (1.0 - held) * self.resting(tick, memory);
         memory.unseen = if hidden || memory.hand.is_tracked(tick) { 0 } else { memory.unseen + 1 };
         memory.dwell = if resting > 0.5 || memory.unseen > UNSEEN { memory.dwell + 1 } else { 0 };
         let reaches = movement.is_some_and(|movement| movement.phase.is_some());
@@ -85,11 +86,14 @@ impl Acts {
     }
 
     fn resting(&self, tick: u64, memory: &Memory) -> f64 {
-        if !memory.hand.is_tracked(tick) {
+        let motion = &memory.hand.motion;
+        // A hand that has set out does not rest, however near to its place the part lies that it reaches for.
+        let sets_out = motion.is_moving() && self.is_from_rest(motion.departure);
+        if sets_out || !memory.hand.is_tracked(tick) {
             return 0.0;
         }
         let away = (memory.hand.wrist_at(tick) - self.rest).norm();
-        let slow = smooth_step(memory.hand.motion.speed, RESTING_SPEED.1, RESTING_SPEED.0);
+        let slow = smooth_step(motion.speed, RESTING_SPEED.1, RESTING_SPEED.0);
         smooth_step(away, AT_REST.1, AT_REST.0) * slow
     }
 }
