@@ -26,12 +26,17 @@ impl Accounts {
         Self { deadline_ns, missed: 0, stale: 0, skipped: 0, last_cycle: None, last_input: None }
     }
 
+    /// Whether `ns` is beyond the deadline of the cycle that was released at `released_ns`.
+    pub(crate) fn is_late(&self, released_ns: u64, ns: u64) -> bool {
+        ns > released_ns + self.deadline_ns
+    }
+
     /// Books one cycle that ran on `input` and published `output`.
     pub(crate) fn book(&mut self, times: CycleTimes, input: Option<&Header>, output: Header) -> Pulse {
         let identity = input.map(|header| (header.generation, header.sequence));
         let is_stale = identity.is_some() && identity == self.last_input;
         self.stale += u64::from(is_stale);
-        self.missed += u64::from(output.published_ns > times.released_ns + self.deadline_ns);
+        self.missed += u64::from(self.is_late(times.released_ns, output.published_ns));
         self.skipped += self.last_cycle.map_or(0, |last| output.cycle.saturating_sub(last + 1));
         self.last_cycle = Some(output.cycle);
         self.last_input = identity;

@@ -17,7 +17,6 @@ pub(crate) struct Executor {
     schedule: Schedule,
     /// Offset from the release up to which a cycle waits for its input; `None`: it starts at the release.
     latest_start_ns: Option<u64>,
-    deadline_ns: u64,
     accounts: Accounts,
     pulse: Output<Pulse>,
     slow_cycles: u32,
@@ -45,7 +44,6 @@ impl Executor {
         Self {
             schedule,
             latest_start_ns: waits_for_topic.then_some(entry.latest_start_us * 1000),
-            deadline_ns: pipeline.deadline_us * 1000,
             accounts: Accounts::new(pipeline.deadline_us * 1000),
             pulse,
             slow_cycles: 0,
@@ -81,7 +79,7 @@ impl Executor {
         let latest = release + latest_start;
         let mut came = trigger.wait_for(cycle, latest)?;
         let woken = now();
-        if !came && woken > release + self.deadline_ns {
+        if !came && self.accounts.is_late(release, woken) {
             // It overslept its deadline, and so did the stages before it, which may not have had the core yet. With the
             // time that they always have, it works on what they sense now rather than on what is old.
             came = trigger.wait_for(cycle, woken + latest_start)?;

@@ -56,6 +56,12 @@ enum Command {
 /// Bad usage, configuration or input.
 const REFUSED: u8 = 2;
 
+/// Whether a command neither starts processes nor speaks with running ones.
+fn works_on_files_alone(command: &Command) -> bool {
+    use Command::{Evaluate, Figures, Learn, Task, Train};
+    matches!(command, Task(_) | Learn(_) | Evaluate(_) | Figures(_) | Train(_))
+}
+
 fn main() -> ExitCode {
     tracing_subscriber::fmt()
         .with_writer(std::io::stderr)
@@ -68,7 +74,7 @@ fn main() -> ExitCode {
         .with_target(false)
         .init();
     let command = Cli::parse().command;
-    if !matches!(command, Command::Launch(_)) {
+    if works_on_files_alone(&command) {
         closed_pipe::ends_the_program();
     }
     let outcome = match command {

@@ -2,6 +2,7 @@
 
 mod real_time;
 
+use crate::closed_pipe;
 use crate::folder_name::unused_report_folder;
 use crate::installation::Installation;
 use anyhow::{Result, bail};
@@ -96,6 +97,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         .iter()
         .map(|task| measure(&args, &installation, task, &reaches, &report))
         .collect::<Result<_>>()?;
+    closed_pipe::ends_the_program();
     if args.json {
         println!("{}", serde_json::to_string_pretty(&measured)?);
     } else {

@@ -159,8 +159,7 @@ impl Person {
         memory.onset = around.tick;
         memory.grasped = 0;
         memory.gives_up = 0;
-        let error = memory.intention().map(|intention| around.view().error_of(&intention));
-        memory.error = error.unwrap_or(PartnerError::None) as u64;
+        memory.error = error(memory, around) as u64;
         if memory.manner.phrase != Slot::EMPTY {
             memory.says = memory.manner.phrase;
         }
@@ -193,7 +192,7 @@ impl Person {
     /// The fingers close on the part, or the gesture is fully shown.
     fn arrive(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
         let tick = around.tick;
-        if memory.intention().is_some_and(|own| around.view().error_of(&own) == PartnerError::None) {
+        if error(memory, around) == PartnerError::None {
             memory.error = PartnerError::None as u64;
         }
         let mistaken = self.plan.rates().is_some() && memory.error != PartnerError::None as u64;
@@ -276,6 +275,11 @@ impl Person {
             memory.enter(Stage::Rest, around.tick + pause);
         }
     }
+}
+
+/// What is wrong with the present action as things are now.
+fn error(memory: &PersonMemory, around: &Surroundings) -> PartnerError {
+    memory.intention().map_or(PartnerError::None, |own| around.view().error_of(&own))
 }
 
 /// Whether the part is still where the action needs it: free to be taken, or in the robot's hand to be handed over.
