@@ -3,14 +3,15 @@
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 /// Height above a part's underside at which it is gripped, m, for a part `height` m high: half-way up, but never
-/// more than 35 mm below its top, so that the palm stays clear of a tall part.
+/// more than 35 mm below its top, so that the palm stays clear of a tall part, and higher on a low one, so that the
+/// fingers stay clear of what it stands on.
 pub fn grip_height(height: f64) -> f64 {
-    (0.5 * height).max(height - 0.035)
+    (0.5 * height).max(height - 0.035).max(0.015f64.min(0.75 * height))
 }
 
 /// Frame at `point` with z along `approach` and x as near to `closing` as the approach allows, turned by `roll` rad
 /// about z. A `closing` along the approach is replaced by another direction across it.
-pub(crate) fn frame(
+pub fn frame(
     point: &Point3<f64>,
     approach: &Vector3<f64>,
     closing: &Vector3<f64>,

@@ -50,4 +50,4 @@ pub use posture_search::{HandGoal, PostureSearch, Reach};
 pub use quintic::{MotionState, Quintic};
 pub use robot::{ROBOT_JOINTS, Robot};
 pub use srs::{Branches, NotSrs, Posture, Srs};
-pub use urdf::Urdf;
+pub use urdf::{Urdf, isometry};

@@ -140,6 +140,15 @@ impl HandGoal {
         let approach = frame.rotation * -Vector3::z();
         Self { point, approach, closing: frame.rotation * Vector3::x(), rolls, back, floor }
     }
+
+    /// Goal for gripping an upright part from its side: as [`HandGoal::grip`], but the hand comes across the part's z
+    /// axis, from where `turn` rad about that axis points, and closes across it.
+    pub fn grip_from_side(frame: &Isometry3<f64>, height: f64, turn: f64, back: f64) -> Self {
+        let point = frame * Point3::new(0.0, 0.0, grip::grip_height(height));
+        let approach = frame.rotation * -Vector3::new(turn.cos(), turn.sin(), 0.0);
+        let closing = frame.rotation * Vector3::new(-turn.sin(), turn.cos(), 0.0);
+        Self { point, approach, closing, rolls: 2, back, floor: f64::NEG_INFINITY }
+    }
 }
 
 fn angle(step: u32, count: u32) -> f64 {

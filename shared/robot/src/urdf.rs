@@ -36,6 +36,27 @@ impl Urdf {
         }
     }
 
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The link that is nobody's child.
+    ///
+    /// # Errors
+    /// [`RobotError::Malformed`] when there is none, or more than one.
+    pub fn root(&self) -> Result<String, RobotError> {
+        let is_child = |name: &str| self.robot.joints.iter().any(|joint| joint.child.link == name);
+        let mut roots = self.robot.links.iter().filter(|link| !is_child(&link.name));
+        match (roots.next(), roots.next()) {
+            (Some(root), None) => Ok(root.name.clone()),
+            (Some(_), Some(other)) => {
+                Err(self.fault(&other.name, "hangs on no joint; expected a single tree"))
+            }
+            (None, _) => Err(self.fault(self.name(), "has no root link; expected a tree")),
+        }
+    }
+
     /// The robot's name.
     pub fn name(&self) -> &str {
         &self.robot.name
@@ -61,7 +82,7 @@ impl Urdf {
         let mut joints = Vec::new();
         let mut pending = Isometry3::identity();
         for joint in self.path_to(from, link)? {
-            pending *= pose(&joint.origin);
+            pending *= isometry(&joint.origin);
             match joint.joint_type {
                 urdf_rs::JointType::Fixed => {}
                 urdf_rs::JointType::Revolute | urdf_rs::JointType::Continuous => {
@@ -80,6 +101,12 @@ impl Urdf {
     pub fn mimic(&self, joint: &str) -> Option<f64> {
         let joint = self.robot.joints.iter().find(|known| known.name == joint)?;
         joint.mimic.as_ref().map(|mimic| mimic.multiplier.unwrap_or(1.0))
+    }
+
+    /// The joint that another one mimics, with multiplier and offset, rad.
+    pub fn mimicked(&self, joint: &str) -> Option<(String, f64, f64)> {
+        let mimic = self.robot.joints.iter().find(|known| known.name == joint)?.mimic.as_ref()?;
+        Some((mimic.joint.clone(), mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0)))
     }
 
     /// URDF joints from the root (or from below joint `from`) to `link`, in order.
@@ -130,7 +157,7 @@ impl Urdf {
     }
 
     /// An error about the named element, with the line on which the name is declared.
-    pub(crate) fn fault(&self, name: &str, message: &str) -> RobotError {
+    pub fn fault(&self, name: &str, message: &str) -> RobotError {
         RobotError::Malformed {
             path: self.path.clone(),
             line: crate::xml_line::of_name(&self.text, name),
@@ -140,7 +167,7 @@ impl Urdf {
 }
 
 /// A URDF pose: translation, then roll, pitch, yaw about fixed axes.
-pub(crate) fn pose(pose: &urdf_rs::Pose) -> Isometry3<f64> {
+pub fn isometry(pose: &urdf_rs::Pose) -> Isometry3<f64> {
     let [roll, pitch, yaw] = pose.rpy.0;
     let [x, y, z] = pose.xyz.0;
     Isometry3::from_parts(Translation3::new(x, y, z), UnitQuaternion::from_euler_angles(roll, pitch, yaw))

@@ -11,6 +11,7 @@ mod latency;
 mod launch;
 mod learn;
 mod lockstep;
+mod motion;
 mod partner;
 mod reaches;
 mod say;
@@ -49,6 +50,8 @@ enum Command {
     Evaluate(evaluate::Args),
     /// Draw the chapter's figures from runs made now
     Figures(figures::Args),
+    /// Plan a movement of the arm, or measure the planner
+    Motion(motion::Args),
     /// Train the model of preshaping from recorded reaches
     Train(train::Args),
 }
@@ -58,8 +61,8 @@ const REFUSED: u8 = 2;
 
 /// Whether a command neither starts processes nor speaks with running ones.
 fn works_on_files_alone(command: &Command) -> bool {
-    use Command::{Evaluate, Figures, Learn, Task, Train};
-    matches!(command, Task(_) | Learn(_) | Evaluate(_) | Figures(_) | Train(_))
+    use Command::{Evaluate, Figures, Learn, Motion, Task, Train};
+    matches!(command, Task(_) | Learn(_) | Evaluate(_) | Figures(_) | Motion(_) | Train(_))
 }
 
 fn main() -> ExitCode {
@@ -87,6 +90,7 @@ fn main() -> ExitCode {
         Command::Reaches(args) => reaches::run(args),
         Command::Evaluate(args) => evaluate::run(args),
         Command::Figures(args) => figures::run(args),
+        Command::Motion(args) => motion::run(args),
         Command::Train(args) => train::run(args),
     };
     outcome.unwrap_or_else(|error| {

@@ -1,0 +1,133 @@
+use crate::solid::Shape;
+use crate::{Capsule, Clearance, Mechanism, Other, Scene, Solid};
+use coact_robot::Posture;
+use nalgebra::{Isometry3, Vector3};
+use parry3d_f64::shape::SharedShape;
+
+/// Arm, hand and what it holds, as forms that move with the arm's joints. The fingers' angles are fixed in it.
+#[derive(Debug, Clone)]
+pub struct Body {
+    pub(crate) bones: Vec<Bone>,
+    /// Pairs of bones that could touch each other.
+    pub(crate) pairs: Vec<(usize, usize)>,
+}
+
+/// A form that is carried by a joint of the arm.
+#[derive(Clone)]
+pub struct Bone {
+    /// The link, or the part, that it stands for.
+    pub name: String,
+    /// Arm joints that move it: the first `carriers` of them.
+    pub carriers: usize,
+    /// Its form.
+    pub solid: Solid,
+    /// The place of its form's frame in the frame of the last joint that carries it (world, when there is none).
+    pub place: Isometry3<f64>,
+    /// Whether it belongs to the hand, or to what the hand holds.
+    pub hand: bool,
+    /// A capsule around it, where `place` is.
+    pub(crate) hull: Capsule,
+    pub(crate) shape: SharedShape,
+    /// Place of the geometry library's frame.
+    pub(crate) own: Isometry3<f64>,
+}
+
+impl Bone {
+    pub(crate) fn new(name: &str, carriers: usize, solid: Solid, place: Isometry3<f64>, hand: bool) -> Self {
+        let Shape { shape, own } = solid.shape();
+        let (name, hull) = (name.to_owned(), solid.hull(&place));
+        Self { name, carriers, solid, place, hand, hull, shape, own: place * own }
+    }
+}
+
+impl std::fmt::Debug for Bone {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { name, carriers, solid, place, hand, .. } = self;
+        let mut out = out.debug_struct("Bone");
+        out.field("name", name).field("carriers", carriers).field("solid", solid);
+        out.field("place", place).field("hand", hand).finish()
+    }
+}
+
+/// Poses of all joint frames of an arm, and the axes about which they turn, in the world.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Frames {
+    pub pose: [Isometry3<f64>; 7],
+    pub axis: [Vector3<f64>; 7],
+}
+
+impl Frames {
+    pub fn of(mechanism: &Mechanism, posture: &Posture) -> Self {
+        let mut frames = Self { pose: [Isometry3::identity(); 7], axis: [Vector3::zeros(); 7] };
+        let mut pose = Isometry3::identity();
+        for (index, (joint, &angle)) in mechanism.arm.joints.iter().zip(posture).enumerate() {
+            pose *= joint.transform(angle);
+            frames.pose[index] = pose;
+            frames.axis[index] = pose.rotation * joint.axis.into_inner();
+        }
+        frames
+    }
+
+    /// Change of the position of `point` (world, carried by the first `carriers` joints) along `direction`, for each
+    /// rad of each joint: m/rad.
+    pub fn slope(&self, point: &nalgebra::Point3<f64>, direction: &Vector3<f64>, carriers: usize) -> Posture {
+        std::array::from_fn(|joint| {
+            if joint >= carriers {
+                return 0.0;
+            }
+            let arm = point.coords - self.pose[joint].translation.vector;
+            self.axis[joint].cross(&arm).dot(direction)
+        })
+    }
+
+    /// Pose of what carries a bone, world.
+    pub fn carrier(&self, bone: &Bone) -> Isometry3<f64> {
+        bone.carriers.checked_sub(1).map_or_else(Isometry3::identity, |joint| self.pose[joint])
+    }
+}
+
+impl Body {
+    /// A body of these bones. Pairs that at least two joints separate are watched, but for those that touch each other
+    /// at rest: their forms are too coarse to tell what is between them, or one is mounted on the other.
+    pub(crate) fn new(mechanism: &Mechanism, bones: Vec<Bone>) -> Self {
+        let apart = |one: &Bone, other: &Bone| one.carriers.abs_diff(other.carriers) >= 3;
+        let mut pairs = Vec::new();
+        for one in 0..bones.len() {
+            pairs.extend(
+                (0..one).filter(|&other| apart(&bones[one], &bones[other])).map(|other| (one, other)),
+            );
+        }
+        let (mut body, mut touching) = (Self { bones, pairs }, Vec::new());
+        let clearance = Clearance { mechanism, body: &body, scene: &Scene::default(), touching: false };
+        clearance.near(&mechanism.park, 0.0, &mut touching);
+        let touches = |&(one, other): &(usize, usize)| {
+            touching.iter().any(|near| near.bone == one && near.other == Other::Bone(other))
+        };
+        body.pairs.retain(|pair| !touches(pair));
+        body
+    }
+
+    /// Its bones.
+    pub fn bones(&self) -> &[Bone] {
+        &self.bones
+    }
+
+    /// The same body with a part in its hand, its form's frame at `place` in the palm frame.
+    pub fn holding(
+        mut self,
+        mechanism: &Mechanism,
+        name: &str,
+        solid: Solid,
+        place: &Isometry3<f64>,
+    ) -> Self {
+        let place = mechanism.arm.tool * place;
+        self.bones.push(Bone::new(name, mechanism.joints(), solid, place, true));
+        Self::new(mechanism, self.bones)
+    }
+
+    /// Capsules around all bones in the world, for a posture of the arm.
+    pub fn hulls(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Capsule> {
+        let frames = Frames::of(mechanism, posture);
+        self.bones.iter().map(|bone| bone.hull.within(&frames.carrier(bone))).collect()
+    }
+}

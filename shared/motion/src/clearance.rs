@@ -1,0 +1,154 @@
+use crate::body::Frames;
+use crate::solid::pose;
+use crate::{Body, Capsule, Mechanism, Scene};
+use coact_robot::Posture;
+use nalgebra::{Point3, Vector3};
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::{self, Contact};
+use std::ops::ControlFlow;
+
+/// Distances between a body and all it must stay clear of.
+#[derive(Clone, Copy)]
+pub struct Clearance<'a> {
+    /// Whose body.
+    pub mechanism: &'a Mechanism,
+    /// Arm, hand, held part.
+    pub body: &'a Body,
+    /// The surroundings.
+    pub scene: &'a Scene,
+    /// Whether the hand, and what it holds, may touch what the scene says.
+    pub touching: bool,
+}
+
+/// A bone near something.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Near {
+    /// Index of the bone in the body.
+    pub bone: usize,
+    /// What it is near to.
+    pub other: Other,
+    /// Distance of the surfaces, m; negative when they overlap.
+    pub distance: f64,
+    /// Change of the distance for each rad of each arm joint, m/rad.
+    pub slope: Posture,
+}
+
+/// What a bone is near to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Other {
+    /// An obstacle, by its index in the scene.
+    Obstacle(usize),
+    /// Another bone of the same body.
+    Bone(usize),
+}
+
+impl Clearance<'_> {
+    /// Everything nearer than `within` m at this posture, into `found`.
+    pub fn near(&self, posture: &Posture, within: f64, found: &mut Vec<Near>) {
+        found.clear();
+        _ = self.visit(posture, within, &mut |near| {
+            found.push(near);
+            ControlFlow::Continue(within)
+        });
+    }
+
+    /// What is nearest, if it is nearer than `within` m.
+    pub fn nearest(&self, posture: &Posture, within: f64) -> Option<Near> {
+        let mut nearest = None;
+        _ = self.visit(posture, within, &mut |near| {
+            nearest = Some(near);
+            ControlFlow::Continue(near.distance)
+        });
+        nearest
+    }
+
+    /// Whether everything is at least `margin` m away.
+    pub fn is_clear(&self, posture: &Posture, margin: f64) -> bool {
+        self.visit(posture, margin, &mut |_| ControlFlow::Break(())).is_continue()
+    }
+
+    /// Names both sides of a nearness.
+    pub fn names(&self, near: &Near) -> (String, String) {
+        let other = match near.other {
+            Other::Obstacle(index) => &self.scene.obstacles[index].name,
+            Other::Bone(index) => &self.body.bones[index].name,
+        };
+        (self.body.bones[near.bone].name.clone(), other.clone())
+    }
+
+    /// Calls `found` for what is nearer than `within` m; it answers what to look for from then on.
+    fn visit(
+        &self,
+        posture: &Posture,
+        mut within: f64,
+        found: &mut dyn FnMut(Near) -> ControlFlow<(), f64>,
+    ) -> ControlFlow<()> {
+        let frames = Frames::of(self.mechanism, posture);
+        let bones = &self.body.bones;
+        let hulls: Vec<Capsule> = bones.iter().map(|bone| bone.hull.within(&frames.carrier(bone))).collect();
+        for bone in (0..bones.len()).filter(|bone| bones[*bone].carriers > 0) {
+            for (index, obstacle) in self.scene.obstacles.iter().enumerate() {
+                let far = are_apart(&hulls[bone], &obstacle.hull, within);
+                if let Some(near) = (!far).then(|| self.obstacle_near(&frames, bone, index, within)).flatten()
+                {
+                    within = found(near)?;
+                }
+            }
+        }
+        for &(one, other) in &self.body.pairs {
+            let far = are_apart(&hulls[one], &hulls[other], within);
+            if let Some(near) = (!far).then(|| self.bone_near(&frames, (one, other), within)).flatten() {
+                within = found(near)?;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn obstacle_near(&self, frames: &Frames, bone: usize, index: usize, within: f64) -> Option<Near> {
+        let (own, obstacle) = (&self.body.bones[bone], &self.scene.obstacles[index]);
+        if self.touching && own.hand && self.scene.hand_may_touch(index) {
+            return None;
+        }
+        let place = pose(&(frames.carrier(own) * own.own));
+        let contact = query::contact(&place, &*own.shape, &obstacle.pose, &*obstacle.shape, within);
+        let contact = contact.ok().flatten()?;
+        let (point, away) = first_side(&contact);
+        let slope = frames.slope(&point, &away, own.carriers);
+        Some(Near { bone, other: Other::Obstacle(index), distance: contact.dist, slope })
+    }
+
+    fn bone_near(&self, frames: &Frames, (one, other): (usize, usize), within: f64) -> Option<Near> {
+        let (first, second) = (&self.body.bones[one], &self.body.bones[other]);
+        let (carrier, second_carrier) = (frames.carrier(first), frames.carrier(second));
+        let (place, second_place) = (pose(&(carrier * first.own)), pose(&(second_carrier * second.own)));
+        let contact = query::contact(&place, &*first.shape, &second_place, &*second.shape, within);
+        let contact = contact.ok().flatten()?;
+        let (point, away) = first_side(&contact);
+        let (mine, theirs) = (
+            frames.slope(&point, &away, first.carriers),
+            frames.slope(&Point3::from(vector(contact.point2)), &-away, second.carriers),
+        );
+        let slope = std::array::from_fn(|joint| mine[joint] + theirs[joint]);
+        Some(Near { bone: one, other: Other::Bone(other), distance: contact.dist, slope })
+    }
+}
+
+/// Whether two hulls are certainly farther apart than `within` m.
+fn are_apart(one: &Capsule, other: &Capsule, within: f64) -> bool {
+    one.least_distance(other) > within || other.least_distance(one) > within
+}
+
+/// The point of the first shape, and the direction in which it gets away from the second.
+fn first_side(contact: &Contact) -> (Point3<f64>, Vector3<f64>) {
+    let (first, second) = (vector(contact.point1), vector(contact.point2));
+    // Where the shapes are apart, their nearest points are known better than the normal between them.
+    let away = (first - second).try_normalize(APART).filter(|_| contact.dist > 0.0);
+    (Point3::from(first), away.unwrap_or_else(|| -vector(contact.normal1)))
+}
+
+/// Distance of two points that makes a direction, m.
+const APART: f64 = 1e-4;
+
+fn vector(vector: Vector) -> Vector3<f64> {
+    Vector3::new(vector.x, vector.y, vector.z)
+}

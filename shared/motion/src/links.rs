@@ -1,0 +1,193 @@
+//! Links of a URDF as bones of a body.
+
+use crate::body::Bone;
+use crate::{Capsule, Mechanism, Meshes, Solid};
+use coact_robot::{Joint, RobotError, Urdf, isometry};
+use nalgebra::{Isometry3, Point3, Vector3};
+use std::path::{Path, PathBuf};
+
+/// Share of an arm link's stand-in radius that stands in for a finger.
+const FINGER: f64 = 1.0 / 6.0;
+
+/// Name of the link at the end of the arm: the first below which moving joints branch.
+pub(crate) fn palm(urdf: &Urdf) -> Result<String, RobotError> {
+    let joints = &urdf.model().joints;
+    let root = urdf.root()?;
+    let mut at = root.clone();
+    for _ in 0..=joints.len() {
+        let children: Vec<_> = joints.iter().filter(|joint| joint.parent.link == at).collect();
+        let moving: Vec<_> = children.iter().filter(|joint| has_motion(urdf, joint)).collect();
+        match moving.as_slice() {
+            [only] => at.clone_from(&only.child.link),
+            [] => {
+                return Err(
+                    urdf.fault(&at, "ends the chain of joints, and no fingers branch off; expected a hand")
+                );
+            }
+            _ => return Ok(at),
+        }
+    }
+    Err(urdf.fault(&root, "is part of a loop of joints; expected a tree"))
+}
+
+/// Whether this joint, or one below it, moves.
+fn has_motion(urdf: &Urdf, joint: &urdf_rs::Joint) -> bool {
+    let joints = &urdf.model().joints;
+    let mut below = vec![joint];
+    let mut seen = 0;
+    while let Some(next) = below.pop() {
+        seen += 1;
+        if next.joint_type != urdf_rs::JointType::Fixed {
+            return true;
+        }
+        if seen <= joints.len() {
+            below.extend(joints.iter().filter(|joint| joint.parent.link == next.child.link));
+        }
+    }
+    false
+}
+
+/// Distance of the farthest link of the fingers from the palm, with all as straight as they go, m.
+pub(crate) fn finger_length(urdf: &Urdf, palm: &str, arm_joints: usize) -> Result<f64, RobotError> {
+    let (_, tool) = urdf.chain(None, palm)?;
+    let mut longest = 0.0f64;
+    for link in urdf.links() {
+        let (joints, tail) = urdf.chain(None, &link.name)?;
+        if joints.len() > arm_joints {
+            let straight = |joint: &Joint| 0.0f64.clamp(joint.limits.lower, joint.limits.upper);
+            let chain = joints[arm_joints..].iter();
+            let pose =
+                chain.fold(tool.inverse(), |pose, joint| pose * joint.transform(straight(joint))) * tail;
+            longest = longest.max(pose.translation.vector.norm());
+        }
+    }
+    if longest < 1e-3 {
+        return Err(urdf.fault(palm, "has no fingers of any length below it; expected a hand"));
+    }
+    Ok(longest)
+}
+
+/// Bones of all links that the arm's joints alone carry.
+pub(crate) fn arm_bones(mechanism: &Mechanism) -> Result<Vec<Bone>, RobotError> {
+    let mut bones = Vec::new();
+    for link in mechanism.urdf.links() {
+        let (joints, tail) = mechanism.urdf.chain(None, &link.name)?;
+        if joints.len() <= mechanism.joints() && is_along(mechanism, &joints) {
+            push(mechanism, link, joints.len(), &tail, false, &mut bones)?;
+        }
+    }
+    Ok(bones)
+}
+
+/// Bones of the links below the palm, with the fingers at these angles.
+pub(crate) fn hand_bones(
+    mechanism: &Mechanism,
+    angle: &dyn Fn(&str) -> f64,
+) -> Result<Vec<Bone>, RobotError> {
+    let arm = mechanism.joints();
+    let mut bones = Vec::new();
+    for link in mechanism.urdf.links() {
+        let (joints, tail) = mechanism.urdf.chain(None, &link.name)?;
+        if joints.len() > arm && is_along(mechanism, &joints[..arm]) {
+            let turned = |joint: &Joint| {
+                let angle = match mechanism.urdf.mimicked(&joint.name) {
+                    Some((other, factor, offset)) => factor * angle(&other) + offset,
+                    None => angle(&joint.name),
+                };
+                angle.clamp(joint.limits.lower, joint.limits.upper)
+            };
+            let chain = joints[arm..].iter();
+            let place =
+                chain.fold(Isometry3::identity(), |pose, joint| pose * joint.transform(turned(joint)));
+            push(mechanism, link, arm, &(place * tail), true, &mut bones)?;
+        }
+    }
+    Ok(bones)
+}
+
+/// Whether these are the arm's own first joints.
+fn is_along(mechanism: &Mechanism, joints: &[Joint]) -> bool {
+    joints.iter().zip(&mechanism.arm.joints).all(|(one, own)| one.name == own.name)
+}
+
+fn push(
+    mechanism: &Mechanism,
+    link: &urdf_rs::Link,
+    carriers: usize,
+    place: &Isometry3<f64>,
+    finger: bool,
+    bones: &mut Vec<Bone>,
+) -> Result<(), RobotError> {
+    let hand = finger || carriers == mechanism.joints();
+    for shape in &link.collision {
+        let place = place * isometry(&shape.origin);
+        let solid = match &shape.geometry {
+            urdf_rs::Geometry::Box { size } => Some(Solid::Box(Vector3::from(size.0))),
+            urdf_rs::Geometry::Cylinder { radius, length } => {
+                Some(Solid::Cylinder { radius: *radius, height: *length })
+            }
+            urdf_rs::Geometry::Capsule { radius, length } => Some(straight(0.5 * length, *radius)),
+            urdf_rs::Geometry::Sphere { radius } => Some(straight(0.0, *radius)),
+            urdf_rs::Geometry::Mesh { filename, scale } => {
+                let scale = scale.map_or(Vector3::repeat(1.0), |scale| Vector3::from(scale.0));
+                mesh(mechanism, link, filename, scale, finger)?.map(Solid::Capsule)
+            }
+        };
+        bones.extend(solid.map(|solid| Bone::new(&link.name, carriers, solid, place, hand)));
+    }
+    Ok(())
+}
+
+fn straight(half: f64, radius: f64) -> Solid {
+    let end = |sign: f64| Point3::new(0.0, 0.0, sign * half);
+    Solid::Capsule(Capsule { start: end(-1.0), end: end(1.0), radius })
+}
+
+/// The capsule around a mesh, or what stands in for it, in the frame of its geometry.
+fn mesh(
+    mechanism: &Mechanism,
+    link: &urdf_rs::Link,
+    filename: &str,
+    scale: Vector3<f64>,
+    finger: bool,
+) -> Result<Option<Capsule>, RobotError> {
+    let urdf = &mechanism.urdf;
+    let file = locate(urdf.path(), filename);
+    match (file, mechanism.meshes) {
+        (Some(file), _) => {
+            let scene = mesh_loader::Loader::default().load(&file).map_err(|error| {
+                urdf.fault(&link.name, &format!("has a mesh that cannot be read: {}: {error}", file.display()))
+            })?;
+            let vertices = scene.meshes.iter().flat_map(|mesh| &mesh.vertices);
+            let points = vertices.map(|vertex| {
+                Point3::from(Vector3::from(vertex.map(f64::from)).component_mul(&scale))
+            });
+            Ok(Capsule::around_points(&points.collect::<Vec<_>>()))
+        }
+        (None, Meshes::Required) => Err(urdf.fault(
+            &link.name,
+            &format!(
+                "needs the mesh \"{filename}\", which is not there; put it beside the URDF, or let capsules stand in \
+                 for missing meshes"
+            ),
+        )),
+        (None, Meshes::OrCapsules(radius)) => {
+            let radius = if finger { FINGER * radius } else { radius };
+            let next = urdf.model().joints.iter().find(|joint| joint.parent.link == link.name);
+            let end = next.map_or_else(Isometry3::identity, |joint| isometry(&joint.origin));
+            Ok(Some(Capsule { start: Point3::origin(), end: Point3::from(end.translation.vector), radius }))
+        }
+    }
+}
+
+/// The file that a mesh's name means: a path, or one within a package whose folder lies above the URDF or beside it.
+fn locate(urdf: &Path, name: &str) -> Option<PathBuf> {
+    let within = name.trim_start_matches("file://").trim_start_matches("package://");
+    let bare = within.split_once('/').map_or(within, |(_, rest)| rest);
+    let mut candidates = vec![PathBuf::from(within)];
+    for folder in urdf.parent()?.ancestors() {
+        candidates.push(folder.join(within));
+        candidates.push(folder.join(bare));
+    }
+    candidates.into_iter().find(|candidate| candidate.is_file())
+}

@@ -1,0 +1,117 @@
+use crate::body::Bone;
+use crate::{Body, links};
+use coact_robot::{Arm, JointLimits, Posture, Robot, RobotError, Srs, Urdf};
+
+/// Most joints of an arm that is planned for.
+pub const MAX_JOINTS: usize = 7;
+
+/// An arm of six or seven joints with a hand, as the planner sees it.
+#[derive(Debug, Clone)]
+pub struct Mechanism {
+    /// The robot's name in its URDF.
+    pub name: String,
+    /// The arm, from the world to the palm; accelerations and jerks are limited, too.
+    pub arm: Arm,
+    /// Closed-form inverse kinematics, where the arm is S-R-S.
+    pub closed_form: Option<Srs>,
+    /// Posture at rest, rad; beyond the arm's own joints 0.
+    pub park: Posture,
+    /// Distance of the grasp point from the palm along the palm's z axis, m.
+    pub grasp_distance: f64,
+    pub(crate) urdf: Urdf,
+    pub(crate) meshes: Meshes,
+}
+
+/// What to do about a mesh file that is not there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Meshes {
+    /// Refuse the robot.
+    Required,
+    /// A capsule of this radius, m, from the link's frame to the next joint, stands in for it (a sixth of it in fingers).
+    OrCapsules(f64),
+}
+
+/// Acceleration, rad/s², and jerk, rad/s³, of joints whose files state none: a reach of one to two seconds.
+const USUAL: (f64, f64) = (10.0, 200.0);
+
+impl Mechanism {
+    /// A robot of ours, described by a robot file.
+    ///
+    /// # Errors
+    /// [`RobotError`] when its collision geometry cannot be used.
+    pub fn of(robot: &Robot) -> Result<Self, RobotError> {
+        let mechanism = Self {
+            name: robot.name.clone(),
+            arm: robot.arm().clone(),
+            closed_form: Some(robot.kinematics.clone()),
+            park: robot.park,
+            grasp_distance: robot.hand.grasp_distance,
+            urdf: robot.urdf.clone(),
+            meshes: Meshes::Required,
+        };
+        mechanism.arm_bones()?;
+        Ok(mechanism)
+    }
+
+    /// A robot that only a URDF describes. Its palm is the link from which fingers branch off; its park posture is the
+    /// middle of all joint ranges, with the elbow bent.
+    ///
+    /// # Errors
+    /// [`RobotError`] with file and line: a broken URDF, a hand without fingers, an arm of other than six or seven
+    /// joints, limits reversed or zero, a missing mesh.
+    pub fn from_urdf(urdf: Urdf, meshes: Meshes) -> Result<Self, RobotError> {
+        let palm = links::palm(&urdf)?;
+        let (mut joints, tool) = urdf.chain(None, &palm)?;
+        if !(6..=MAX_JOINTS).contains(&joints.len()) {
+            let count = joints.len();
+            return Err(urdf.fault(&palm, &format!("ends an arm of {count} joints; expected six or seven")));
+        }
+        for joint in &mut joints {
+            (joint.limits.acceleration, joint.limits.jerk) = USUAL;
+        }
+        let grasp_distance = 0.6 * links::finger_length(&urdf, &palm, joints.len())?;
+        let arm = Arm { joints, tool };
+        let closed_form = if arm.joints.len() == 7 { Srs::new(arm.clone()).ok() } else { None };
+        let mut park = [0.0; 7];
+        for (angle, joint) in park.iter_mut().zip(&arm.joints) {
+            *angle = 0.5 * (joint.limits.lower + joint.limits.upper);
+        }
+        park[3] = 0.5 * arm.joints[3].limits.upper.clamp(0.0, 1.6);
+        let name = urdf.name().to_owned();
+        let mechanism = Self { name, arm, closed_form, park, grasp_distance, urdf, meshes };
+        mechanism.arm_bones()?;
+        Ok(mechanism)
+    }
+
+    /// Joints of the arm.
+    pub fn joints(&self) -> usize {
+        self.arm.joints.len()
+    }
+
+    /// Limits of the arm's joints; unused ones allow nothing but 0.
+    pub fn limits(&self) -> [JointLimits; MAX_JOINTS] {
+        let unused =
+            JointLimits { lower: -1.0, upper: 1.0, velocity: 1.0, effort: 1.0, acceleration: 1.0, jerk: 1.0 };
+        std::array::from_fn(|joint| self.arm.joints.get(joint).map_or(unused, |joint| joint.limits))
+    }
+
+    /// Arm and hand with the fingers at these angles, rad, by joint name; those that are not named stand at their lower
+    /// limit, those that mimic others follow them.
+    ///
+    /// # Errors
+    /// [`RobotError`] when a link's collision geometry cannot be used.
+    pub fn body(&self, fingers: &dyn Fn(&str) -> f64) -> Result<Body, RobotError> {
+        let mut bones = self.arm_bones()?;
+        bones.extend(links::hand_bones(self, fingers)?);
+        Ok(Body::new(self, bones))
+    }
+
+    /// The grasp point in the palm frame.
+    pub fn grasp_point(&self) -> nalgebra::Point3<f64> {
+        nalgebra::Point3::new(0.0, 0.0, self.grasp_distance)
+    }
+
+    fn arm_bones(&self) -> Result<Vec<Bone>, RobotError> {
+        links::arm_bones(self)
+    }
+}

@@ -1,0 +1,36 @@
+use crate::solid::{Shape, pose};
+use crate::{Capsule, Solid};
+use nalgebra::Isometry3;
+use parry3d_f64::math::Pose;
+use parry3d_f64::shape::SharedShape;
+
+/// Something that arm, hand and held part must stay clear of.
+#[derive(Clone)]
+pub struct Obstacle {
+    /// What it is called in refusals and reports.
+    pub name: String,
+    /// Its form.
+    pub solid: Solid,
+    /// The place of its form's frame, world.
+    pub place: Isometry3<f64>,
+    /// A capsule around it, world.
+    pub hull: Capsule,
+    pub(crate) shape: SharedShape,
+    pub(crate) pose: Pose,
+}
+
+impl Obstacle {
+    /// An obstacle of this form with its frame at `place` (world).
+    pub fn new(name: impl Into<String>, solid: Solid, place: &Isometry3<f64>) -> Self {
+        let Shape { shape, own } = solid.shape();
+        let (hull, pose) = (solid.hull(place), pose(&(place * own)));
+        Self { name: name.into(), solid, place: *place, hull, shape, pose }
+    }
+}
+
+impl std::fmt::Debug for Obstacle {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { name, solid, place, .. } = self;
+        out.debug_struct("Obstacle").field("name", name).field("solid", solid).field("place", place).finish()
+    }
+}

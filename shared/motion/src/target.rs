@@ -1,0 +1,252 @@
+use crate::solver::Solver;
+use crate::{Clearance, Mechanism, Refusal};
+use coact_robot::{HandGoal, Posture};
+use nalgebra::Isometry3;
+use std::f64::consts::TAU;
+
+/// A posture at a goal, and one before it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// Which of the goals it reaches.
+    pub goal: usize,
+    /// Turn about the approach, rad.
+    pub roll: f64,
+    /// Before the approach; the same as `at` when there is none.
+    pub before: Posture,
+    /// At the goal.
+    pub at: Posture,
+    /// Weighted squared way of the joints from the present posture, rad², with the goal's own preference.
+    pub cost: f64,
+}
+
+/// The search for postures at which people would end: those of the smallest weighted way of the joints.
+pub(crate) struct TargetSearch<'a> {
+    pub clearance: Clearance<'a>,
+    /// The same, where the hand may touch what it is about.
+    pub touching: Clearance<'a>,
+    pub goals: &'a [HandGoal],
+    pub from: &'a Posture,
+    /// Distances that are kept, m: on the way, and at the goal.
+    pub margin: [f64; 2],
+}
+
+/// A posture at a goal that has not been checked yet.
+#[derive(Clone, Copy)]
+struct Candidate {
+    cost: f64,
+    goal: usize,
+    roll: f64,
+    swivel: f64,
+    at: Posture,
+}
+
+const SWIVELS: u32 = 36;
+const ROLLS: u32 = 12;
+/// Distance from the joint limits that targets keep, rad (1 degree).
+const MARGIN: f64 = 0.0175;
+/// Largest change of a joint between the posture before and the goal, rad: more is another branch, or a detour.
+const LARGEST_STEP: f64 = 0.9;
+/// Cost of each joint's way: moving the whole arm costs more than turning the wrist.
+pub(crate) const WEIGHT: Posture = [1.0, 1.0, 0.8, 0.8, 0.6, 0.6, 0.4];
+/// Targets that are offered, and how much they differ at least, rad² (weighted).
+const OFFERED: (usize, f64) = (6, 0.3);
+/// Candidates that are checked at most.
+const CHECKED: usize = 2000;
+/// Places from which the numerical solver starts, besides the present posture.
+const STARTS: u32 = 24;
+
+impl TargetSearch<'_> {
+    /// The best targets, best first; they differ from each other.
+    ///
+    /// # Errors
+    /// The constraint that binds, when there is none.
+    pub fn best(&self) -> Result<Vec<Target>, Refusal> {
+        let mut candidates = self.candidates();
+        candidates.sort_by(|one, other| one.cost.total_cmp(&other.cost));
+        let mut offered: Vec<Target> = Vec::new();
+        for candidate in candidates.iter().take(CHECKED) {
+            let differs = |known: &Target| cost(&known.at, &candidate.at) > OFFERED.1;
+            if offered.iter().all(differs)
+                && let Some(target) = self.check(candidate)
+            {
+                offered.push(self.refine(target, candidate));
+            }
+            if offered.len() == OFFERED.0 {
+                break;
+            }
+        }
+        if offered.is_empty() { Err(self.refusal(&candidates)) } else { Ok(offered) }
+    }
+
+    fn mechanism(&self) -> &Mechanism {
+        self.clearance.mechanism
+    }
+
+    fn candidates(&self) -> Vec<Candidate> {
+        let mut found = Vec::new();
+        for (goal, wanted) in self.goals.iter().enumerate() {
+            let rolls = if wanted.rolls == 0 { ROLLS } else { wanted.rolls.min(ROLLS) };
+            for roll in (0..rolls).map(|step| angle(step, rolls)) {
+                for swivel in (0..SWIVELS).map(|step| angle(step, SWIVELS)) {
+                    found.extend(self.postures(goal, roll, swivel));
+                }
+                if self.mechanism().closed_form.is_some() {
+                    continue;
+                }
+                found.extend(self.solved(goal, roll));
+                if wanted.rolls == 0 {
+                    break;
+                }
+            }
+        }
+        found
+    }
+
+    /// Postures of the closed form, where there is one.
+    fn postures(&self, goal: usize, roll: f64, swivel: f64) -> impl Iterator<Item = Candidate> + use<'_> {
+        let palm = palm(self.mechanism(), &self.goals[goal], roll, 0.0);
+        let solutions = self.mechanism().closed_form.as_ref().map(|srs| srs.solve(&palm, swivel, MARGIN));
+        let postures = solutions.map(|branches| branches.as_slice().to_vec()).unwrap_or_default();
+        postures.into_iter().map(move |at| Candidate { cost: cost(&at, self.from), goal, roll, swivel, at })
+    }
+
+    /// Postures of the numerical solver, from several places.
+    fn solved(&self, goal: usize, roll: f64) -> impl Iterator<Item = Candidate> + use<'_> {
+        let solver = Solver { clearance: self.touching, from: self.from, margin: self.margin[1] };
+        let starts = solver.starts(STARTS);
+        starts.into_iter().filter_map(move |start| {
+            let at = solver.reach(&self.goals[goal], roll, 0.0, &start)?;
+            Some(Candidate { cost: cost(&at, self.from), goal, roll, swivel: 0.0, at })
+        })
+    }
+
+    /// The target that a candidate stands for, if it and the posture before it are clear.
+    fn check(&self, candidate: &Candidate) -> Option<Target> {
+        let Candidate { cost, goal, roll, at, .. } = *candidate;
+        let back = self.goals[goal].back;
+        if !self.touching.is_clear(&at, self.margin[1]) {
+            return None;
+        }
+        let before = if back > 0.0 { self.before(candidate)? } else { at };
+        self.clearance.is_clear(&before, self.margin[0]).then_some(Target { goal, roll, before, at, cost })
+    }
+
+    /// The posture from which the approach begins: that nearest to the goal's.
+    fn before(&self, candidate: &Candidate) -> Option<Posture> {
+        let (goal, at) = (&self.goals[candidate.goal], &candidate.at);
+        let Some(srs) = &self.mechanism().closed_form else {
+            let solver = Solver { clearance: self.clearance, from: at, margin: self.margin[0] };
+            let before = solver.reach(goal, candidate.roll, goal.back, at)?;
+            return (largest_step(&before, at) <= LARGEST_STEP).then_some(before);
+        };
+        let palm = palm(self.mechanism(), goal, candidate.roll, goal.back);
+        let branches = srs.solve(&palm, candidate.swivel, MARGIN);
+        let near = branches.as_slice().iter().filter(|before| largest_step(before, at) <= LARGEST_STEP);
+        near.min_by(|one, other| cost(one, at).total_cmp(&cost(other, at))).copied()
+    }
+
+    /// Looks for a cheaper target around a candidate, in ever smaller steps of swivel and roll.
+    fn refine(&self, mut best: Target, candidate: &Candidate) -> Target {
+        if self.mechanism().closed_form.is_none() {
+            return best;
+        }
+        let turns = self.goals[best.goal].rolls == 0;
+        let (mut swivel, mut step) = (candidate.swivel, 0.5);
+        while step > 0.02 {
+            let around = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
+            let moved = around.iter().filter(|(_, roll)| turns || *roll == 0.0).find_map(|(one, other)| {
+                let roll = best.roll + other * step * TAU / f64::from(ROLLS);
+                let swivel = swivel + one * step * TAU / f64::from(SWIVELS);
+                let cheaper =
+                    self.postures(best.goal, roll, swivel).filter(|found| found.cost < best.cost - 1e-6);
+                cheaper.filter_map(|found| Some((self.check(&found)?, swivel))).next()
+            });
+            match moved {
+                Some(found) => (best, swivel) = found,
+                None => step *= 0.5,
+            }
+        }
+        best
+    }
+
+    /// Why there is no target.
+    fn refusal(&self, candidates: &[Candidate]) -> Refusal {
+        let mut least: Option<(f64, String, String)> = None;
+        for candidate in candidates.iter().step_by(candidates.len() / 200 + 1) {
+            let at = self
+                .touching
+                .nearest(&candidate.at, self.margin[1])
+                .map(|near| (near, self.margin[1], &self.touching));
+            let before = || {
+                let before = self.before(candidate)?;
+                let near = self.clearance.nearest(&before, self.margin[0])?;
+                Some((near, self.margin[0], &self.clearance))
+            };
+            let Some((near, margin, clearance)) = at.or_else(before) else { continue };
+            let short = margin - near.distance;
+            if least.as_ref().is_none_or(|(known, ..)| short < *known) {
+                let (bone, other) = clearance.names(&near);
+                least = Some((short, bone, other));
+            }
+        }
+        match least {
+            Some((short, bone, other)) => Refusal::Blocked { bone, other, short },
+            None => self.limit_that_binds(),
+        }
+    }
+
+    fn limit_that_binds(&self) -> Refusal {
+        let point = self.goals.first().map_or([0.0; 3], |goal| goal.point.coords.into());
+        let Some(srs) = &self.mechanism().closed_form else { return Refusal::OutOfReach { point } };
+        let mut least: Option<(f64, usize)> = None;
+        for goal in self.goals {
+            for step in 0..ROLLS * SWIVELS {
+                let roll = angle(step / SWIVELS, ROLLS);
+                let at = palm(self.mechanism(), goal, roll, 0.0);
+                for posture in srs.solve(&at, angle(step % SWIVELS, SWIVELS), -TAU).as_slice() {
+                    let worst = self.mechanism().worst_excess(posture);
+                    if least.is_none_or(|(known, _)| worst.0 < known) {
+                        least = Some(worst);
+                    }
+                }
+            }
+        }
+        match least {
+            Some((excess, joint)) => {
+                Refusal::JointLimit { joint: self.mechanism().arm.joints[joint].name.clone(), excess }
+            }
+            None => Refusal::OutOfReach { point },
+        }
+    }
+}
+
+impl Mechanism {
+    /// How far the worst joint of a posture lies beyond its limits, rad, and which that is.
+    fn worst_excess(&self, posture: &Posture) -> (f64, usize) {
+        let excess = |(joint, angle): (&coact_robot::Joint, &f64)| {
+            (joint.limits.lower - angle).max(angle - joint.limits.upper)
+        };
+        let joints = self.arm.joints.iter().zip(posture).map(excess).zip(0..);
+        joints.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
+    }
+}
+
+/// Palm pose at a goal, `back` m before it.
+pub(crate) fn palm(mechanism: &Mechanism, goal: &HandGoal, roll: f64, back: f64) -> Isometry3<f64> {
+    let point = goal.point - goal.approach * back;
+    let grip = coact_robot::grip::frame(&point, &goal.approach, &goal.closing, roll);
+    grip * nalgebra::Translation3::new(0.0, 0.0, -mechanism.grasp_distance)
+}
+
+/// Weighted squared way between two postures, rad².
+pub(crate) fn cost(posture: &Posture, from: &Posture) -> f64 {
+    (0..7).map(|joint| WEIGHT[joint] * (posture[joint] - from[joint]).powi(2)).sum()
+}
+
+fn angle(step: u32, count: u32) -> f64 {
+    TAU * f64::from(step) / f64::from(count)
+}
+
+fn largest_step(a: &Posture, b: &Posture) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}

@@ -1,0 +1,200 @@
+//! `coact motion plan`: one movement, planned, drawn and written down.
+
+use super::robot::RobotArgs;
+use anyhow::{Context, Result, bail, ensure};
+use coact_figures::Lettering;
+use coact_motion::{Aim, Margin, Obstacle, Plan, Problem, Scene, Solid, StageKind, workplace};
+use coact_motion_suite::{MovementPage, Quality, Setting};
+use coact_robot::{HandGoal, MotionState};
+use nalgebra::{Isometry3, Point3, Vector3};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Plans one movement and writes movement.svg, movement.png and plan.json.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  coact motion plan --to=-0.4,0.55,0.83 --back 0.15 --task rt-config/tasks/toy-vehicle.toml --out motion
+  coact motion plan --to=-0.5,0.3,1.0 --approach=-1,0,0 --obstacle cylinder:-0.4,0.4,1.0,0.04,0.6 --out motion
+  coact motion plan --robot arm.urdf --missing-meshes capsules --from 0,0.5,0,0.8,0,0,0 --to 0.4,0.2,-0.6 --out motion
+
+Places are in the world frame (z up). A number list that begins with a minus needs the equals sign: --to=-0.4,...")]
+pub struct Args {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// Task whose table, base and parts are in the way
+    #[arg(long, value_name = "FILE")]
+    task: Option<PathBuf>,
+    /// Joint angles at the start, rad, with commas between [default: the park posture]
+    #[arg(long, value_name = "ANGLES", value_delimiter = ',', allow_hyphen_values = true)]
+    from: Vec<f64>,
+    /// Where the hand shall grasp: x,y,z in m
+    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]
+    to: Vec<f64>,
+    /// Direction in which the hand shall come
+    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true, default_values_t = [0.0, 0.0, -1.0])]
+    approach: Vec<f64>,
+    /// How far before the goal the approach begins, m
+    #[arg(long, value_name = "M", default_value_t = 0.0)]
+    back: f64,
+    /// Something in the way: box:X,Y,Z,DX,DY,DZ or cylinder:X,Y,Z,RADIUS,HEIGHT (centre, then size, m)
+    #[arg(long, value_name = "KIND:NUMBERS", allow_hyphen_values = true)]
+    obstacle: Vec<String>,
+    /// Folder for the files; it is made if it is not there
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// What plan.json holds.
+#[derive(Serialize)]
+struct Record<'a> {
+    robot: &'a str,
+    joints: Vec<&'a str>,
+    quality: Quality,
+    bounces: bool,
+    stages: Vec<(&'static str, f64)>,
+    /// Every 10 ms: time, s; positions, rad; velocities, rad/s.
+    samples: Vec<(f64, Vec<f64>, Vec<f64>)>,
+}
+
+/// Plans, draws, writes and prints.
+///
+/// # Errors
+/// Arguments or files that are refused, a movement that cannot be made, or a folder that cannot be written to.
+pub fn run(args: Args) -> Result<ExitCode> {
+    let setting = args.robot.setting(args.task.as_ref())?;
+    let scene = scene(&args, &setting)?;
+    let problem = Problem {
+        mechanism: &setting.mechanism,
+        body: &setting.open,
+        scene: &scene,
+        start: start(&args, &setting)?,
+        leave: None,
+        aim: Aim::Hand(vec![goal(&args)?]),
+        margin: Margin::default(),
+    };
+    let plan = problem.plan()?;
+    let quality = Quality::of(&problem, &plan);
+    let sheet = MovementPage { problem: &problem, plan: &plan }.draw();
+    std::fs::create_dir_all(&args.out).with_context(|| format!("{}: cannot be made", args.out.display()))?;
+    write(&args.out, "movement.svg", sheet.svg()?.as_bytes())?;
+    write(&args.out, "movement.png", &sheet.png(&Lettering::new()?)?)?;
+    write(&args.out, "plan.json", &serde_json::to_vec_pretty(&record(&setting, &plan, quality))?)?;
+    println!(
+        "{:.2} s, {}; {} peak(s) of the hand's speed, normalised jerk {:.0}, {:.2} mm from the goal, at least {:.0} mm clear",
+        quality.duration_s,
+        if plan.bounces { "around something" } else { "direct" },
+        quality.units,
+        quality.normalised_jerk,
+        1e3 * quality.position_error,
+        1e3 * quality.clearance
+    );
+    println!("{}", args.out.join("movement.svg").display());
+    Ok(ExitCode::SUCCESS)
+}
+
+fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<()> {
+    let file = folder.join(name);
+    std::fs::write(&file, bytes).with_context(|| format!("{}: cannot be written", file.display()))
+}
+
+fn start(args: &Args, setting: &Setting) -> Result<[MotionState; 7]> {
+    if args.from.is_empty() {
+        return Ok(setting.mechanism.park.map(MotionState::at_rest));
+    }
+    let joints = &setting.mechanism.arm.joints;
+    let count = joints.len();
+    ensure!(args.from.len() == count, "--from has {} angles; this arm has {count} joints", args.from.len());
+    let mut start = [MotionState::default(); 7];
+    for ((state, angle), joint) in start.iter_mut().zip(&args.from).zip(joints) {
+        let (low, high) = (joint.limits.lower, joint.limits.upper);
+        ensure!(
+            joint.limits.contain(*angle, 0.0),
+            "--from: {angle} rad is outside the limits of \"{}\", {low:.3} to {high:.3} rad",
+            joint.name
+        );
+        *state = MotionState::at_rest(*angle);
+    }
+    Ok(start)
+}
+
+fn goal(args: &Args) -> Result<HandGoal> {
+    let three = |name: &str, values: &[f64]| -> Result<Vector3<f64>> {
+        ensure!(values.len() == 3, "--{name} has {} numbers; expected X,Y,Z", values.len());
+        Ok(Vector3::from_column_slice(values))
+    };
+    let approach = three("approach", &args.approach)?;
+    let approach = approach.try_normalize(1e-9).context("--approach is zero; expected a direction")?;
+    ensure!((0.0..=0.5).contains(&args.back), "--back {}: expected 0 to 0.5 m", args.back);
+    Ok(HandGoal {
+        point: Point3::from(three("to", &args.to)?),
+        approach,
+        closing: Vector3::y(),
+        rolls: 0,
+        back: args.back,
+        floor: f64::NEG_INFINITY,
+    })
+}
+
+fn scene(args: &Args, setting: &Setting) -> Result<Scene> {
+    let mut scene = Scene::default();
+    if let (Some(_), Some(task)) = (&args.task, &setting.task) {
+        scene.obstacles = workplace::fixtures(task);
+        for (index, part) in task.parts.iter().enumerate() {
+            let place = Isometry3::translation(part.at[0], part.at[1], task.scene.table_height);
+            let kind = &task.kinds[part.kind];
+            scene.obstacles.push(workplace::part(&format!("{} ({index})", kind.name), kind, &place));
+        }
+    }
+    for (index, text) in args.obstacle.iter().enumerate() {
+        let (solid, place) = obstacle(text)?;
+        scene.obstacles.push(Obstacle::new(format!("obstacle {}", index + 1), solid, &place));
+    }
+    Ok(scene)
+}
+
+fn obstacle(text: &str) -> Result<(Solid, Isometry3<f64>)> {
+    let wrong = || {
+        format!("--obstacle {text}: expected box:X,Y,Z,DX,DY,DZ or cylinder:X,Y,Z,RADIUS,HEIGHT, all in m")
+    };
+    let (kind, numbers) = text.split_once(':').with_context(wrong)?;
+    let numbers: Vec<f64> = numbers
+        .split(',')
+        .map(|number| number.trim().parse())
+        .collect::<Result<_, _>>()
+        .with_context(wrong)?;
+    let (solid, size) = match (kind, numbers.as_slice()) {
+        ("box", [_, _, _, x, y, z]) => (Solid::Box(Vector3::new(*x, *y, *z)), &numbers[3..]),
+        ("cylinder", [_, _, _, radius, height]) => {
+            (Solid::Cylinder { radius: *radius, height: *height }, &numbers[3..])
+        }
+        _ => bail!(wrong()),
+    };
+    if !size.iter().all(|length| *length > 0.0 && length.is_finite()) {
+        bail!("--obstacle {text}: expected sizes above zero");
+    }
+    Ok((solid, Isometry3::translation(numbers[0], numbers[1], numbers[2])))
+}
+
+fn record<'a>(setting: &'a Setting, plan: &Plan, quality: Quality) -> Record<'a> {
+    let joints = setting.mechanism.joints();
+    let samples = (0..=(plan.duration() * 100.0).ceil() as u32).map(|sample| {
+        let t = (f64::from(sample) / 100.0).min(plan.duration());
+        let states = plan.at(t);
+        let column = |of: fn(&MotionState) -> f64| states[..joints].iter().map(of).collect();
+        (t, column(|state| state.position), column(|state| state.velocity))
+    });
+    let name = |kind: &StageKind| match kind {
+        StageKind::Leave => "leave",
+        StageKind::Reach => "reach",
+        StageKind::Approach => "approach",
+    };
+    Record {
+        robot: &setting.mechanism.name,
+        joints: setting.mechanism.arm.joints.iter().map(|joint| joint.name.as_str()).collect(),
+        quality,
+        bounces: plan.bounces,
+        stages: plan.stages.iter().map(|(kind, end)| (name(kind), *end)).collect(),
+        samples: samples.collect(),
+    }
+}

@@ -1,0 +1,53 @@
+use crate::installation::Installation;
+use anyhow::Result;
+use clap::ValueEnum;
+use coact_joint_task::Task;
+use coact_motion::{Mechanism, Meshes};
+use coact_motion_suite::Setting;
+use coact_robot::{Robot, Urdf};
+use std::path::PathBuf;
+
+/// Which robot moves.
+#[derive(Debug, clap::Args)]
+pub struct RobotArgs {
+    /// Robot: a robot file (.toml), or any URDF of an arm of six or seven joints with a hand [default: ARoS]
+    #[arg(long, value_name = "FILE")]
+    robot: Option<PathBuf>,
+    /// What to do about meshes of a URDF that are not there
+    #[arg(long, value_enum, default_value_t = MissingMeshes::Refuse)]
+    missing_meshes: MissingMeshes,
+}
+
+/// What stands in for a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MissingMeshes {
+    /// The robot is refused
+    Refuse,
+    /// Capsules along the links
+    Capsules,
+}
+
+/// Radius of the capsules that stand in for links, m.
+const STAND_IN: f64 = 0.06;
+
+impl RobotArgs {
+    /// Reads the robot; a robot file's is set before the task, one of a URDF alone has no task.
+    ///
+    /// # Errors
+    /// What is wrong with its files.
+    pub fn setting(&self, task: Option<&PathBuf>) -> Result<Setting> {
+        let installation = Installation::find()?;
+        let own = installation.configuration.join("robots/aros.toml");
+        let file = self.robot.as_ref().unwrap_or(&own);
+        if file.extension().is_some_and(|extension| extension == "toml") {
+            let toy = installation.configuration.join("tasks/toy-vehicle.toml");
+            let task = Task::load(task.unwrap_or(&toy))?;
+            return Ok(Setting::of(&Robot::load(file)?, task)?);
+        }
+        let meshes = match self.missing_meshes {
+            MissingMeshes::Refuse => Meshes::Required,
+            MissingMeshes::Capsules => Meshes::OrCapsules(STAND_IN),
+        };
+        Ok(Setting::foreign(Mechanism::from_urdf(Urdf::load(file)?, meshes)?)?)
+    }
+}

@@ -1,0 +1,33 @@
+use coact_motion::{Aim, Body, Margin, Mechanism, Problem, Scene};
+use coact_robot::MotionState;
+use nalgebra::Vector3;
+
+/// One movement to be planned, with all that it needs.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Arm, hand and what it holds.
+    pub body: Body,
+    /// The surroundings.
+    pub scene: Scene,
+    /// State of the arm's joints at the start.
+    pub start: [MotionState; 7],
+    /// Straight back first: direction and distance, m.
+    pub leave: Option<(Vector3<f64>, f64)>,
+    /// Where to.
+    pub aim: Aim,
+}
+
+impl Case {
+    /// The same as a problem for the planner.
+    pub fn problem<'a>(&'a self, mechanism: &'a Mechanism) -> Problem<'a> {
+        Problem {
+            mechanism,
+            body: &self.body,
+            scene: &self.scene,
+            start: self.start,
+            leave: self.leave,
+            aim: self.aim.clone(),
+            margin: Margin::default(),
+        }
+    }
+}

@@ -1,0 +1,69 @@
+use coact_motion::{Aim, Clearance, HandPath, Plan, Problem, StageKind};
+
+/// How a planned movement looks from outside.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Quality {
+    /// Time that it takes, s.
+    pub duration_s: f64,
+    /// Length of the hand's path, m.
+    pub path_m: f64,
+    /// Largest speed of the hand, m/s.
+    pub peak_speed: f64,
+    /// Peaks of the hand's speed.
+    pub units: u32,
+    /// sqrt(1/2 integral of jerk² x T⁵ / L²) of the hand's path; 19 for a straight movement of minimum jerk.
+    pub normalised_jerk: f64,
+    /// Distance of the grasp point from its goal at the end, m; 0 for a posture.
+    pub position_error: f64,
+    /// Smallest distance from anything on the way to the goal (leaving and approaching aside), m; at most [`FAR`].
+    pub clearance: f64,
+}
+
+/// Distances beyond this are not told apart, m.
+pub const FAR: f64 = 0.3;
+/// Samples of a movement, 1/s.
+const RATE: f64 = 500.0;
+
+impl Quality {
+    /// Of a plan for this problem.
+    pub fn of(problem: &Problem, plan: &Plan) -> Self {
+        let path = path(problem, plan);
+        Self {
+            duration_s: plan.duration(),
+            path_m: path.length(),
+            peak_speed: path.speed.iter().copied().fold(0.0, f64::max),
+            units: path.units(),
+            normalised_jerk: path.normalised_jerk(),
+            position_error: position_error(problem, plan),
+            clearance: clearance(problem, plan),
+        }
+    }
+}
+
+/// The path of the hand in a plan.
+pub fn path(problem: &Problem, plan: &Plan) -> HandPath {
+    let count = (plan.duration() * RATE).ceil().max(8.0) as usize;
+    HandPath::of(problem.mechanism, plan, count)
+}
+
+fn position_error(problem: &Problem, plan: &Plan) -> f64 {
+    let (Aim::Hand(goals), Some(target)) = (&problem.aim, &plan.target) else { return 0.0 };
+    let grasp = problem.mechanism.arm.palm(&plan.end()) * problem.mechanism.grasp_point();
+    (grasp - goals[target.goal].point).norm()
+}
+
+/// Smallest distance while the hand is on its way.
+fn clearance(problem: &Problem, plan: &Plan) -> f64 {
+    let Problem { mechanism, body, scene, .. } = *problem;
+    let clearance = Clearance { mechanism, body, scene, touching: false };
+    let ends = plan.stages.iter().map(|(_, end)| *end);
+    let begins = std::iter::once(0.0).chain(ends);
+    let ways = plan.stages.iter().zip(begins).filter(|((kind, _), _)| *kind == StageKind::Reach);
+    ways.flat_map(|((_, end), begin)| {
+        (0..=200).map(move |step| begin + (end - begin) * f64::from(step) / 200.0)
+    })
+    .map(|t| plan.at(t).map(|state| state.position))
+    .filter_map(|posture| clearance.nearest(&posture, FAR))
+    .map(|near| near.distance)
+    .fold(FAR, f64::min)
+}
