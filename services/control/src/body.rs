@@ -1,10 +1,10 @@
 use coact_messages::{ARM_JOINTS, JOINTS};
 use coact_robot::{JointLimits, Posture, ROBOT_JOINTS, Robot};
 
-/// How much wider than a part the fingers open around it, m.
-const OPENING: f64 = 0.04;
-/// How much narrower than a part the fingers are told to close, m: what makes them press.
-const SQUEEZE: f64 = 0.004;
+/// Gap between an open finger and the part that it opens around, m.
+const OPENING: f64 = 0.01;
+/// How far into a part each finger is told to close, as a share of its width: what makes them press.
+const SQUEEZE: f64 = 0.3;
 /// Clear width of the resting hand, m.
 const RELAXED: f64 = 0.10;
 /// Clear width of the hand that steadies or points, m.
@@ -45,16 +45,16 @@ impl Body {
     /// All angles for an arm posture and what the fingers do.
     pub fn angles(&self, arm: &Posture, fingers: Fingers) -> [f64; JOINTS] {
         let hand = &self.robot.hand;
-        let base = match fingers {
-            Fingers::Relaxed => hand.base_for_width(RELAXED),
-            Fingers::Around(width) => hand.base_for_width(width + OPENING),
-            Fingers::On(width) => hand.base_for_width(width - SQUEEZE),
-            Fingers::Slender => hand.base_for_width(SLENDER),
-            Fingers::HeldOut => HELD_OUT,
+        let fingers = match fingers {
+            Fingers::Relaxed => hand.posture(hand.base_for_width(RELAXED)),
+            Fingers::Around(width) => hand.grasp(width, OPENING).angles,
+            Fingers::On(width) => hand.grasp(width, -SQUEEZE * width).angles,
+            Fingers::Slender => hand.posture(hand.base_for_width(SLENDER)),
+            Fingers::HeldOut => hand.posture(HELD_OUT),
         };
         let mut angles = [0.0; JOINTS];
         angles[..ARM_JOINTS].copy_from_slice(arm);
-        angles[ARM_JOINTS..ROBOT_JOINTS].copy_from_slice(&hand.posture(base));
+        angles[ARM_JOINTS..ROBOT_JOINTS].copy_from_slice(&fingers);
         angles
     }
 

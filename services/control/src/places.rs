@@ -1,7 +1,7 @@
 use crate::ControlError;
 use crate::body::Body;
 use coact_joint_task::{Motion, Scene, Shape, Task};
-use coact_robot::{HandGoal, PostureSearch};
+use coact_robot::{Hand, HandGoal, PostureSearch};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
 /// Distance of the pose before a grasp or a placing from the goal, m.
@@ -18,7 +18,7 @@ const POINTING: (f64, f64) = (0.25, 0.85);
 pub(crate) struct Places {
     scene: Scene,
     shoulder: Point3<f64>,
-    grasp_distance: f64,
+    hand: Hand,
     kinds: Vec<Grip>,
     sockets: Vec<Isometry3<f64>>,
 }
@@ -41,7 +41,7 @@ impl Places {
         let places = Self {
             scene: task.scene.clone(),
             shoulder: body.robot.arm().centres(&body.robot.park)[0],
-            grasp_distance: body.robot.hand.grasp_distance,
+            hand: body.robot.hand.clone(),
             kinds: task.kinds.iter().map(|kind| grip(kind.width, &kind.shape)).collect(),
             sockets: task.subgoals.iter().map(|subgoal| frame(subgoal.socket, subgoal.axis)).collect(),
         };
@@ -54,11 +54,13 @@ impl Places {
         self.kinds[kind].width
     }
 
-    /// Gripping, or setting down, a part whose frame is `frame`.
+    /// Gripping, or setting down, a part whose frame is `frame`: so deep in the hand that its fingers meet on it.
     pub fn part(&self, kind: usize, frame: &Isometry3<f64>) -> HandGoal {
-        let Grip { height, rolls, turn, .. } = self.kinds[kind];
+        let Grip { height, width, rolls, turn } = self.kinds[kind];
         let turned = frame * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
-        HandGoal::grip(&turned, height, rolls, BACK, self.scene.table_height)
+        let goal = HandGoal::grip(&turned, height, rolls, BACK, self.scene.table_height);
+        let deeper = self.hand.grasp_distance - self.hand.grasp(width, 0.0).depth;
+        HandGoal { point: goal.point + goal.approach * deeper, ..goal }
     }
 
     /// Putting a part into its socket.
@@ -87,7 +89,7 @@ impl Places {
         let out = self.handover() - self.shoulder;
         let level = Vector3::new(out.x, out.y, 0.0).try_normalize(1e-6).unwrap_or_else(Vector3::x);
         let approach = level * RAISED.cos() + Vector3::z() * RAISED.sin();
-        let point = self.handover() + approach * (self.grasp_distance - HOLLOW);
+        let point = self.handover() + approach * (self.hand.grasp_distance - HOLLOW);
         self.free(point, approach, 0.0)
     }
 

@@ -1,9 +1,9 @@
-use coact_joint_task::{Agent, Shape, Task};
+use coact_joint_task::{Agent, Fit, Shape, Task};
 use coact_messages::{MAX_PARTS, NONE, PartState};
 use glam::{DQuat, DVec3};
 
-/// How near a part must be to a socket to snap into it when it is let go, m.
-const SNAP: f64 = 0.03;
+/// From how far before its socket on a part that stands true to it fits into what it is mounted in, m.
+const ENTRY: f64 = 0.06;
 /// How far other parts must be from where a part is put back, m.
 const HOME_CLEARANCE: f64 = 0.1;
 
@@ -24,12 +24,15 @@ pub(crate) struct Parts {
     count: usize,
     /// Subgoals that are achieved whenever the scene is laid out, and the part of each.
     start: Vec<(usize, usize)>,
+    /// How exactly a part must be in a socket to be mounted.
+    fit: Fit,
 }
 
 impl Parts {
     /// Parts where the task lays them out; those of `start` (subgoals and their parts) in their sockets.
-    pub fn new(task: &Task, start: Vec<(usize, usize)>) -> Self {
-        let mut parts = Self { state: [PartState::default(); MAX_PARTS], count: task.parts.len(), start };
+    pub fn new(task: &Task, start: Vec<(usize, usize)>, fit: Fit) -> Self {
+        let state = [PartState::default(); MAX_PARTS];
+        let mut parts = Self { state, count: task.parts.len(), start, fit };
         parts.lay_out(task);
         parts
     }
@@ -135,21 +138,51 @@ impl Parts {
         (0..self.count).filter(lies_there).min_by(|one, other| distance(one).total_cmp(&distance(other)))
     }
 
-    /// A part that nobody holds any more snaps into a free socket of its kind nearby, or drops.
+    /// A part that nobody holds any more is mounted in the free socket of its kind that it fits into, or drops.
     pub fn let_go(&mut self, part: usize, task: &Task) {
-        match self.socket_near(part, task) {
+        match self.socket_of(part, task) {
             Some(subgoal) => self.mount(part, subgoal, task),
             None => self.drop(part, task),
         }
     }
 
-    fn socket_near(&self, part: usize, task: &Task) -> Option<usize> {
-        let (achieved, kind, at) = (self.achieved(), self.kind(part), self.position(part));
-        let distance = |index: &usize| at.distance(task.subgoals[*index].socket.into());
-        (0..task.subgoals.len())
-            .filter(|index| task.subgoals[*index].kind == kind && achieved & (1 << index) == 0)
-            .filter(|index| distance(index) <= SNAP)
+    fn socket_of(&self, part: usize, task: &Task) -> Option<usize> {
+        let distance = |index: &usize| self.position(part).distance(task.subgoals[*index].socket.into());
+        self.sockets_ahead(part, task)
+            .filter(|index| distance(index) <= self.fit.position)
             .min_by(|one, other| distance(one).total_cmp(&distance(other)))
+    }
+
+    /// Whether a part is about to enter a socket: on its axis and along it, within tolerance, and no farther off than
+    /// a hole is deep or an axle long.
+    pub fn enters(&self, part: usize, task: &Task) -> bool {
+        self.sockets_ahead(part, task).any(|index| {
+            let goal = &task.subgoals[index];
+            let way = self.position(part) - DVec3::from(goal.socket);
+            let along = way.dot(goal.axis.into());
+            let aside = (way - along * DVec3::from(goal.axis)).length();
+            aside <= self.fit.position && (-self.fit.position..ENTRY).contains(&along)
+        })
+    }
+
+    /// Free sockets of a part's kind to which it stands true, within tolerance.
+    fn sockets_ahead<'a>(&self, part: usize, task: &'a Task) -> impl Iterator<Item = usize> + use<'a> {
+        let (achieved, kind, fit) = (self.achieved(), self.kind(part), self.fit);
+        let own = self.orientation(part) * DVec3::Z;
+        let fits = move |axis: [f64; 3]| own.angle_between(axis.into()) <= fit.angle;
+        (0..task.subgoals.len()).filter(move |&index| {
+            let goal = &task.subgoals[index];
+            goal.kind == kind && achieved & (1 << index) == 0 && fits(goal.axis)
+        })
+    }
+
+    /// Mounts every loose part that has come to stand in a socket.
+    pub fn settle(&mut self, task: &Task) {
+        for part in 0..self.count {
+            if self.is(part, Holder::Nobody) {
+                self.let_go(part, task);
+            }
+        }
     }
 
     /// Whether a free part lies where neither of the two can take it from.

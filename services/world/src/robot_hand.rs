@@ -1,9 +1,10 @@
+use crate::body::Grip;
 use crate::parts::{Holder, Parts};
 use crate::slot::Slot;
 use bytemuck::{Pod, Zeroable};
 use coact_joint_task::Task;
 use coact_messages::{ARM_JOINTS, JOINTS};
-use coact_robot::Robot;
+use coact_robot::{HAND_JOINTS, Robot};
 use glam::{DQuat, DVec3};
 
 /// How near a part's axis must be to the grasp point for the fingers to get hold of it, m.
@@ -20,6 +21,11 @@ const AT_PLACE: f64 = 0.12;
 const LIFTED: f64 = 0.03;
 /// Grip force when the fingers just touch, N, and its growth with the finger angle that the servo is held back, N/rad.
 const GRIP_FORCE: (f64, f64) = (2.0, 40.0);
+
+/// Grip force from which a part counts as grasped, N, and below which it counts as lost.
+const GRASPED: (f64, f64) = (0.5, 0.1);
+/// For how many ticks the force must say so before it does.
+const CERTAIN: (u64, u64) = (10, 30);
 
 /// The robot's hand as anybody can see it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,14 +58,19 @@ pub(crate) struct RobotHandMemory {
     taken_at: [f64; 3],
     /// Ticks for which it has been carried, away from there.
     pub carried: u64,
+    /// Ticks for which the measured grip has said that a part is grasped, or that the held one is lost.
+    changing: u64,
+    /// The part that has slipped out of fingers that are still closed.
+    pub slipped: Slot,
 }
 
-/// Finger angles at which a kind of part is touched, gripped and let go, rad.
+/// Mean finger angles at which a kind of part is touched, gripped and let go, rad, and all hand joints in the grip.
 #[derive(Debug, Clone, Copy)]
 struct FingerAngles {
     touch: f64,
     grip: f64,
     release: f64,
+    hand: [f64; HAND_JOINTS],
 }
 
 /// Grasps and releases parts as the robot's fingers close and open.
@@ -74,15 +85,19 @@ pub(crate) struct RobotHand {
 
 impl RobotHand {
     pub fn new(robot: &Robot, task: &Task) -> Self {
-        let angle = |width: f64| robot.hand.base_for_width(width);
-        let angles = task.kinds.iter().map(|kind| FingerAngles {
-            touch: angle(kind.width + TOUCHING),
-            grip: angle(kind.width),
-            release: angle(kind.width + RELEASED),
+        let angles = task.kinds.iter().map(|kind| {
+            let hand = |gap: f64| robot.hand.grasp(kind.width, gap).angles;
+            let mean = |gap: f64| hand(gap)[1..4].iter().sum::<f64>() / 3.0;
+            FingerAngles {
+                touch: mean(0.5 * TOUCHING),
+                grip: mean(0.0),
+                release: mean(0.5 * RELEASED),
+                hand: hand(0.0),
+            }
         });
         Self {
             angles: angles.collect(),
-            open: angle(LOOKS_OPEN),
+            open: robot.hand.base_for_width(LOOKS_OPEN),
             handover: task.scene.handover.into(),
             hold: task.scene.hold.into(),
             robot: robot.clone(),
@@ -101,30 +116,37 @@ impl RobotHand {
         }
     }
 
-    /// Base angle at which the held part stops the fingers, rad; none when the hand is empty.
-    pub fn stop(&self, memory: &RobotHandMemory, parts: &Parts) -> Option<f64> {
-        memory.held.get().map(|part| self.angles[parts.kind(part)].grip)
+    /// Hand joint angles at which the held part stops the fingers, rad; none when the hand is empty.
+    pub fn stop(&self, memory: &RobotHandMemory, parts: &Parts) -> Option<[f64; HAND_JOINTS]> {
+        memory.held.get().map(|part| self.angles[parts.kind(part)].hand)
     }
 
     /// Force on the held part, N, when the servo would close the fingers to `closing` rad.
     pub fn touch(&self, memory: &RobotHandMemory, parts: &Parts, wanted: f64) -> f64 {
         let squeeze = |stop: f64| GRIP_FORCE.0 + GRIP_FORCE.1 * (wanted - stop).max(0.0);
-        self.stop(memory, parts).map_or(0.0, squeeze)
+        memory.held.get().map_or(0.0, |part| squeeze(self.angles[parts.kind(part)].grip))
     }
 
-    /// Grasps, carries and releases, as the palm moved and the fingers closed or opened since the last step.
+    /// Grasps, carries and releases: as the fingers were measured to hold (`grip`), or without that by rules, as the
+    /// palm moved and the fingers closed or opened since the last step.
     ///
     /// A part that the fingers of the person (`person_grip`) are on becomes the person's when the robot lets go.
     pub fn advance(
         &self,
         palm: &Palm,
+        grip: Option<Grip>,
         memory: &mut RobotHandMemory,
         person_grip: Slot,
         parts: &mut Parts,
         task: &Task,
     ) {
-        match memory.held.get() {
-            Some(part) if palm.closing < self.angles[parts.kind(part)].release => {
+        let held = memory.held.get();
+        let lost = held.filter(|&part| match grip {
+            Some(grip) => lasts(memory, grip.force_on(part) < GRASPED.1, CERTAIN.1),
+            None => palm.closing < self.angles[parts.kind(part)].release,
+        });
+        match (lost, grip) {
+            (Some(part), _) => {
                 memory.held = Slot::EMPTY;
                 if person_grip.get() == Some(part) {
                     parts.give_to(part, Holder::Person);
@@ -132,11 +154,21 @@ impl RobotHand {
                     parts.let_go(part, task);
                 }
             }
-            None => self.grasp(palm, memory, parts, task),
-            Some(_) => {}
+            (None, Some(grip)) if held.is_none() => {
+                let grasped = grip.part.filter(|part| !parts.is(*part, Holder::Socket));
+                let grasped = grasped.filter(|_| lasts(memory, grip.force > GRASPED.0, CERTAIN.0));
+                grasped.into_iter().for_each(|part| take(palm, memory, parts, part));
+            }
+            (None, None) if held.is_none() => self.grasp(palm, memory, parts, task),
+            (None, _) => {}
         }
         memory.closing = palm.closing;
-        carry(palm, memory, parts);
+        if palm.closing < self.open {
+            memory.slipped = Slot::EMPTY;
+        }
+        if grip.is_none() {
+            carry(palm, memory, parts);
+        }
         let lifted = palm.grasp_point.distance(memory.taken_at.into()) > LIFTED;
         match memory.held.get() {
             Some(part) if parts.is(part, Holder::Robot) => memory.carried += u64::from(lifted),
@@ -148,6 +180,7 @@ impl RobotHand {
     pub fn lose(&self, memory: &mut RobotHandMemory, parts: &mut Parts, to: Option<[f64; 2]>, task: &Task) {
         let Some(part) = memory.held.get() else { return };
         memory.held = Slot::EMPTY;
+        memory.slipped = Slot::of(part);
         memory.carried = 0;
         if let Some([x, y]) = to {
             parts.place(part, DVec3::new(x, y, task.scene.table_height), DQuat::IDENTITY);
@@ -167,13 +200,7 @@ impl RobotHand {
         let nearest = (0..parts.all().len())
             .filter(within)
             .min_by(|one, other| distance(one).total_cmp(&distance(other)));
-        let Some(part) = nearest else { return };
-        memory.held = Slot::of(part);
-        memory.taken_at = palm.grasp_point.into();
-        if parts.is(part, Holder::Nobody) {
-            parts.give_to(part, Holder::Robot);
-        }
-        attach(palm, memory, parts, part);
+        nearest.into_iter().for_each(|part| take(palm, memory, parts, part));
     }
 
     /// Notes since when the hand has stood where the person pays attention to it.
@@ -191,6 +218,22 @@ impl RobotHand {
         memory.offering_since = since(at_handover && memory.brought == 1, memory.offering_since);
         memory.holding_since = since(at_base && empty, memory.holding_since);
     }
+}
+
+/// Whether a change has been measured for more than `ticks` in a row.
+fn lasts(memory: &mut RobotHandMemory, changed: bool, ticks: u64) -> bool {
+    memory.changing = if changed { memory.changing + 1 } else { 0 };
+    memory.changing > ticks
+}
+
+fn take(palm: &Palm, memory: &mut RobotHandMemory, parts: &mut Parts, part: usize) {
+    memory.held = Slot::of(part);
+    memory.changing = 0;
+    memory.taken_at = palm.grasp_point.into();
+    if parts.is(part, Holder::Nobody) {
+        parts.give_to(part, Holder::Robot);
+    }
+    attach(palm, memory, parts, part);
 }
 
 fn attach(palm: &Palm, memory: &mut RobotHandMemory, parts: &Parts, part: usize) {

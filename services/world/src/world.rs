@@ -9,13 +9,15 @@ use crate::slot::Slot;
 use crate::staging::{Sense, Staging};
 use crate::{BodyKind, Partner, Settings, WorldError};
 use bytemuck::Zeroable;
-use coact_joint_task::Task;
+use coact_joint_task::{Fit, Task};
 use coact_messages::{
     ARM_JOINTS, Command, JOINTS, NONE, PartnerPhase, SensorSample, Truth, WorldState, is_blocked,
 };
 use coact_robot::Robot;
 use glam::DVec3;
 
+/// Sockets of the world without dynamics: a part snaps into the one that it is let go near.
+const SNAP: Fit = Fit { position: 0.03, angle: std::f64::consts::PI };
 /// How long a finished assembly stands before the scene is laid out again, ticks.
 const ADMIRED: u64 = 3000;
 /// How long a part lies out of reach before it is put back, ticks.
@@ -30,8 +32,6 @@ pub struct World {
     hand: RobotHand,
     person: Person,
     body: Body,
-    /// Angle of the finger tips for each rad of the finger bases.
-    coupling: f64,
     joints: Joints,
     parts: Parts,
     memory: Memory,
@@ -57,7 +57,11 @@ impl World {
         };
         let mut task = task.clone();
         staging.lay(&mut task);
-        let parts = Parts::new(&task, staging.mounted(&task));
+        let fit = match settings.body {
+            BodyKind::Kinematic => SNAP,
+            BodyKind::Physics => task.scene.fit,
+        };
+        let parts = Parts::new(&task, staging.mounted(&task), fit);
         let joints = parked(robot);
         let body = match settings.body {
             BodyKind::Kinematic => Body::Kinematic(Kinematic::new()),
@@ -68,7 +72,6 @@ impl World {
             hand: RobotHand::new(robot, &task),
             person: Person { model: HandModel::new(&task.scene), plan, noise, recorded },
             body,
-            coupling: robot.hand.coupling,
             joints,
             parts,
             memory: Memory::zeroed(),
@@ -90,11 +93,10 @@ impl World {
             elapsed: self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, 1000)),
             command,
             task: &self.task,
-            stop: FingerStop {
-                base: self.hand.stop(&self.memory.robot, &self.parts),
-                coupling: self.coupling,
-            },
+            stop: FingerStop { hand: self.hand.stop(&self.memory.robot, &self.parts) },
             person: self.memory.person.hand.wrist(),
+            held: self.memory.robot.held.get(),
+            slipped: self.memory.robot.slipped.get(),
         };
         self.body.advance(&influence, &mut self.joints, &mut self.parts);
         let palm = self.hand.palm(&self.joints.position);
@@ -135,11 +137,11 @@ impl World {
 
     /// Hands and parts: who grasps, carries and lets go of what.
     fn live(&mut self, tick: u64, palm: &Palm) {
-        let Self { task, hand, person, parts, memory, staging, .. } = self;
+        let Self { task, hand, person, body, parts, memory, staging, .. } = self;
         if memory.started == 0 {
             person.start(tick, &mut memory.person);
         }
-        hand.advance(palm, &mut memory.robot, memory.person.grip, parts, task);
+        hand.advance(palm, body.grip(), &mut memory.robot, memory.person.grip, parts, task);
         let held = memory.robot.held.get().map(|part| parts.kind(part));
         let slip = held.and_then(|kind| staging.slip(kind, memory.robot.carried, memory.slipped));
         if let Some((index, slip)) = slip {
@@ -191,9 +193,10 @@ impl World {
 
     fn sense(&mut self, tick: u64, command: Option<&Command>, out: &mut SensorSample) {
         let last = self.last_tick();
-        let Self { task, noise, hand, person, joints, parts, memory, staging, .. } = self;
+        let Self { task, noise, hand, person, body, joints, parts, memory, staging, .. } = self;
         let wanted = command.map_or(0.0, |command| coact_messages::closing(&command.position));
-        let touch = hand.touch(&memory.robot, parts, wanted);
+        let ruled = || hand.touch(&memory.robot, parts, wanted);
+        let touch = body.grip().map_or_else(ruled, |grip| grip.force);
         read_joints(tick, noise, (&joints.position, &joints.velocity), touch, &mut out.joints);
         let (eye, (blocks, count)) = (task.scene.eye(), staging.occluders(tick, memory.person.screen()));
         let occluders = &blocks[..count];

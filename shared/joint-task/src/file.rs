@@ -123,6 +123,21 @@ pub(crate) struct SceneEntry {
     pub person_shoulder: [f64; 3],
     pub robot_workspace: RectangleEntry,
     pub person_workspace: RectangleEntry,
+    #[serde(default)]
+    pub fit: FitEntry,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct FitEntry {
+    pub position: f64,
+    pub angle: f64,
+}
+
+impl Default for FitEntry {
+    fn default() -> Self {
+        Self { position: 0.008, angle: 8.0 }
+    }
 }
 
 #[derive(Deserialize)]

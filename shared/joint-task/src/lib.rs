@@ -15,7 +15,7 @@ mod wiring;
 
 pub use check::{Finding, FindingKind, check};
 pub use error::TaskError;
-pub use model::{Act, Action, Agent, Chain, Gesture, Grip, Kind, Motion, Part, Scene, Shape, Subgoal};
+pub use model::{Act, Action, Agent, Chain, Fit, Gesture, Grip, Kind, Motion, Part, Scene, Shape, Subgoal};
 pub use network_plan::{Channel, ChannelPlan, LayerPlan, NetworkPlan, Pool, Synapse};
 pub use population::Population;
 pub use task::Task;

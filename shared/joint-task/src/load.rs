@@ -2,7 +2,7 @@
 
 use crate::error::Source;
 use crate::file::{ActionEntry, ChainEntry, Each, Name, SceneEntry, SubgoalEntry, TaskFile};
-use crate::{Act, Action, Agent, Chain, Gesture, Grip, Kind, Part, Scene, Subgoal, Task, TaskError};
+use crate::{Act, Action, Agent, Chain, Fit, Gesture, Grip, Kind, Part, Scene, Subgoal, Task, TaskError};
 use coact_messages::{MAX_ACTS, MAX_KINDS, MAX_PARTS, MAX_SUBGOALS};
 use std::hash::{DefaultHasher, Hasher};
 use std::path::{Path, PathBuf};
@@ -348,5 +348,6 @@ fn scene(entry: &SceneEntry) -> Scene {
         person_rest: entry.person_rest,
         person_shoulder: entry.person_shoulder,
         workspace: [corners(Agent::Robot), corners(Agent::Person)],
+        fit: Fit { position: entry.fit.position, angle: entry.fit.angle.to_radians() },
     }
 }

@@ -201,6 +201,17 @@ pub struct Scene {
     pub person_shoulder: [f64; 3],
     /// Rectangle of each workspace on the table top, by [`Agent::index`]: min and max corner.
     pub workspace: [[[f64; 2]; 2]; 2],
+    /// How exactly a part must be in its place to be mounted when it is let go.
+    pub fit: Fit,
+}
+
+/// Tolerances of a socket.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// Largest distance of the part's frame from the socket, m.
+    pub position: f64,
+    /// Largest angle between the part's own axis and the socket's, rad.
+    pub angle: f64,
 }
 
 /// Where the robot's eye is: behind the world's origin, where the robot stands, and so high above the table top, m.

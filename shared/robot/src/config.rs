@@ -38,6 +38,10 @@ pub(crate) struct HandConfig {
     pub acceleration: f64,
     /// rad/s³.
     pub jerk: f64,
+    /// rad.
+    pub grasp_spread: f64,
+    /// m.
+    pub pad: [f64; 2],
     /// m.
     pub grasp_distance: f64,
 }

@@ -1,5 +1,5 @@
 use crate::Joint;
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Isometry3, Point3, Vector2, Vector3};
 
 /// A hand of three fingers: one spread angle, and a base and a coupled tip joint for each finger.
 ///
@@ -13,8 +13,21 @@ pub struct Hand {
     pub fingers: [Finger; 3],
     /// Tip angle for each rad of base angle.
     pub coupling: f64,
+    /// Spread of the fingers in every grasp, rad: how far fingers 1 and 2 stand apart from the closing axis.
+    pub grasp_spread: f64,
+    /// Half the width and half the thickness of a finger at its end, m.
+    pub pad: [f64; 2],
     /// Distance of the grasp point from the palm frame's origin, along the palm's z axis, m.
     pub grasp_distance: f64,
+}
+
+/// How the hand stands around something.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grasp {
+    /// All hand joints in message order, rad.
+    pub angles: [f64; HAND_JOINTS],
+    /// How far from the palm frame's origin the fingers meet it, along the palm's z axis, m.
+    pub depth: f64,
 }
 
 /// The chain of one finger, from the palm frame.
@@ -30,10 +43,10 @@ pub struct Finger {
 pub const HAND_JOINTS: usize = 7;
 
 impl Hand {
-    /// Angles of all hand joints (message order) with the spread at zero and the bases at `base` rad.
+    /// Angles of all hand joints (message order) with the spread of grasps and the bases at `base` rad.
     pub fn posture(&self, base: f64) -> [f64; HAND_JOINTS] {
         let tip = (base * self.coupling).min(self.joints[4].limits.upper);
-        [0.0, base, base, base, tip, tip, tip]
+        [self.grasp_spread, base, base, base, tip, tip, tip]
     }
 
     /// Place of each finger's end in the palm frame, m, for hand joint angles in message order.
@@ -48,10 +61,34 @@ impl Hand {
         })
     }
 
-    /// Clear width between finger 3 and fingers 1 and 2, measured at their ends, m.
+    /// The hand around something round on the palm's axis, `width` m wide, with `gap` m between it and each finger;
+    /// below zero the fingers are told to close so far into it, which makes them press.
+    ///
+    /// Fingers 1 and 2 stand beside the palm's axis and meet a narrow part with their inner edges, so that their
+    /// angles differ from finger 3's.
+    pub fn grasp(&self, width: f64, gap: f64) -> Grasp {
+        let [half_width, thickness] = self.pad;
+        let radius = 0.5 * width + gap;
+        let knuckle = self.fingers[0].joints[0].origin.translation.vector.xy();
+        let finger = Vector2::new(self.grasp_spread.cos(), self.grasp_spread.sin());
+        let aside = (finger.perp(&knuckle).abs() - half_width).clamp(0.0, 0.5 * width);
+        let across = (0.25 * width * width - aside * aside).sqrt() + gap;
+        // A finger that leans over reaches less far inwards than it is thick.
+        let base = |reach: f64| {
+            let lean = ((1.0 + self.coupling) * self.base_for_width(2.0 * (reach + thickness))).sin();
+            self.base_for_width(2.0 * (reach + thickness * lean.max(0.0)))
+        };
+        let (side, middle) = (base(across - finger.dot(&knuckle)), base(radius));
+        let tip = |base: f64| (base * self.coupling).min(self.joints[4].limits.upper);
+        let angles = [self.grasp_spread, side, side, middle, tip(side), tip(side), tip(middle)];
+        let ends = self.ends(&angles);
+        Grasp { angles, depth: 0.5 * (ends[0].z + ends[2].z) }
+    }
+
+    /// Clear width between the fingers, m: twice the way of finger 3's end to the palm's axis. Fingers 1 and 2 are
+    /// its like, so that it holds for every spread.
     pub fn width(&self, base: f64) -> f64 {
-        let ends = self.ends(&self.posture(base));
-        ends[0].x.min(ends[1].x) - ends[2].x
+        -2.0 * self.ends(&self.posture(base))[2].x
     }
 
     /// Base angle at which the fingers close on something `width` m wide. Bisection between flat open and fully

@@ -42,7 +42,7 @@ mod xml_line;
 
 pub use arm::Arm;
 pub use error::RobotError;
-pub use hand::{Finger, HAND_JOINTS, Hand};
+pub use hand::{Finger, Grasp, HAND_JOINTS, Hand};
 pub use joint::{Joint, JointLimits};
 pub use limiter::Limiter;
 pub use movement::Movement;

@@ -1,4 +1,4 @@
-use crate::config::Config;
+use crate::config::{Config, HandConfig};
 use crate::{Arm, Finger, HAND_JOINTS, Hand, Joint, JointLimits, Posture, RobotError, Srs, Urdf};
 use nalgebra::{Isometry3, Point3};
 use std::path::Path;
@@ -112,7 +112,8 @@ fn hand(path: &Path, config: &Config, urdf: &Urdf) -> Result<Hand, RobotError> {
     let joints: Option<Vec<Joint>> = names.map(pick).collect();
     let joints = joints.ok_or_else(|| Config::fault(path, "spread", "is not a joint of any finger"))?;
     let coupling = urdf.mimic(&config.hand.tips[0]).unwrap_or(0.0);
-    Ok(Hand { joints, fingers, coupling, grasp_distance: config.hand.grasp_distance })
+    let HandConfig { grasp_spread, pad, grasp_distance, .. } = config.hand;
+    Ok(Hand { joints, fingers, coupling, grasp_spread, pad, grasp_distance })
 }
 
 /// A finger's chain below the last arm joint, seen from the palm frame instead.

@@ -19,6 +19,8 @@ const KINEMATIC: f64 = 30.0;
 const FIELDS_ALONE: f64 = 60.0;
 /// Target for a step of the network, µs at the 99.9th percentile.
 const NETWORK_STEP_US: f64 = 60.0;
+/// The same for a step of the physics world.
+const PHYSICS_STEP_US: f64 = 350.0;
 
 fn main() {
     let seconds = std::env::args().find_map(|argument| argument.parse().ok()).unwrap_or(60_u64);
@@ -28,11 +30,16 @@ fn main() {
     report("kinematic world", ticks, whole(WorldMode::Kinematic, ticks), KINEMATIC);
     report("fields alone", ticks, fields_alone(&percepts(ticks)), FIELDS_ALONE);
     println!();
-    for (stage, histogram) in steps(ticks) {
+    let physics = steps(WorldMode::Physics, ticks).remove("world").map(|world| ("world, physics", world));
+    for (stage, histogram) in steps(WorldMode::Kinematic, ticks).into_iter().chain(physics) {
         let at = |share| histogram.value_at_quantile(share) as f64 / 1e3;
         let [p50, p99, p999] = [0.5, 0.99, 0.999].map(at);
-        let target = if stage == "fields" { format!("  (target {NETWORK_STEP_US})") } else { String::new() };
-        println!("{stage:<12} step p50 {p50:6.1} µs  p99 {p99:6.1} µs  p99.9 {p999:6.1} µs{target}");
+        let target = match stage {
+            "fields" => format!("  (target {NETWORK_STEP_US})"),
+            "world, physics" => format!("  (target {PHYSICS_STEP_US})"),
+            _ => String::new(),
+        };
+        println!("{stage:<14} step p50 {p50:6.1} µs  p99 {p99:6.1} µs  p99.9 {p999:6.1} µs{target}");
     }
 }
 
@@ -93,8 +100,8 @@ fn fields_alone(percepts: &[Percept]) -> Duration {
 }
 
 /// Duration of every stage's steps, ns.
-fn steps(ticks: u64) -> BTreeMap<&'static str, Histogram<u64>> {
-    let mut stages = lockstep(WorldMode::Kinematic);
+fn steps(world: WorldMode, ticks: u64) -> BTreeMap<&'static str, Histogram<u64>> {
+    let mut stages = lockstep(world);
     let mut taken: BTreeMap<&'static str, Histogram<u64>> = BTreeMap::new();
     for _ in 0..ticks {
         stages.step_watched(&mut |stage, step| {

@@ -1,4 +1,4 @@
-//! One assembly in lockstep, told line by line: `cargo run -p coact-lockstep --example assemble -- [SEED] [PARTNER] [SECONDS]`.
+//! One assembly in lockstep, told line by line: `cargo run -p coact-lockstep --example assemble -- [SEED] [PARTNER] [SECONDS] [WORLD]`.
 
 use coact_lockstep::Lockstep;
 use coact_messages::{LayerKind, NONE};
@@ -10,6 +10,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let seed = arguments.next().map_or(Ok(1), |seed| seed.parse())?;
     let partner = arguments.next().unwrap_or_else(|| "synthetic".into());
     let seconds: u64 = arguments.next().map_or(Ok(200), |seconds| seconds.parse())?;
+    let world = arguments.next().map_or(Ok(WorldMode::Kinematic), |world| world.parse())?;
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
     let model = std::env::var("MODEL").map_or_else(|_| folder.join("perception/preshape.toml"), Into::into);
     let mut stages = Lockstep::new(&RunSettings {
@@ -20,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         report: std::env::temp_dir(),
         seed,
         partner,
-        world: WorldMode::Kinematic,
+        world,
     })?;
     let mut last = String::new();
     let started = std::time::Instant::now();
@@ -31,6 +32,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             println!("{:8.3} {now}", stages.ticks() as f64 / 1000.0);
             last = now;
         }
+    }
+    for part in &stages.state.part[..stages.state.parts as usize] {
+        let name = &stages.task().kinds[part.kind as usize].name;
+        println!(
+            "{name}: {:.3?} {:.2?} state {} goal {}",
+            part.position, part.orientation, part.state, part.subgoal as i32
+        );
     }
     let (ticks, elapsed) = (stages.ticks(), started.elapsed().as_secs_f64());
     println!("{} ms in {elapsed:.2} s: {:.1} times real time", ticks, ticks as f64 / 1000.0 / elapsed);

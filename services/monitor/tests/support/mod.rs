@@ -69,6 +69,7 @@ pub fn task() -> Task {
             person_rest: [0.0; 3],
             person_shoulder: [0.0; 3],
             workspace: [[[0.0; 2]; 2]; 2],
+            fit: coact_joint_task::Fit { position: 0.01, angle: 0.2 },
         },
         fingerprint: 42,
     }

@@ -1,13 +1,16 @@
 //! What obeys the robot's commands: a body without dynamics, or a simulated one.
 
 mod articulation;
+mod clasp;
 mod finger_stop;
+mod grip;
 mod kinematic;
 mod physics;
 mod scene;
 mod shapes;
 
 pub(crate) use finger_stop::FingerStop;
+pub(crate) use grip::Grip;
 pub(crate) use kinematic::Kinematic;
 pub(crate) use physics::Physics;
 
@@ -39,6 +42,10 @@ pub(crate) struct Influence<'a> {
     pub task: &'a Task,
     /// The person's hand, m.
     pub person: DVec3,
+    /// The part in the robot's hand.
+    pub held: Option<usize>,
+    /// The part that has slipped out of the robot's hand, whose fingers are still closed.
+    pub slipped: Option<usize>,
 }
 
 impl Body {
@@ -47,8 +54,16 @@ impl Body {
         match self {
             Self::Kinematic(body) => body.advance(influence, joints, parts),
             Self::Physics(body) => {
-                body.advance(influence.command, &influence.stop, influence.person, joints, parts);
+                body.advance(influence, joints, parts);
             }
+        }
+    }
+
+    /// What the fingers are measured to squeeze; none for a body that measures nothing.
+    pub fn grip(&self) -> Option<Grip> {
+        match self {
+            Self::Kinematic(_) => None,
+            Self::Physics(body) => Some(body.grip()),
         }
     }
 

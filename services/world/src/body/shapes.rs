@@ -8,25 +8,38 @@ use std::f64::consts::FRAC_PI_2;
 /// What touches what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Layer {
-    /// Table and base: touched by loose parts and by the arm.
+    /// Table, base and mounted parts.
     Fixture,
-    /// Parts: touch fixtures, each other and the arm.
+    /// Parts: touch everything but the person's hand, whose grasps follow rules.
     Part,
+    /// A part that enters its socket: fits into what it is mounted in.
+    Entering,
+    /// A part that slips out of closed fingers.
+    Slipping,
     /// The robot's arm.
     Arm,
-    /// The person's hand: touches the arm. Parts that it grasps follow it by the rules of grasping.
+    /// Palm and fingers: touch what the arm does, but not the person's hand, with which they meet on a part.
+    Hand,
+    /// The person's hand.
     Person,
 }
 
 impl Layer {
     pub fn groups(self) -> InteractionGroups {
-        let (own, others) = match self {
-            Self::Fixture => (Group::GROUP_1, Group::GROUP_2 | Group::GROUP_3),
-            Self::Part => (Group::GROUP_2, Group::GROUP_1 | Group::GROUP_2 | Group::GROUP_3),
-            Self::Arm => (Group::GROUP_3, Group::GROUP_1 | Group::GROUP_2 | Group::GROUP_4),
-            Self::Person => (Group::GROUP_4, Group::GROUP_3),
+        let group = |layer: Self| Group::from_bits_truncate(1 << layer as u32);
+        let any = |layers: &[Self]| layers.iter().fold(Group::NONE, |groups, layer| groups | group(*layer));
+        let others = match self {
+            Self::Fixture => any(&[Self::Part, Self::Slipping, Self::Arm, Self::Hand]),
+            Self::Part => {
+                any(&[Self::Fixture, Self::Part, Self::Entering, Self::Slipping, Self::Arm, Self::Hand])
+            }
+            Self::Slipping => any(&[Self::Fixture, Self::Part]),
+            Self::Entering => any(&[Self::Part, Self::Arm, Self::Hand]),
+            Self::Arm => any(&[Self::Fixture, Self::Part, Self::Entering, Self::Person]),
+            Self::Hand => any(&[Self::Fixture, Self::Part, Self::Entering]),
+            Self::Person => any(&[Self::Arm]),
         };
-        InteractionGroups::new(own, others, InteractionTestMode::And)
+        InteractionGroups::new(group(self), others, InteractionTestMode::And)
     }
 }
 

@@ -2,7 +2,9 @@
 
 mod erring;
 mod fake_robot;
+mod grasping;
 mod hidden;
+mod manipulator;
 mod partner;
 mod physics;
 mod profiles;
