@@ -37,6 +37,7 @@ mod bell;
 mod body;
 mod capsule;
 mod clearance;
+mod comfort;
 mod detour;
 mod hand_path;
 mod links;

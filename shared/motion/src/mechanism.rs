@@ -1,6 +1,7 @@
 use crate::body::Bone;
 use crate::{Body, links};
-use coact_robot::{Arm, JointLimits, Posture, Robot, RobotError, Srs, Urdf};
+use coact_robot::{Arm, HandGoal, JointLimits, Posture, Robot, RobotError, Srs, Urdf, grip};
+use nalgebra::{Isometry3, Translation3};
 
 /// Most joints of an arm that is planned for.
 pub const MAX_JOINTS: usize = 7;
@@ -109,6 +110,13 @@ impl Mechanism {
     /// The grasp point in the palm frame.
     pub fn grasp_point(&self) -> nalgebra::Point3<f64> {
         nalgebra::Point3::new(0.0, 0.0, self.grasp_distance)
+    }
+
+    /// Palm pose at a goal, turned by `roll` rad about the approach, `back` m before it.
+    pub(crate) fn palm_at(&self, goal: &HandGoal, roll: f64, back: f64) -> Isometry3<f64> {
+        let point = goal.point - goal.approach * back;
+        let grip = grip::frame(&point, &goal.approach, &goal.closing, roll);
+        grip * Translation3::new(0.0, 0.0, -self.grasp_distance)
     }
 
     fn arm_bones(&self) -> Result<Vec<Bone>, RobotError> {

@@ -1,6 +1,6 @@
 use crate::body::Frames;
+use crate::comfort::{WEIGHT, cost};
 use crate::quadratic::Quadratic;
-use crate::target::{WEIGHT, cost, palm};
 use crate::{Clearance, Near};
 use coact_robot::{HandGoal, Posture};
 use nalgebra::{Isometry3, Vector3};
@@ -46,7 +46,7 @@ impl Solver<'_> {
     /// The posture with the palm at the goal, turned by `roll` rad (free when the goal says so), `back` m before it.
     pub fn reach(&self, goal: &HandGoal, roll: f64, back: f64, start: &Posture) -> Option<Posture> {
         let mechanism = self.clearance.mechanism;
-        let wanted = palm(mechanism, goal, roll, back);
+        let wanted = mechanism.palm_at(goal, roll, back);
         let (mut at, mut trust) = (*start, TRUST);
         let mut near = Vec::new();
         let mut merit = self.merit(&at, &wanted, goal.rolls == 0, &mut near);

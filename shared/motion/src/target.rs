@@ -1,7 +1,7 @@
+use crate::comfort::cost;
 use crate::solver::Solver;
 use crate::{Clearance, Mechanism, Refusal};
 use coact_robot::{HandGoal, Posture};
-use nalgebra::Isometry3;
 use std::f64::consts::TAU;
 
 /// A posture at a goal, and one before it.
@@ -46,8 +46,6 @@ const ROLLS: u32 = 12;
 const MARGIN: f64 = 0.0175;
 /// Largest change of a joint between the posture before and the goal, rad: more is another branch, or a detour.
 const LARGEST_STEP: f64 = 0.9;
-/// Cost of each joint's way: moving the whole arm costs more than turning the wrist.
-pub(crate) const WEIGHT: Posture = [1.0, 1.0, 0.8, 0.8, 0.6, 0.6, 0.4];
 /// Targets that are offered, and how much they differ at least, rad² (weighted).
 const OFFERED: (usize, f64) = (6, 0.3);
 /// Candidates that are checked at most.
@@ -104,7 +102,7 @@ impl TargetSearch<'_> {
 
     /// Postures of the closed form, where there is one.
     fn postures(&self, goal: usize, roll: f64, swivel: f64) -> impl Iterator<Item = Candidate> + use<'_> {
-        let palm = palm(self.mechanism(), &self.goals[goal], roll, 0.0);
+        let palm = self.mechanism().palm_at(&self.goals[goal], roll, 0.0);
         let solutions = self.mechanism().closed_form.as_ref().map(|srs| srs.solve(&palm, swivel, MARGIN));
         let postures = solutions.map(|branches| branches.as_slice().to_vec()).unwrap_or_default();
         postures.into_iter().map(move |at| Candidate { cost: cost(&at, self.from), goal, roll, swivel, at })
@@ -139,7 +137,7 @@ impl TargetSearch<'_> {
             let before = solver.reach(goal, candidate.roll, goal.back, at)?;
             return (largest_step(&before, at) <= LARGEST_STEP).then_some(before);
         };
-        let palm = palm(self.mechanism(), goal, candidate.roll, goal.back);
+        let palm = self.mechanism().palm_at(goal, candidate.roll, goal.back);
         let branches = srs.solve(&palm, candidate.swivel, MARGIN);
         let near = branches.as_slice().iter().filter(|before| largest_step(before, at) <= LARGEST_STEP);
         near.min_by(|one, other| cost(one, at).total_cmp(&cost(other, at))).copied()
@@ -202,7 +200,7 @@ impl TargetSearch<'_> {
         for goal in self.goals {
             for step in 0..ROLLS * SWIVELS {
                 let roll = angle(step / SWIVELS, ROLLS);
-                let at = palm(self.mechanism(), goal, roll, 0.0);
+                let at = self.mechanism().palm_at(goal, roll, 0.0);
                 for posture in srs.solve(&at, angle(step % SWIVELS, SWIVELS), -TAU).as_slice() {
                     let worst = self.mechanism().worst_excess(posture);
                     if least.is_none_or(|(known, _)| worst.0 < known) {
@@ -229,18 +227,6 @@ impl Mechanism {
         let joints = self.arm.joints.iter().zip(posture).map(excess).zip(0..);
         joints.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
     }
-}
-
-/// Palm pose at a goal, `back` m before it.
-pub(crate) fn palm(mechanism: &Mechanism, goal: &HandGoal, roll: f64, back: f64) -> Isometry3<f64> {
-    let point = goal.point - goal.approach * back;
-    let grip = coact_robot::grip::frame(&point, &goal.approach, &goal.closing, roll);
-    grip * nalgebra::Translation3::new(0.0, 0.0, -mechanism.grasp_distance)
-}
-
-/// Weighted squared way between two postures, rad².
-pub(crate) fn cost(posture: &Posture, from: &Posture) -> f64 {
-    (0..7).map(|joint| WEIGHT[joint] * (posture[joint] - from[joint]).powi(2)).sum()
 }
 
 fn angle(step: u32, count: u32) -> f64 {

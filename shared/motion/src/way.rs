@@ -1,7 +1,7 @@
+use crate::comfort::{WEIGHT, cost};
 use crate::quadratic::Quadratic;
 use crate::route::Route;
 use crate::solver::anywhere;
-use crate::target::WEIGHT;
 use crate::trajectory::excursion;
 use crate::{Clearance, Margin, Near, Refusal, Stage, StageKind, Trajectory};
 use coact_robot::{JointLimits, Posture};
@@ -200,7 +200,7 @@ impl Way<'_> {
                 short = short.max(limit.lower - angle).max(angle - limit.upper);
             }
         }
-        size(&way.bounce) + PENALTY * short
+        cost(&way.bounce, &[0.0; 7]) + PENALTY * short
     }
 
     /// An excursion to a random posture that is clear of everything, ever farther from the middle of the way.
@@ -231,9 +231,4 @@ const PENALTY: f64 = 200.0;
 
 fn reach(stages: &[Stage]) -> Option<Trajectory> {
     stages.iter().find(|stage| stage.kind == StageKind::Reach).map(|stage| stage.trajectory)
-}
-
-/// Weighted square of an excursion, rad².
-fn size(bounce: &Posture) -> f64 {
-    bounce.iter().zip(WEIGHT).map(|(offset, weight)| weight * offset * offset).sum()
 }

@@ -1,4 +1,4 @@
-use coact_motion::{Aim, Body, Margin, Mechanism, Problem, Scene};
+use coact_motion::{Aim, Body, Clearance, Margin, Mechanism, Problem, Scene};
 use coact_robot::MotionState;
 use nalgebra::Vector3;
 
@@ -30,4 +30,13 @@ impl Case {
             margin: Margin::default(),
         }
     }
+
+    /// Whether it starts clear of everything.
+    pub(crate) fn starts_clear(&self, mechanism: &Mechanism) -> bool {
+        let clearance = Clearance { mechanism, body: &self.body, scene: &self.scene, touching: false };
+        clearance.is_clear(&self.start.map(|state| state.position), ROOM)
+    }
 }
+
+/// Room around the arm at the start, m.
+const ROOM: f64 = 0.02;

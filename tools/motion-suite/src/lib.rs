@@ -7,10 +7,12 @@ mod measurement;
 mod movement_page;
 mod quality;
 mod scenario;
+mod setting;
 mod view;
 
 pub use case::Case;
 pub use measurement::{Measurement, Outcome, measure};
 pub use movement_page::MovementPage;
 pub use quality::{FAR, Quality, path};
-pub use scenario::{Scenario, Setting};
+pub use scenario::Scenario;
+pub use setting::Setting;

@@ -1,0 +1,140 @@
+//! Movements of a robot that builds something: pick, insert, park.
+
+use crate::{Case, Setting};
+use coact_joint_task::{Agent, Shape, Task};
+use coact_motion::{Aim, Scene, workplace};
+use coact_robot::{HandGoal, MotionState, Posture};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+/// Gap between an open finger and the part that it opens around, m.
+const GAP: f64 = 0.01;
+/// Distance of the pose before a grasp or a socket, and of leaving, m.
+const BEFORE: f64 = 0.15;
+const AWAY: f64 = 0.05;
+/// Sides from which an upright part is gripped, and turns in which a round one is inserted.
+const SIDES: u32 = 12;
+
+/// To a part of the robot among others, until the hand is around it.
+pub(super) fn pick(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
+    pick_of(setting, random).map(|(case, _)| case)
+}
+
+/// A pick, and the index of the part.
+fn pick_of(setting: &Setting, random: &mut Pcg64) -> Option<(Case, usize)> {
+    let task = setting.task.as_ref()?;
+    let (scene, places) = table(task, random);
+    let own: Vec<usize> =
+        (0..task.parts.len()).filter(|part| task.parts[*part].workspace == Agent::Robot).collect();
+    let part = own[random.random_range(0..own.len())];
+    let kind = &task.kinds[task.parts[part].kind];
+    let hand = setting.hand.as_ref()?;
+    let body = setting.hand_around(kind.width, GAP)?;
+    // So deep in the hand that its fingers meet on the part.
+    let deeper = hand.grasp_distance - hand.grasp(kind.width, 0.0).depth;
+    let start = near_park(setting, random);
+    let aim = Aim::Hand(grips(&places[part], workplace::height(kind), deeper));
+    let case = Case { body, scene, start: start.map(MotionState::at_rest), leave: None, aim };
+    case.starts_clear(&setting.mechanism).then_some((case, part))
+}
+
+/// With a part that was picked into its socket.
+pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
+    let task = setting.task.as_ref()?;
+    let (picked, part) = pick_of(setting, random)?;
+    let name = part_name(part);
+    let plan = picked.problem(&setting.mechanism).plan().ok()?;
+    let target = plan.target?;
+    let kind_index = task.parts[part].kind;
+    let kind = &task.kinds[kind_index];
+    let goal = task.subgoals.iter().find(|goal| goal.kind == kind_index && goal.side == Agent::Robot)?;
+    let Aim::Hand(goals) = &picked.aim else { return None };
+    let palm = setting.mechanism.arm.palm(&target.at);
+    let mut scene = picked.scene.touching(&[workplace::TABLE, workplace::PLATFORM]);
+    let index = scene.obstacles.iter().position(|obstacle| obstacle.name == name)?;
+    let centre = scene.obstacles.remove(index).place;
+    let frame = centre * Isometry3::translation(0.0, 0.0, -0.5 * workplace::height(kind));
+    let closed = setting.hand_around(kind.width, 0.0)?;
+    let (solid, within) = workplace::form(kind);
+    let body = closed.holding(&setting.mechanism, &name, solid, &(palm.inverse() * frame * within));
+    let socket = along(goal.socket, goal.axis);
+    // The part goes into its socket as it is held, turned about its own axis at will if it is round.
+    let in_part = frame.inverse() * palm;
+    let turns = if matches!(kind.shape, Shape::Cylinder { .. }) { SIDES } else { 1 };
+    let goals = (0..turns).map(|side| {
+        let turn = std::f64::consts::TAU * f64::from(side) / f64::from(turns);
+        let place = socket * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn) * in_part;
+        HandGoal {
+            point: place * setting.mechanism.grasp_point(),
+            approach: place.rotation * Vector3::z(),
+            closing: place.rotation * Vector3::x(),
+            rolls: 1,
+            ..goals[target.goal]
+        }
+    });
+    let goals = goals.collect();
+    let case = Case {
+        body,
+        scene,
+        start: plan.end().map(MotionState::at_rest),
+        leave: Some((Vector3::z(), AWAY)),
+        aim: Aim::Hand(goals),
+    };
+    Some(case)
+}
+
+/// From a socket back to rest.
+pub(super) fn park(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
+    let inserted = insert(setting, random)?;
+    let plan = inserted.problem(&setting.mechanism).plan().ok()?;
+    let palm = setting.mechanism.arm.palm(&plan.end());
+    Some(Case {
+        body: setting.open.clone(),
+        scene: inserted.scene.clone(),
+        start: plan.end().map(MotionState::at_rest),
+        leave: Some((palm.rotation * -Vector3::z(), BEFORE)),
+        aim: Aim::Posture(setting.mechanism.park),
+    })
+}
+
+/// The task's table, with every part moved a little from its place.
+fn table(task: &Task, random: &mut Pcg64) -> (Scene, Vec<Isometry3<f64>>) {
+    let mut scene = Scene { obstacles: workplace::fixtures(task), ..Scene::default() };
+    let mut places = Vec::new();
+    for (index, part) in task.parts.iter().enumerate() {
+        let [x, y] = part.at.map(|at| at + random.random_range(-0.02..0.02));
+        let place = Isometry3::translation(x, y, task.scene.table_height + 0.001);
+        scene.obstacles.push(workplace::part(&part_name(index), &task.kinds[part.kind], &place));
+        places.push(place);
+    }
+    (scene, places)
+}
+
+/// Grips of an upright part: from above, and from all sides.
+fn grips(frame: &Isometry3<f64>, height: f64, deeper: f64) -> Vec<HandGoal> {
+    let mut goals = vec![HandGoal::grip(frame, height, 0, BEFORE, f64::NEG_INFINITY)];
+    for side in 0..SIDES {
+        let turn = std::f64::consts::TAU * f64::from(side) / f64::from(SIDES);
+        goals.push(HandGoal::grip_from_side(frame, height, turn, BEFORE));
+    }
+    goals.iter_mut().for_each(|goal| goal.point += goal.approach * deeper);
+    goals
+}
+
+fn part_name(index: usize) -> String {
+    format!("part {index}")
+}
+
+fn along(at: [f64; 3], axis: [f64; 3]) -> Isometry3<f64> {
+    let turn = UnitQuaternion::rotation_between(&Vector3::z(), &Vector3::from(axis)).unwrap_or_default();
+    Isometry3::from_parts(Translation3::from(at), turn)
+}
+
+fn near_park(setting: &Setting, random: &mut Pcg64) -> Posture {
+    let limits = setting.mechanism.limits();
+    std::array::from_fn(|joint| {
+        let angle = setting.mechanism.park[joint] + random.random_range(-0.2..0.2);
+        angle.clamp(limits[joint].lower + 0.02, limits[joint].upper - 0.02)
+    })
+}

@@ -1,0 +1,116 @@
+//! Reaches from anywhere to anywhere, that any arm can make.
+
+use crate::{Case, Setting};
+use coact_motion::{Aim, Clearance, Obstacle, Scene, Solid};
+use coact_robot::{HandGoal, MotionState, Posture};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+/// Share of the joint ranges, about their middles, from which starts and goals of reaches are drawn.
+const RANGE: f64 = 0.6;
+/// Radius and height of obstacles, m.
+pub(super) const SMALL: (f64, f64) = (0.03, 0.16);
+pub(super) const TALL: (f64, f64) = (0.04, 0.60);
+/// How far a cylinder's axis stands from the goal at least, m: nearer ones leave the hand no room.
+const ASIDE: f64 = 0.12;
+
+/// From anywhere to anywhere, with nothing around.
+pub(super) fn free_reach(setting: &Setting, random: &mut Pcg64) -> Case {
+    loop {
+        let (from, to) = (comfortable(setting, random), comfortable(setting, random));
+        let goal = hand_at(setting, &to);
+        let start = setting.mechanism.arm.palm(&from) * setting.mechanism.grasp_point();
+        if (start - goal.point).norm() > 0.25 {
+            return Case {
+                body: setting.open.clone(),
+                scene: Scene::default(),
+                start: from.map(MotionState::at_rest),
+                leave: None,
+                aim: Aim::Hand(vec![goal]),
+            };
+        }
+    }
+}
+
+/// A reach past upright cylinders that stand between start and goal.
+pub(super) fn past(setting: &Setting, random: &mut Pcg64, sizes: &[(f64, f64)]) -> Option<Case> {
+    let mut case = free_reach(setting, random);
+    let Aim::Hand(goals) = &case.aim else { return None };
+    let grasp = |posture: &Posture| setting.mechanism.arm.palm(posture) * setting.mechanism.grasp_point();
+    let from = grasp(&case.start.map(|state| state.position));
+    let way = goals[0].point - from;
+    for (index, &(radius, height)) in sizes.iter().enumerate() {
+        let share = (index as f64 + random.random_range(0.8..1.2)) / (sizes.len() as f64 + 1.0);
+        let aside = Vector3::new(random.random_range(-0.05..0.05), random.random_range(-0.05..0.05), 0.0);
+        let centre = from + way * share + aside;
+        let place = Isometry3::translation(centre.x, centre.y, centre.z);
+        let solid = Solid::Cylinder { radius, height };
+        case.scene.obstacles.push(Obstacle::new(format!("obstacle {}", index + 1), solid, &place));
+    }
+    let room = |obstacle: &Obstacle| {
+        let apart = obstacle.place.translation.vector - goals[0].point.coords;
+        apart.x.hypot(apart.y) > ASIDE
+    };
+    let is_sound = case.starts_clear(&setting.mechanism) && case.scene.obstacles.iter().all(room);
+    is_sound.then_some(case)
+}
+
+/// Two boards, a back and two sides, with a little more than the hand's own room between them.
+pub(super) fn shelf(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
+    let mut case = free_reach(setting, random);
+    let Aim::Hand(goals) = &mut case.aim else { return None };
+    let goal = &mut goals[0];
+    let flat = Vector3::new(goal.approach.x, goal.approach.y, 0.0);
+    if flat.norm() < 0.8 {
+        return None;
+    }
+    goal.approach = flat.normalize();
+    goal.rolls = 0;
+    goal.back = 0.15;
+    let turn = UnitQuaternion::rotation_between(&Vector3::x(), &goal.approach)?;
+    let frame = Isometry3::from_parts(Translation3::from(goal.point.coords), turn);
+    let room = random.random_range(0.22..0.30);
+    let (depth, wide, thick) = (0.22, 0.40, 0.02);
+    let mut board = |name: &str, size: [f64; 3], at: [f64; 3]| {
+        let place = frame * Isometry3::translation(at[0], at[1], at[2]);
+        case.scene.obstacles.push(Obstacle::new(name, Solid::Box(Vector3::from(size)), &place));
+    };
+    board("lower board", [depth, wide, thick], [0.0, 0.0, -0.5 * room - 0.5 * thick]);
+    board("upper board", [depth, wide, thick], [0.0, 0.0, 0.5 * room + 0.5 * thick]);
+    board("left side", [depth, thick, room], [0.0, 0.5 * wide, 0.0]);
+    board("right side", [depth, thick, room], [0.0, -0.5 * wide, 0.0]);
+    board("back", [thick, wide, room], [0.5 * depth + 0.5 * thick, 0.0, 0.0]);
+    case.starts_clear(&setting.mechanism).then_some(case)
+}
+
+fn hand_at(setting: &Setting, posture: &Posture) -> HandGoal {
+    let palm = setting.mechanism.arm.palm(posture);
+    HandGoal {
+        point: palm * setting.mechanism.grasp_point(),
+        approach: palm.rotation * Vector3::z(),
+        closing: palm.rotation * Vector3::x(),
+        rolls: 0,
+        back: 0.0,
+        floor: f64::NEG_INFINITY,
+    }
+}
+
+/// A posture in the middle of the joint ranges, clear of itself.
+fn comfortable(setting: &Setting, random: &mut Pcg64) -> Posture {
+    let (mechanism, scene) = (&setting.mechanism, Scene::default());
+    let clearance = Clearance { mechanism, body: &setting.open, scene: &scene, touching: false };
+    loop {
+        let mut posture = [0.0; 7];
+        for (angle, joint) in posture.iter_mut().zip(&mechanism.arm.joints) {
+            let (middle, half) = (
+                0.5 * (joint.limits.upper + joint.limits.lower),
+                0.5 * (joint.limits.upper - joint.limits.lower),
+            );
+            *angle = middle + half * random.random_range(-RANGE..RANGE);
+        }
+        if clearance.is_clear(&posture, 0.02) {
+            return posture;
+        }
+    }
+}

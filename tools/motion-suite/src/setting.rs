@@ -1,0 +1,55 @@
+use coact_joint_task::Task;
+use coact_motion::{Body, Mechanism};
+use coact_robot::{HAND_JOINTS, Hand, Robot, RobotError};
+
+/// Who moves, and at which task.
+#[derive(Debug, Clone)]
+pub struct Setting {
+    /// The arm.
+    pub mechanism: Mechanism,
+    /// Its hand, when it is a robot of ours.
+    pub hand: Option<Hand>,
+    /// The task at which it picks and inserts.
+    pub task: Option<Task>,
+    /// The open hand.
+    pub open: Body,
+}
+
+/// Clear width of the open hand, m.
+const OPEN: f64 = 0.10;
+
+impl Setting {
+    /// A robot of ours at a task.
+    ///
+    /// # Errors
+    /// What is wrong with the robot's collision geometry.
+    pub fn of(robot: &Robot, task: Task) -> Result<Self, RobotError> {
+        let mechanism = Mechanism::of(robot)?;
+        let hand = robot.hand.clone();
+        let open = with_fingers(&mechanism, &hand, &hand.posture(hand.base_for_width(OPEN)))?;
+        Ok(Self { mechanism, hand: Some(hand), task: Some(task), open })
+    }
+
+    /// An arm that only a URDF describes.
+    ///
+    /// # Errors
+    /// What is wrong with its collision geometry.
+    pub fn foreign(mechanism: Mechanism) -> Result<Self, RobotError> {
+        let open = mechanism.body(&|_| 0.0)?;
+        Ok(Self { mechanism, hand: None, task: None, open })
+    }
+
+    /// The hand around a part `width` m wide, with `gap` m between it and each finger. None without a hand of ours.
+    pub(crate) fn hand_around(&self, width: f64, gap: f64) -> Option<Body> {
+        let hand = self.hand.as_ref()?;
+        with_fingers(&self.mechanism, hand, &hand.grasp(width, gap).angles).ok()
+    }
+}
+
+/// The body with these angles of the hand's joints.
+fn with_fingers(mechanism: &Mechanism, hand: &Hand, angles: &[f64; HAND_JOINTS]) -> Result<Body, RobotError> {
+    mechanism.body(&|name| {
+        let index = hand.joints.iter().position(|joint| joint.name == name);
+        index.map_or(0.0, |index| angles[index])
+    })
+}
