@@ -1,4 +1,4 @@
-use coact_joint_task::{Agent, Fit, Shape, Task};
+use coact_joint_task::{Agent, Fit, Task};
 use coact_messages::{MAX_PARTS, NONE, PartState};
 use glam::{DQuat, DVec3};
 
@@ -102,13 +102,13 @@ impl Parts {
     /// Centre of the part's body, m: where the person's fingers close.
     pub fn centre(&self, part: usize, task: &Task) -> DVec3 {
         self.position(part)
-            + self.orientation(part) * (0.5 * height(task.kinds[self.kind(part)].shape) * DVec3::Z)
+            + self.orientation(part) * (0.5 * task.kinds[self.kind(part)].shape.height() * DVec3::Z)
     }
 
     /// Distance of `point` from the part's own axis, between its underside and its top, m.
     pub fn distance_to_axis(&self, part: usize, point: DVec3, task: &Task) -> f64 {
         let foot = self.position(part);
-        let axis = self.orientation(part) * (height(task.kinds[self.kind(part)].shape) * DVec3::Z);
+        let axis = self.orientation(part) * (task.kinds[self.kind(part)].shape.height() * DVec3::Z);
         let along = ((point - foot).dot(axis) / axis.length_squared().max(1e-12)).clamp(0.0, 1.0);
         point.distance(foot + along * axis)
     }
@@ -234,14 +234,6 @@ impl Parts {
         let on_base = (at - base).truncate().length() < scene.platform_radius;
         let height = if on_base { base.z + scene.platform_height } else { scene.table_height };
         self.place(part, DVec3::new(at.x, at.y, height), DQuat::IDENTITY);
-    }
-}
-
-/// Height of a part above its frame, m.
-pub(crate) fn height(shape: Shape) -> f64 {
-    match shape {
-        Shape::Cylinder { height, .. } => height,
-        Shape::Box { size } => size[2],
     }
 }
 

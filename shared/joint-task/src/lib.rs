@@ -4,6 +4,7 @@
 mod check;
 mod error;
 mod file;
+mod fixture;
 mod learned;
 mod load;
 mod model;
@@ -15,6 +16,7 @@ mod wiring;
 
 pub use check::{Finding, FindingKind, check};
 pub use error::TaskError;
+pub use fixture::{Fixture, FixtureForm};
 pub use model::{Act, Action, Agent, Chain, Fit, Gesture, Grip, Kind, Motion, Part, Scene, Shape, Subgoal};
 pub use network_plan::{Channel, ChannelPlan, LayerPlan, NetworkPlan, Pool, Synapse};
 pub use population::Population;

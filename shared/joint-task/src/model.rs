@@ -48,6 +48,29 @@ pub enum Shape {
     },
 }
 
+impl Shape {
+    /// Extents of the box around it, m.
+    pub fn extents(&self) -> [f64; 3] {
+        match *self {
+            Self::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
+            Self::Box { size } => size,
+        }
+    }
+
+    /// Height above its frame, m.
+    pub fn height(&self) -> f64 {
+        self.extents()[2]
+    }
+
+    /// Radius of the round room that it needs when it stands upright, m.
+    pub fn radius(&self) -> f64 {
+        match *self {
+            Self::Cylinder { radius, .. } => radius,
+            Self::Box { size: [x, y, _] } => 0.5 * x.hypot(y),
+        }
+    }
+}
+
 /// One part and where it lies at the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {

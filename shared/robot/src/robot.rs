@@ -111,7 +111,7 @@ fn hand(path: &Path, config: &Config, urdf: &Urdf) -> Result<Hand, RobotError> {
     let names = std::iter::once(&names.spread).chain(&names.bases).chain(&names.tips);
     let joints: Option<Vec<Joint>> = names.map(pick).collect();
     let joints = joints.ok_or_else(|| Config::fault(path, "spread", "is not a joint of any finger"))?;
-    let coupling = urdf.mimic(&config.hand.tips[0]).unwrap_or(0.0);
+    let coupling = urdf.mimicked(&config.hand.tips[0]).map_or(0.0, |(_, factor, _)| factor);
     let HandConfig { grasp_spread, pad, grasp_distance, .. } = config.hand;
     Ok(Hand { joints, fingers, coupling, grasp_spread, pad, grasp_distance })
 }

@@ -97,12 +97,6 @@ impl Urdf {
         Ok((joints, pending))
     }
 
-    /// Multiplier with which a joint mimics another, when it does.
-    pub fn mimic(&self, joint: &str) -> Option<f64> {
-        let joint = self.robot.joints.iter().find(|known| known.name == joint)?;
-        joint.mimic.as_ref().map(|mimic| mimic.multiplier.unwrap_or(1.0))
-    }
-
     /// The joint that another one mimics, with multiplier and offset, rad.
     pub fn mimicked(&self, joint: &str) -> Option<(String, f64, f64)> {
         let mimic = self.robot.joints.iter().find(|known| known.name == joint)?.mimic.as_ref()?;

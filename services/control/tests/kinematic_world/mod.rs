@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, dead_code)]
 
 use coact_control::{Control, Settings};
-use coact_joint_task::{Motion, Shape, Task};
+use coact_joint_task::{Motion, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, PERSON, Percept, ROBOT, SensorSample};
 use coact_robot::{JointLimits, Robot, grip};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
@@ -206,10 +206,7 @@ impl KinematicWorld {
     }
 
     fn height(&self, kind: usize) -> f64 {
-        match self.task.kinds[kind].shape {
-            Shape::Cylinder { height, .. } => height,
-            Shape::Box { size } => size[2],
-        }
+        self.task.kinds[kind].shape.height()
     }
 
     fn grasp_and_release(&mut self) {

@@ -2,7 +2,7 @@ use super::ObjectsMemory;
 use super::holders::Body;
 use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack};
 use crate::evidence::approach;
-use coact_joint_task::{Scene, Shape, Subgoal, Task};
+use coact_joint_task::{Scene, Subgoal, Task};
 use coact_messages::{MAX_SUBGOALS, PERSON, Percept, ROBOT, SceneView, WORKSPACES};
 use nalgebra::Vector3;
 
@@ -41,13 +41,7 @@ impl Places {
     }
 
     pub fn new(task: &Task) -> Self {
-        let body = |kind: &coact_joint_task::Kind| {
-            let height = match kind.shape {
-                Shape::Cylinder { height, .. } => height,
-                Shape::Box { size } => size[2],
-            };
-            Body { width: kind.width, height }
-        };
+        let body = |kind: &coact_joint_task::Kind| Body { width: kind.width, height: kind.shape.height() };
         Self {
             scene: task.scene.clone(),
             subgoals: task.subgoals.clone(),

@@ -140,12 +140,12 @@ impl Stage {
     pub fn grasping(&self, index: usize, grip: usize) -> Hand {
         let thing = self.things[index];
         let kind = &self.task.kinds[thing.kind];
-        let height = match kind.shape {
-            coact_joint_task::Shape::Cylinder { height, .. } => height,
-            coact_joint_task::Shape::Box { size } => size[2],
-        };
         let [x, y, z] = thing.position;
-        Hand { centre: [x, y, z + 0.5 * height], pitch: self.task.grips[grip].pitch, aperture: kind.width }
+        Hand {
+            centre: [x, y, z + 0.5 * kind.shape.height()],
+            pitch: self.task.grips[grip].pitch,
+            aperture: kind.width,
+        }
     }
 
     /// Evidence for one act.

@@ -2,7 +2,7 @@ use super::Joints;
 use super::shapes::{Layer, collider, pose};
 use crate::WorldError;
 use coact_messages::{ARM_JOINTS, Command};
-use coact_robot::{ROBOT_JOINTS, Robot};
+use coact_robot::{ROBOT_JOINTS, Robot, isometry};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d::prelude::*;
 use std::collections::HashMap;
@@ -248,7 +248,7 @@ fn drive(
     let fault = |message: &str| WorldError::Robot { joint: joint.name.clone(), message: message.to_owned() };
     let named = |name: &str| (0..ROBOT_JOINTS).find(|&index| name_of(robot, index) == name);
     let own = named(&joint.name);
-    let gear = joint.mimic.as_ref().map(|mimic| (mimic.joint.clone(), mimic.multiplier.unwrap_or(1.0)));
+    let gear = robot.urdf.mimicked(&joint.name).map(|(other, factor, _)| (other, factor));
     let mimicked = gear.as_ref().and_then(|(name, _)| named(name));
     let source = own.or(mimicked).ok_or_else(|| {
         fault("is not fixed, not in the robot file, and mimics no joint that is; name it there")
@@ -326,13 +326,5 @@ fn mass_properties(inertial: &urdf_rs::Inertial, within: &Isometry3<f64>) -> Mas
         Vector::new(centre.x, centre.y, centre.z),
         inertial.mass.value as f32,
         matrix,
-    )
-}
-
-fn isometry(origin: &urdf_rs::Pose) -> Isometry3<f64> {
-    let ([x, y, z], [roll, pitch, yaw]) = (origin.xyz.0, origin.rpy.0);
-    Isometry3::from_parts(
-        nalgebra::Translation3::new(x, y, z),
-        UnitQuaternion::from_euler_angles(roll, pitch, yaw),
     )
 }

@@ -51,7 +51,7 @@ pub(super) fn upright() -> Isometry3<f64> {
 
 /// Collider of a part in the part's frame, whose origin is at the centre of its underside.
 pub(super) fn part_collider(shape: Shape) -> ColliderBuilder {
-    let half = 0.5 * crate::parts::height(shape);
+    let half = 0.5 * shape.height();
     let centre = Isometry3::translation(0.0, 0.0, half);
     match shape {
         Shape::Cylinder { radius, .. } => {

@@ -3,7 +3,7 @@ use super::profile::{FINGERS, minimum_jerk, movement_time, peak_aperture, peak_t
 use super::recorded::LEAD;
 use super::{Errand, HandPose, Movement, PersonMemory, Stage};
 use crate::noise::Stream;
-use crate::parts::{height, upright_along};
+use crate::parts::upright_along;
 use coact_joint_task::{Act, Task};
 use glam::{DQuat, DVec3};
 use rand::RngExt;
@@ -92,7 +92,7 @@ impl Person {
         let (tick, hand) = (around.tick, memory.hand);
         let from = around.parts.orientation(part);
         let to = nearest_turn(from, axis);
-        let half = 0.5 * height(around.task.kinds[around.parts.kind(part)].shape);
+        let half = 0.5 * around.task.kinds[around.parts.kind(part)].shape.height();
         let centre = place + to * (half * DVec3::Z);
         memory.turn_from = from.into();
         memory.turn_to = to.into();
@@ -118,7 +118,7 @@ impl Person {
         let along = minimum_jerk(memory.movement.time(around.tick));
         let turn =
             DQuat::from_array(memory.turn_from).slerp(DQuat::from_array(memory.turn_to), along).normalize();
-        let half = 0.5 * height(around.task.kinds[around.parts.kind(part)].shape);
+        let half = 0.5 * around.task.kinds[around.parts.kind(part)].shape.height();
         let centre = self.model.centre(&memory.hand) + (1.0 - along) * DVec3::from(memory.offset);
         around.parts.place(part, centre - turn * (half * DVec3::Z), turn);
     }

@@ -3,7 +3,7 @@
 use super::actor::{Person, Surroundings};
 use super::{Movement, PersonMemory};
 use crate::parts::Parts;
-use coact_joint_task::{Shape, Task};
+use coact_joint_task::Task;
 use coact_messages::{KeypointName, is_blocked};
 use glam::DVec3;
 
@@ -38,10 +38,7 @@ impl Person {
 
 /// Corners of the box around a part, m.
 fn corners(part: usize, parts: &Parts, task: &Task) -> impl Iterator<Item = DVec3> + Clone {
-    let [x, y, z] = match task.kinds[parts.kind(part)].shape {
-        Shape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
-        Shape::Box { size } => size,
-    };
+    let [x, y, z] = task.kinds[parts.kind(part)].shape.extents();
     let (at, turn) = (parts.position(part), parts.orientation(part));
     (0..8_u8).map(move |corner| {
         let side = |bit: u8| f64::from(corner >> bit & 1);

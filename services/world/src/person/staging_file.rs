@@ -1,7 +1,7 @@
 use super::script_source::Source;
 use crate::WorldError;
 use crate::staging::{Blind, During, MOST_OCCLUDERS, MOST_SLIPS, Occluder, Sense, Slip, Staging};
-use coact_joint_task::{Agent, Part, Shape, Task};
+use coact_joint_task::{Agent, Part, Task};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -212,10 +212,7 @@ impl Source<'_> {
 
 /// Radius of the round room that a part needs on the table, m.
 fn radius(task: &Task, part: usize) -> f64 {
-    match task.kinds[task.parts[part].kind].shape {
-        Shape::Cylinder { radius, .. } => radius,
-        Shape::Box { size: [x, y, _] } => 0.5 * x.hypot(y),
-    }
+    task.kinds[task.parts[part].kind].shape.radius()
 }
 
 fn on_table(task: &Task, at: [f64; 2], margin: f64) -> bool {

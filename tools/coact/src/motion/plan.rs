@@ -143,7 +143,7 @@ fn scene(args: &Args, setting: &Setting) -> Result<Scene> {
         for (index, part) in task.parts.iter().enumerate() {
             let place = Isometry3::translation(part.at[0], part.at[1], task.scene.table_height);
             let kind = &task.kinds[part.kind];
-            scene.obstacles.push(workplace::part(&format!("{} ({index})", kind.name), kind, &place));
+            scene.obstacles.push(workplace::upright(&format!("{} ({index})", kind.name), kind.shape, &place));
         }
     }
     for (index, text) in args.obstacle.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Movements of a robot that builds something: pick, insert, park.
 
 use crate::{Case, Setting};
-use coact_joint_task::{Agent, Shape, Task};
+use coact_joint_task::{Agent, Fixture, Shape, Task};
 use coact_motion::{Aim, Scene, workplace};
 use coact_robot::{HandGoal, MotionState, Posture};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -34,7 +34,7 @@ fn pick_of(setting: &Setting, random: &mut Pcg64) -> Option<(Case, usize)> {
     // So deep in the hand that its fingers meet on the part.
     let deeper = hand.grasp_distance - hand.grasp(kind.width, 0.0).depth;
     let start = near_park(setting, random);
-    let aim = Aim::Hand(grips(&places[part], workplace::height(kind), deeper));
+    let aim = Aim::Hand(grips(&places[part], kind.shape.height(), deeper));
     let case = Case { body, scene, start: start.map(MotionState::at_rest), leave: None, aim };
     case.starts_clear(&setting.mechanism).then_some((case, part))
 }
@@ -51,12 +51,12 @@ pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
     let goal = task.subgoals.iter().find(|goal| goal.kind == kind_index && goal.side == Agent::Robot)?;
     let Aim::Hand(goals) = &picked.aim else { return None };
     let palm = setting.mechanism.arm.palm(&target.at);
-    let mut scene = picked.scene.touching(&[workplace::TABLE, workplace::PLATFORM]);
+    let mut scene = picked.scene.touching(&[Fixture::TABLE, Fixture::PLATFORM]);
     let index = scene.obstacles.iter().position(|obstacle| obstacle.name == name)?;
     let centre = scene.obstacles.remove(index).place;
-    let frame = centre * Isometry3::translation(0.0, 0.0, -0.5 * workplace::height(kind));
+    let frame = centre * Isometry3::translation(0.0, 0.0, -0.5 * kind.shape.height());
     let closed = setting.hand_around(kind.width, 0.0)?;
-    let (solid, within) = workplace::form(kind);
+    let (solid, within) = workplace::form(kind.shape);
     let body = closed.holding(&setting.mechanism, &name, solid, &(palm.inverse() * frame * within));
     let socket = along(goal.socket, goal.axis);
     // The part goes into its socket as it is held, turned about its own axis at will if it is round.
@@ -105,7 +105,7 @@ fn table(task: &Task, random: &mut Pcg64) -> (Scene, Vec<Isometry3<f64>>) {
     for (index, part) in task.parts.iter().enumerate() {
         let [x, y] = part.at.map(|at| at + random.random_range(-0.02..0.02));
         let place = Isometry3::translation(x, y, task.scene.table_height + 0.001);
-        scene.obstacles.push(workplace::part(&part_name(index), &task.kinds[part.kind], &place));
+        scene.obstacles.push(workplace::upright(&part_name(index), task.kinds[part.kind].shape, &place));
         places.push(place);
     }
     (scene, places)

@@ -2,7 +2,7 @@ use super::{Out, config};
 use crate::body::Body;
 use crate::{BodyKind, Partner, Settings, World};
 use bytemuck::zeroed_box;
-use coact_joint_task::{Agent, Shape, Task};
+use coact_joint_task::{Agent, Task};
 use coact_messages::{ARM_JOINTS, Command};
 use coact_robot::{
     HandGoal, JointLimits, MotionState, Movement, Posture, PostureSearch, ROBOT_JOINTS, Robot,
@@ -67,11 +67,7 @@ impl Manipulator {
     /// Shape and width of the part, m.
     fn part(&self) -> (f64, f64) {
         let kind = &self.world.task.kinds[self.world.parts.kind(0)];
-        let height = match kind.shape {
-            Shape::Cylinder { height, .. } => height,
-            Shape::Box { size } => size[2],
-        };
-        (height, kind.width)
+        (kind.shape.height(), kind.width)
     }
 
     /// Postures for gripping the part when its frame is at `place` with its axis along `axis`.
