@@ -1,3 +1,4 @@
+use crate::MotionState;
 use nalgebra::{Isometry3, UnitQuaternion, UnitVector3};
 
 /// One revolute joint of a kinematic chain.
@@ -41,5 +42,13 @@ impl JointLimits {
     /// Whether `angle` lies within the position limits, shrunk on both ends by `margin` rad.
     pub fn contain(&self, angle: f64, margin: f64) -> bool {
         angle >= self.lower + margin && angle <= self.upper - margin
+    }
+
+    /// Whether position, velocity, acceleration and `jerk` (rad/s³) lie within the limits, to 1e-9 rad in position.
+    pub fn allows(&self, state: &MotionState, jerk: f64) -> bool {
+        self.contain(state.position, -1e-9)
+            && state.velocity.abs() <= self.velocity
+            && state.acceleration.abs() <= self.acceleration
+            && jerk.abs() <= self.jerk
     }
 }
