@@ -1,52 +1,55 @@
 //! The law of time of a movement: the hand's speed rises and falls once, like a bell.
 
-use crate::{HandPath, Knot, Mechanism, Plan, Stage};
-use coact_robot::{MotionState, Quintic};
+use crate::roughness::Roughness;
+use crate::{Knot, Mechanism, Plan, Stage, StageKind};
+use coact_robot::{JointLimits, MotionState, Posture, Quintic};
 
 /// Points at which the way of the stages is measured.
 const MEASURED: usize = 240;
 /// Pieces of a plan.
-const PIECES: usize = 32;
-/// What a change of the joints counts for in the length of the way, m/rad: it matters where the hand only turns.
-const TURNING: f64 = 0.08;
-/// How much longer than in the stages' own time a movement may take for the sake of one bell, and in which steps it is
-/// slowed down until it keeps the limits.
-const LONGER: f64 = 3.0;
+const PIECES: usize = 24;
+/// What a change of the joints counts for in the length of the way, m/rad. The less it counts the more the law of time
+/// is that of the hand; the more it counts the less the joints must hurry where the hand only turns.
+const TURNINGS: [f64; 3] = [0.08, 0.02, 0.005];
+/// How much longer than in the stages' own time a movement may take for the sake of one bell, and in which steps one
+/// under way is slowed down until it keeps the limits.
+const LONGER: f64 = 4.5;
 const SLOWER: f64 = 1.04;
+/// Instants between two knots at which a plan is held against the obstacles again.
+const CHECKED: u32 = 4;
 
-/// The stages as a plan. Where the hand would speed up more than once, the way gets another law of time: its length,
-/// from hand and joints, grows as in a movement of minimum jerk. Where that takes too long the stages keep their own.
-pub(crate) fn timed(mechanism: &Mechanism, stages: &[Stage]) -> Plan {
-    let total: f64 = stages.iter().map(|stage| stage.trajectory.duration).sum();
+/// The stages as a plan: in their own time or, where the hand moves more smoothly so, in one in which the length of the
+/// way, from hand and joints, grows as in a movement of minimum jerk. That way is a little different between the knots;
+/// `keeps` says whether a posture is still clear enough at this instant of the stages' own time.
+pub(crate) fn timed(
+    mechanism: &Mechanism,
+    stages: &[Stage],
+    limits: &[JointLimits; 7],
+    keeps: &dyn Fn(f64, &Posture) -> bool,
+) -> (Roughness, Plan) {
+    let way = Way::measure(mechanism, stages);
+    let laws: Vec<Law> = TURNINGS.iter().map(|turning| Law::new(&way, *turning)).collect();
+    let rough = |plan: &Plan| Roughness::of(mechanism, plan, MEASURED);
     let mut best = sampled(stages);
-    let path = HandPath::of(mechanism, &best, MEASURED);
-    if path.units() == 1 {
-        return best;
-    }
-    let way = Way::measure(mechanism, stages, total);
-    let limits = mechanism.limits();
-    let start = MotionState { position: 0.0, velocity: way.speed[0], acceleration: way.acceleration() };
-    let mut duration = 0.6 * total;
-    while duration < LONGER * total {
-        let law = Quintic::new(start, MotionState::at_rest(way.length()), duration);
-        if let Some(plan) = way.follow(&law, duration).filter(|plan| plan.broken(&limits).is_none()) {
-            if HandPath::of(mechanism, &plan, MEASURED).units() < path.units() {
-                best = plan;
-            }
-            break;
+    let mut roughness = rough(&best);
+    for law in &laws {
+        let Some(plan) = law.fastest(limits) else { continue };
+        let found = rough(&plan);
+        if found < roughness && law.keeps(&plan, keeps) {
+            (best, roughness) = (plan, found);
         }
-        duration *= SLOWER;
     }
-    best
+    (roughness, best)
 }
 
 /// The stages in their own time.
 pub(crate) fn sampled(stages: &[Stage]) -> Plan {
-    let total: f64 = stages.iter().map(|stage| stage.trajectory.duration).sum();
+    let total = total(stages);
+    let most = (Plan::KNOTS - 1).saturating_sub(stages.len()) as f64;
     let mut knots = vec![Knot { t: 0.0, states: at(stages, 0.0) }];
     let mut before = 0.0;
     for Stage { trajectory, .. } in stages {
-        let pieces = (PIECES as f64 * trajectory.duration / total).ceil();
+        let pieces = (most * trajectory.duration / total).ceil();
         let pieces = if trajectory.bounces() { pieces } else { 1.0 };
         for piece in 1..=pieces as u32 {
             let t = trajectory.duration * f64::from(piece) / pieces;
@@ -54,48 +57,73 @@ pub(crate) fn sampled(stages: &[Stage]) -> Plan {
         }
         before += trajectory.duration;
     }
-    Plan { knots, stages: ends(stages), bounces: bounces(stages), target: None }
+    Plan { knots, stages: ends(stages).collect(), bounces: false, target: None }
 }
 
 /// The way of stages, measured at equal steps of the stages' own time.
 struct Way<'a> {
     stages: &'a [Stage],
     step: f64,
-    /// Length so far, m.
-    covered: Vec<f64>,
-    /// Its derivative, m/s.
-    speed: Vec<f64>,
+    /// Speeds of the hand, m/s, and of all joints together, rad/s.
+    speeds: Vec<(f64, f64)>,
 }
 
 impl<'a> Way<'a> {
-    fn measure(mechanism: &Mechanism, stages: &'a [Stage], total: f64) -> Self {
-        let step = total / MEASURED as f64;
+    fn measure(mechanism: &Mechanism, stages: &'a [Stage]) -> Self {
+        let step = total(stages) / MEASURED as f64;
         let hand =
             |t: f64| mechanism.arm.palm(&at(stages, t).map(|state| state.position)) * mechanism.grasp_point();
         let places: Vec<_> = (0..=2 * MEASURED).map(|half| hand(0.5 * step * half as f64)).collect();
-        let speed: Vec<f64> = (0..=MEASURED)
-            .map(|point| {
-                let (before, after) = ((2 * point).max(1) - 1, (2 * point + 1).min(2 * MEASURED));
-                let hand = (places[after] - places[before]).norm() / (0.5 * step * (after - before) as f64);
-                let joints: f64 =
-                    at(stages, point as f64 * step).iter().map(|state| state.velocity.powi(2)).sum();
-                hand.hypot(TURNING * joints.sqrt())
-            })
-            .collect();
+        let speeds = (0..=MEASURED).map(|point| {
+            let (before, after) = ((2 * point).max(1) - 1, (2 * point + 1).min(2 * MEASURED));
+            let hand = (places[after] - places[before]).norm() / (0.5 * step * (after - before) as f64);
+            let joints = at(stages, point as f64 * step).map(|state| state.velocity.powi(2));
+            (hand, joints.iter().sum::<f64>().sqrt())
+        });
+        Self { stages, step, speeds: speeds.collect() }
+    }
+}
+
+/// A law of time on a way: how its length is covered.
+struct Law<'a> {
+    way: &'a Way<'a>,
+    /// Length so far, m.
+    covered: Vec<f64>,
+    /// Its derivative by the stages' own time, m/s.
+    speed: Vec<f64>,
+}
+
+impl<'a> Law<'a> {
+    /// With this length for a change of the joints, m/rad.
+    fn new(way: &'a Way, turning: f64) -> Self {
+        let speed: Vec<f64> = way.speeds.iter().map(|(hand, joints)| hand.hypot(turning * joints)).collect();
         let mut covered = vec![0.0];
         for pair in speed.windows(2) {
-            covered.push(covered[covered.len() - 1] + 0.5 * step * (pair[0] + pair[1]));
+            covered.push(covered[covered.len() - 1] + 0.5 * way.step * (pair[0] + pair[1]));
         }
-        Self { stages, step, covered, speed }
+        Self { way, covered, speed }
     }
 
-    fn length(&self) -> f64 {
-        self.covered[MEASURED]
+    /// The fastest plan with a bell that keeps the limits.
+    fn fastest(&self, limits: &[JointLimits; 7]) -> Option<Plan> {
+        let total = total(self.way.stages);
+        if at(self.way.stages, 0.0).iter().all(MotionState::is_at_rest) {
+            let plan = self.follow(total)?;
+            let load = plan.load(limits);
+            let slower = plan.slower(load);
+            return (slower.duration() < LONGER * total && slower.broken(limits).is_none()).then_some(slower);
+        }
+        let durations = std::iter::successors(Some(0.6 * total), |duration| Some(SLOWER * duration));
+        let plans = durations.take_while(|duration| *duration < LONGER * total).map(|time| self.follow(time));
+        plans.flatten().find(|plan| plan.broken(limits).is_none())
     }
 
-    /// Second derivative of the length at the start, m/s².
-    fn acceleration(&self) -> f64 {
-        if self.speed[0] < 1e-6 { 0.0 } else { (self.speed[1] - self.speed[0]) / self.step }
+    /// The length at each instant of a movement of this duration.
+    fn bell(&self, duration: f64) -> Quintic {
+        let slope = (self.speed[1] - self.speed[0]) / self.way.step;
+        let acceleration = if self.speed[0] < 1e-6 { 0.0 } else { slope };
+        let start = MotionState { position: 0.0, velocity: self.speed[0], acceleration };
+        Quintic::new(start, MotionState::at_rest(self.covered[MEASURED]), duration)
     }
 
     /// The stages' own time at which this length is covered, and the speed then with its derivative.
@@ -103,60 +131,75 @@ impl<'a> Way<'a> {
         let to = self.covered.partition_point(|covered| *covered < length).clamp(1, MEASURED);
         let from = to - 1;
         let share = (length - self.covered[from]) / (self.covered[to] - self.covered[from]).max(1e-12);
-        let slope = (self.speed[to] - self.speed[from]) / self.step;
-        ((from as f64 + share) * self.step, self.speed[from] + share * self.step * slope, slope)
+        let step = self.way.step;
+        let slope = (self.speed[to] - self.speed[from]) / step;
+        ((from as f64 + share) * step, self.speed[from] + share * step * slope, slope)
     }
 
-    /// The way in the time of `law`; none where it would have to go back.
-    fn follow(&self, law: &Quintic, duration: f64) -> Option<Plan> {
-        let mut knots = vec![Knot { t: 0.0, states: at(self.stages, 0.0) }];
+    /// The way in this duration; none where it would have to go back.
+    fn follow(&self, duration: f64) -> Option<Plan> {
+        let (stages, law) = (self.way.stages, self.bell(duration));
+        let mut knots = vec![Knot { t: 0.0, states: at(stages, 0.0) }];
         for piece in 1..PIECES {
             let t = duration * piece as f64 / PIECES as f64;
             let MotionState { position, velocity, acceleration } = law.at(t);
-            if velocity < 0.0 || position <= 0.0 || position >= self.length() {
+            if velocity < 0.0 || position <= 0.0 || position >= self.covered[MEASURED] {
                 return None;
             }
             let (own, speed, slope) = self.time(position);
             let rate = velocity / speed.max(1e-9);
             let change = (acceleration - slope * rate * rate) / speed.max(1e-9);
-            let states = at(self.stages, own).map(|state| MotionState {
+            let states = at(stages, own).map(|state| MotionState {
                 position: state.position,
                 velocity: state.velocity * rate,
                 acceleration: state.acceleration * rate * rate + state.velocity * change,
             });
             knots.push(Knot { t, states });
         }
-        knots.push(Knot { t: duration, states: at(self.stages, self.step * MEASURED as f64) });
-        let stages = ends(self.stages).into_iter().map(|(kind, end)| {
-            let point = ((end / self.step).round() as usize).min(MEASURED);
-            let passed = knots.iter().find(|knot| law.at(knot.t).position >= self.covered[point] - 1e-9);
-            (kind, passed.map_or(duration, |knot| knot.t))
-        });
-        let stages = stages.collect();
-        Some(Plan { knots, stages, bounces: bounces(self.stages), target: None })
+        knots.push(Knot { t: duration, states: at(stages, total(stages)) });
+        let passed = |own: f64| {
+            let point = ((own / self.way.step).round() as usize).min(MEASURED);
+            knots.iter().find(|knot| law.at(knot.t).position >= self.covered[point] - 1e-9)
+        };
+        let ends = ends(stages).map(|(kind, own)| (kind, passed(own).map_or(duration, |knot| knot.t)));
+        let stages = ends.collect();
+        Some(Plan { knots, stages, bounces: false, target: None })
+    }
+
+    /// Whether a plan that follows this law keeps clear between the knots, too.
+    fn keeps(&self, plan: &Plan, keeps: &dyn Fn(f64, &Posture) -> bool) -> bool {
+        let law = self.bell(plan.duration());
+        plan.instants(CHECKED).all(|t| {
+            let (own, ..) = self.time(law.at(t).position);
+            keeps(own, &plan.at(t).map(|state| state.position))
+        })
     }
 }
 
 /// When each stage ends, in the stages' own time.
-fn ends(stages: &[Stage]) -> Vec<(crate::StageKind, f64)> {
-    let ends = stages.iter().scan(0.0, |end, stage| {
+fn ends(stages: &[Stage]) -> impl Iterator<Item = (StageKind, f64)> {
+    stages.iter().scan(0.0, |end, stage| {
         *end += stage.trajectory.duration;
         Some((stage.kind, *end))
-    });
-    ends.collect()
+    })
 }
 
-fn bounces(stages: &[Stage]) -> bool {
-    stages.iter().any(|stage| stage.trajectory.bounces())
+fn total(stages: &[Stage]) -> f64 {
+    stages.iter().map(|stage| stage.trajectory.duration).sum()
 }
 
 /// State `t` s after the start of the first stage.
-fn at(stages: &[Stage], mut t: f64) -> [MotionState; 7] {
-    for (index, stage) in stages.iter().enumerate() {
-        if t < stage.trajectory.duration || index + 1 == stages.len() {
-            return stage.trajectory.at(t);
+fn at(stages: &[Stage], t: f64) -> [MotionState; 7] {
+    during(stages, t).map_or([MotionState::default(); 7], |(stage, t)| stage.trajectory.at(t))
+}
+
+/// The stage under way `t` s after the start of the first one, and the time since its own start, s.
+pub(crate) fn during(stages: &[Stage], mut t: f64) -> Option<(&Stage, f64)> {
+    for stage in stages {
+        if t < stage.trajectory.duration {
+            return Some((stage, t));
         }
         t -= stage.trajectory.duration;
     }
-    [MotionState::default(); 7]
+    stages.last().map(|stage| (stage, stage.trajectory.duration))
 }

@@ -1,7 +1,7 @@
 use crate::solid::Shape;
 use crate::{Capsule, Clearance, Mechanism, Other, Scene, Solid};
 use coact_robot::Posture;
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, SMatrix, Vector3};
 use parry3d_f64::shape::SharedShape;
 
 /// Arm, hand and what it holds, as forms that move with the arm's joints. The fingers' angles are fixed in it.
@@ -78,6 +78,16 @@ impl Frames {
             let arm = point.coords - self.pose[joint].translation.vector;
             self.axis[joint].cross(&arm).dot(direction)
         })
+    }
+
+    /// Change of the position of `point` (world, carried by the first `carriers` joints), m/rad.
+    pub fn jacobian(&self, point: &nalgebra::Point3<f64>, carriers: usize) -> SMatrix<f64, 3, 7> {
+        let mut columns = SMatrix::<f64, 3, 7>::zeros();
+        for joint in 0..carriers {
+            let arm = point.coords - self.pose[joint].translation.vector;
+            columns.set_column(joint, &self.axis[joint].cross(&arm));
+        }
+        columns
     }
 
     /// Pose of what carries a bone, world.

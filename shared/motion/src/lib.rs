@@ -4,7 +4,8 @@
 //!
 //! ```text
 //! where the hand shall be -> Target  posture at the goal, nearest to the present one, within limits, clear of all
-//!                         -> Way     direct movement, or the smallest excursion that keeps clear
+//!                         -> Way     direct movement on which the hand goes as straight as it can, or the smallest
+//!                                    excursion that keeps clear
 //!                         -> Plan    leave, reach and approach as one movement: the hand's speed rises and falls once
 //! ```
 //!
@@ -26,6 +27,7 @@
 //!     start: robot.park.map(MotionState::at_rest),
 //!     leave: None,
 //!     aim: Aim::Hand(vec![HandGoal::grip(&part, 0.04, 0, 0.15, 0.8)]),
+//!     then: Vec::new(),
 //!     margin: Margin::default(),
 //! }
 //! .plan()?;
@@ -36,6 +38,7 @@
 mod bell;
 mod body;
 mod capsule;
+mod choice;
 mod clearance;
 mod comfort;
 mod detour;
@@ -47,11 +50,14 @@ mod plan;
 mod planner;
 mod quadratic;
 mod refusal;
+mod roughness;
 mod route;
 mod scene;
+mod search;
 mod solid;
 mod solver;
 mod stage;
+mod straight;
 mod target;
 mod trajectory;
 mod way;

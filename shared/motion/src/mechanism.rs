@@ -1,7 +1,6 @@
-use crate::body::Bone;
 use crate::{Body, links};
 use coact_robot::{Arm, HandGoal, JointLimits, Posture, Robot, RobotError, Srs, Urdf, grip};
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::{Isometry3, Translation3, Vector3};
 
 /// Most joints of an arm that is planned for.
 pub const MAX_JOINTS: usize = 7;
@@ -50,7 +49,7 @@ impl Mechanism {
             urdf: robot.urdf.clone(),
             meshes: Meshes::Required,
         };
-        mechanism.arm_bones()?;
+        links::arm_bones(&mechanism)?;
         Ok(mechanism)
     }
 
@@ -80,7 +79,7 @@ impl Mechanism {
         park[3] = 0.5 * arm.joints[3].limits.upper.clamp(0.0, 1.6);
         let name = urdf.name().to_owned();
         let mechanism = Self { name, arm, closed_form, park, grasp_distance, urdf, meshes };
-        mechanism.arm_bones()?;
+        links::arm_bones(&mechanism)?;
         Ok(mechanism)
     }
 
@@ -89,7 +88,7 @@ impl Mechanism {
         self.arm.joints.len()
     }
 
-    /// Limits of the arm's joints; unused ones allow nothing but 0.
+    /// Limits of the arm's joints; those of unused joints only fill their places.
     pub fn limits(&self) -> [JointLimits; MAX_JOINTS] {
         let unused =
             JointLimits { lower: -1.0, upper: 1.0, velocity: 1.0, effort: 1.0, acceleration: 1.0, jerk: 1.0 };
@@ -102,7 +101,7 @@ impl Mechanism {
     /// # Errors
     /// [`RobotError`] when a link's collision geometry cannot be used.
     pub fn body(&self, fingers: &dyn Fn(&str) -> f64) -> Result<Body, RobotError> {
-        let mut bones = self.arm_bones()?;
+        let mut bones = links::arm_bones(self)?;
         bones.extend(links::hand_bones(self, fingers)?);
         Ok(Body::new(self, bones))
     }
@@ -112,14 +111,22 @@ impl Mechanism {
         nalgebra::Point3::new(0.0, 0.0, self.grasp_distance)
     }
 
+    /// The goal that is reached with the palm there, in one turn only.
+    pub(crate) fn goal_of(&self, palm: &Isometry3<f64>) -> HandGoal {
+        HandGoal {
+            point: palm * self.grasp_point(),
+            approach: palm.rotation * Vector3::z(),
+            closing: palm.rotation * Vector3::x(),
+            rolls: 1,
+            back: 0.0,
+            floor: f64::NEG_INFINITY,
+        }
+    }
+
     /// Palm pose at a goal, turned by `roll` rad about the approach, `back` m before it.
     pub(crate) fn palm_at(&self, goal: &HandGoal, roll: f64, back: f64) -> Isometry3<f64> {
         let point = goal.point - goal.approach * back;
         let grip = grip::frame(&point, &goal.approach, &goal.closing, roll);
         grip * Translation3::new(0.0, 0.0, -self.grasp_distance)
-    }
-
-    fn arm_bones(&self) -> Result<Vec<Bone>, RobotError> {
-        links::arm_bones(self)
     }
 }

@@ -9,7 +9,7 @@ pub struct Plan {
     pub knots: Vec<Knot>,
     /// Stages, each with the instant at which it ends, s.
     pub stages: Vec<(StageKind, f64)>,
-    /// Whether the way is anything but direct.
+    /// Whether something stood in the way of the direct movement.
     pub bounces: bool,
     /// The goal that was chosen; none for a posture.
     pub target: Option<Target>,
@@ -26,8 +26,13 @@ pub struct Knot {
 
 /// Instants between two knots at which a plan is held against the limits.
 const CHECKED: u32 = 4;
+/// Share of the limits that a movement from rest uses.
+const USE: f64 = 0.95;
 
 impl Plan {
+    /// Most knots of a plan: one fits into memory of a fixed size.
+    pub const KNOTS: usize = 32;
+
     /// Time of the whole movement, s.
     pub fn duration(&self) -> f64 {
         self.knots.last().map_or(0.0, |knot| knot.t)
@@ -51,20 +56,57 @@ impl Plan {
 
     /// A joint that breaks a limit on the way, if one does.
     pub fn broken(&self, limits: &[JointLimits; 7]) -> Option<usize> {
-        self.knots.windows(2).find_map(|pair| {
-            let pieces = pieces(&pair[0], &pair[1]);
-            (0..7).find(|&joint| {
-                (0..=CHECKED).any(|step| {
-                    let t = (pair[1].t - pair[0].t) * f64::from(step) / f64::from(CHECKED);
-                    let (state, limit) = (pieces[joint].at(t), &limits[joint]);
-                    !limit.contain(state.position, -1e-9)
-                        || state.velocity.abs() > limit.velocity
-                        || state.acceleration.abs() > limit.acceleration
-                        || pieces[joint].jerk(t).abs() > limit.jerk
-                })
+        self.samples().find_map(|(states, jerk)| {
+            (0..7).find(|&joint| !limits[joint].allows(&states[joint], jerk[joint]))
+        })
+    }
+
+    /// How many times slower it must be to keep the limits of speed, acceleration and jerk.
+    pub(crate) fn load(&self, limits: &[JointLimits; 7]) -> f64 {
+        let loads = self.samples().flat_map(|(states, jerk)| {
+            (0..7).map(move |joint| load(&states[joint], jerk[joint], &limits[joint]))
+        });
+        loads.fold(0.0, f64::max)
+    }
+
+    /// The same way, `factor` times slower; only for one that starts at rest.
+    pub(crate) fn slower(mut self, factor: f64) -> Self {
+        for knot in &mut self.knots {
+            knot.t *= factor;
+            for state in &mut knot.states {
+                state.velocity /= factor;
+                state.acceleration /= factor * factor;
+            }
+        }
+        self.stages.iter_mut().for_each(|(_, end)| *end *= factor);
+        self
+    }
+
+    /// Instants of the movement: `steps` in each piece, s.
+    pub(crate) fn instants(&self, steps: u32) -> impl Iterator<Item = f64> {
+        self.knots.windows(2).flat_map(move |pair| {
+            let step = (pair[1].t - pair[0].t) / f64::from(steps);
+            (1..=steps).map(move |index| pair[0].t + step * f64::from(index))
+        })
+    }
+
+    /// States and jerks of all joints.
+    fn samples(&self) -> impl Iterator<Item = ([MotionState; 7], Posture)> {
+        self.knots.windows(2).flat_map(|pair| {
+            let (pieces, duration) = (pieces(&pair[0], &pair[1]), pair[1].t - pair[0].t);
+            (0..=CHECKED).map(move |step| {
+                let t = duration * f64::from(step) / f64::from(CHECKED);
+                (pieces.map(|piece| piece.at(t)), pieces.map(|piece| piece.jerk(t)))
             })
         })
     }
+}
+
+/// How many times slower a movement must be for this instant to keep the limits, with a little room.
+pub(crate) fn load(state: &MotionState, jerk: f64, limit: &JointLimits) -> f64 {
+    (state.velocity.abs() / (USE * limit.velocity))
+        .max((state.acceleration.abs() / (USE * limit.acceleration)).sqrt())
+        .max((jerk.abs() / (USE * limit.jerk)).cbrt())
 }
 
 fn pieces(from: &Knot, to: &Knot) -> [Quintic; 7] {

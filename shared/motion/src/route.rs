@@ -1,5 +1,7 @@
+use crate::plan::load;
+use crate::straight::Change;
 use crate::trajectory::CHECKED;
-use crate::{HandPath, Mechanism, Stage, StageKind, Trajectory, bell};
+use crate::{Clearance, HandPath, Mechanism, Stage, StageKind, Trajectory, bell, straight};
 use coact_robot::{JointLimits, MotionState, Posture};
 use nalgebra::{DMatrix, DVector};
 
@@ -19,12 +21,14 @@ pub(crate) struct Route {
 }
 
 /// How a posture between two stages is passed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Passing {
     /// With the velocity and acceleration of least jerk of the whole movement.
     Smooth,
     /// In the direction of the straight stage beside it, with this multiple of its mean speed.
     Straight(f64),
+    /// In these states, as for a movement of 1 s.
+    Given(Vec<[MotionState; 7]>),
 }
 
 /// What a change of a joint counts for in the length of a way, m/rad: it matters where the hand only turns.
@@ -34,10 +38,9 @@ const MEASURED: u32 = 8;
 /// Places at which the hand's path is looked at.
 const LOOKED_AT: usize = 80;
 /// Factors by which the time of the first and the last stage is changed in search of the smoothest movement.
-const FACTORS: [f64; 7] = [1.0, 0.8, 0.64, 0.5, 1.25, 1.6, 2.0];
-/// Shortest movement, s, and share of the limits that a movement uses.
+const FACTORS: [f64; 6] = [0.8, 0.64, 0.5, 1.25, 1.6, 2.0];
+/// Shortest movement, s.
 const SHORTEST: f64 = 0.1;
-const USE: f64 = 0.95;
 /// Movements that do not begin at rest are slowed down in such steps, so many at most.
 const SLOWER: (f64, u32) = (1.04, 60);
 
@@ -91,6 +94,40 @@ impl Route {
         self
     }
 
+    /// The change for which hand and joints move most smoothly. `stages`: the route's own.
+    pub fn smoothing<'a>(
+        &self,
+        mechanism: &'a Mechanism,
+        stages: &[Stage],
+        room: &dyn Fn(f64) -> (Clearance<'a>, f64),
+    ) -> Change {
+        straight::smoothest(mechanism, stages, self.passing == Passing::Smooth, room)
+    }
+
+    /// The same route with a change of these stages, its own.
+    pub fn changed(&self, stages: &[Stage], change: &Change) -> Self {
+        let reach = stages.iter().find(|stage| stage.kind == StageKind::Reach);
+        let bounce = reach.map_or([0.0; 7], |reach| reach.trajectory.bounce);
+        let mut route = Self {
+            bounce: std::array::from_fn(|joint| bounce[joint] + change.bounce[joint]),
+            ..self.clone()
+        };
+        if self.passing == Passing::Smooth {
+            let total: f64 = stages.iter().map(|stage| stage.trajectory.duration).sum();
+            let given =
+                stages.iter().zip(&change.passed).map(|(stage, [position, velocity, acceleration])| {
+                    let end = stage.trajectory.end;
+                    std::array::from_fn(|joint| MotionState {
+                        position: end[joint].position + position[joint],
+                        velocity: end[joint].velocity * total + velocity[joint],
+                        acceleration: end[joint].acceleration * total.powi(2) + acceleration[joint],
+                    })
+                });
+            route.passing = Passing::Given(given.collect());
+        }
+        route
+    }
+
     /// How far the hand's movement is from one smooth bell.
     fn roughness(&self, mechanism: &Mechanism, limits: &[JointLimits; 7]) -> f64 {
         self.timed(limits).map_or(f64::INFINITY, |stages| {
@@ -129,9 +166,18 @@ impl Route {
         let times: Vec<f64> = self.shares.iter().map(|share| share / total * duration).collect();
         let mut passed: Vec<[MotionState; 7]> =
             self.legs.iter().map(|(_, posture)| posture.map(MotionState::at_rest)).collect();
-        match self.passing {
+        match &self.passing {
             Passing::Smooth => self.pass_smoothly(&times, &mut passed),
-            Passing::Straight(share) => self.pass_straight(share, &times, &mut passed),
+            Passing::Straight(share) => self.pass_straight(*share, &times, &mut passed),
+            Passing::Given(states) => {
+                for (passed, states) in passed.iter_mut().zip(states) {
+                    *passed = states.map(|state| MotionState {
+                        position: state.position,
+                        velocity: state.velocity / duration,
+                        acceleration: state.acceleration / duration.powi(2),
+                    });
+                }
+            }
         }
         let mut from = self.start;
         let legs = self.legs.iter().zip(passed).zip(times);
@@ -239,10 +285,7 @@ fn shortest(stages: &[Stage], limits: &[JointLimits; 7]) -> f64 {
             let t = trajectory.duration * step as f64 / CHECKED as f64;
             let (states, jerk) = (trajectory.at(t), trajectory.jerk(t));
             for (joint, (state, limit)) in states.iter().zip(limits).enumerate() {
-                duration = duration
-                    .max(state.velocity.abs() / (USE * limit.velocity))
-                    .max((state.acceleration.abs() / (USE * limit.acceleration)).sqrt())
-                    .max((jerk[joint].abs() / (USE * limit.jerk)).cbrt());
+                duration = duration.max(load(state, jerk[joint], limit));
             }
         }
     }

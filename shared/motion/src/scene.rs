@@ -5,8 +5,8 @@ use crate::Obstacle;
 pub struct Scene {
     /// All obstacles.
     pub obstacles: Vec<Obstacle>,
-    /// Name of the one obstacle that the hand, and what it holds, may touch now: the part that it grasps, or the
-    /// fixture into which it puts one.
+    /// Names of the obstacles that the hand, and what it holds, may touch now: the part that it grasps, or the fixture
+    /// into which it puts one.
     pub touchable: Vec<String>,
 }
 

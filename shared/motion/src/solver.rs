@@ -33,14 +33,8 @@ impl Solver<'_> {
         let mut random = Pcg64::seed_from_u64(7);
         let limits = self.clearance.mechanism.limits();
         let joints = self.clearance.mechanism.joints();
-        let mut anywhere = || {
-            let mut posture = [0.0; 7];
-            for joint in 0..joints {
-                posture[joint] = random.random_range(limits[joint].lower..limits[joint].upper);
-            }
-            posture
-        };
-        std::iter::once(*self.from).chain((0..count).map(|_| anywhere())).collect()
+        let anywhere = (0..count).map(|_| anywhere(&mut random, &limits, joints));
+        std::iter::once(*self.from).chain(anywhere).collect()
     }
 
     /// The posture with the palm at the goal, turned by `roll` rad (free when the goal says so), `back` m before it.

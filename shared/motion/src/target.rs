@@ -2,6 +2,7 @@ use crate::comfort::cost;
 use crate::solver::Solver;
 use crate::{Clearance, Mechanism, Refusal};
 use coact_robot::{HandGoal, Posture};
+use nalgebra::Isometry3;
 use std::f64::consts::TAU;
 
 /// A posture at a goal, and one before it.
@@ -26,6 +27,8 @@ pub(crate) struct TargetSearch<'a> {
     pub touching: Clearance<'a>,
     pub goals: &'a [HandGoal],
     pub from: &'a Posture,
+    /// Motions that the hand makes next, one of them, with what it has grasped.
+    pub then: &'a [Isometry3<f64>],
     /// Distances that are kept, m: on the way, and at the goal.
     pub margin: [f64; 2],
 }
@@ -48,13 +51,18 @@ const MARGIN: f64 = 0.0175;
 const LARGEST_STEP: f64 = 0.9;
 /// Targets that are offered, and how much they differ at least, rad² (weighted).
 const OFFERED: (usize, f64) = (6, 0.3);
+/// Targets that are compared where something follows.
+const COMPARED: usize = 24;
+/// Postures at the end of what follows that are checked at most.
+const NEXT: usize = 60;
 /// Candidates that are checked at most.
 const CHECKED: usize = 2000;
 /// Places from which the numerical solver starts, besides the present posture.
 const STARTS: u32 = 24;
 
 impl TargetSearch<'_> {
-    /// The best targets, best first; they differ from each other.
+    /// The best targets, best first; they differ from each other. Where something follows, those come first from which
+    /// the hand can go on, by the cost of both ways.
     ///
     /// # Errors
     /// The constraint that binds, when there is none.
@@ -69,9 +77,15 @@ impl TargetSearch<'_> {
             {
                 offered.push(self.refine(target, candidate));
             }
-            if offered.len() == OFFERED.0 {
+            if offered.len() == if self.then.is_empty() { OFFERED.0 } else { COMPARED } {
                 break;
             }
+        }
+        if !self.then.is_empty() {
+            let mut both: Vec<_> =
+                offered.iter().map(|target| (target.cost + self.cost_of_next(&target.at), *target)).collect();
+            both.sort_by(|one, other| one.0.total_cmp(&other.0));
+            offered = both.into_iter().map(|(_, target)| target).take(OFFERED.0).collect();
         }
         if offered.is_empty() { Err(self.refusal(&candidates)) } else { Ok(offered) }
     }
@@ -141,6 +155,27 @@ impl TargetSearch<'_> {
         let branches = srs.solve(&palm, candidate.swivel, MARGIN);
         let near = branches.as_slice().iter().filter(|before| largest_step(before, at) <= LARGEST_STEP);
         near.min_by(|one, other| cost(one, at).total_cmp(&cost(other, at))).copied()
+    }
+
+    /// Cost of the way to where the hand is next, rad²; infinite when it cannot go on from this posture.
+    fn cost_of_next(&self, at: &Posture) -> f64 {
+        let palm = self.mechanism().arm.palm(at);
+        let mut next: Vec<Posture> =
+            self.then.iter().flat_map(|then| self.postures_at(&(then * palm), at)).collect();
+        next.sort_by(|one, other| cost(one, at).total_cmp(&cost(other, at)));
+        let clear = next.iter().take(NEXT).find(|next| self.touching.is_clear(next, self.margin[1]));
+        clear.map_or(f64::INFINITY, |next| cost(next, at))
+    }
+
+    /// Postures with the palm there, found from another posture.
+    fn postures_at(&self, palm: &Isometry3<f64>, from: &Posture) -> Vec<Posture> {
+        if let Some(srs) = &self.mechanism().closed_form {
+            let branches = (0..SWIVELS).map(|step| srs.solve(palm, angle(step, SWIVELS), MARGIN));
+            return branches.flat_map(|branches| branches.as_slice().to_vec()).collect();
+        }
+        let solver = Solver { clearance: self.touching, from, margin: self.margin[1] };
+        let goal = self.mechanism().goal_of(palm);
+        solver.starts(STARTS).iter().filter_map(|start| solver.reach(&goal, 0.0, 0.0, start)).collect()
     }
 
     /// Looks for a cheaper target around a candidate, in ever smaller steps of swivel and roll.

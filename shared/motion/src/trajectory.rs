@@ -19,6 +19,7 @@ pub struct Trajectory {
 
 /// Instants at which a movement is held against the limits.
 pub(crate) const CHECKED: usize = 64;
+
 impl Trajectory {
     /// Positions at the share `s` of the time, rad.
     pub fn posture(&self, s: f64) -> Posture {
@@ -65,13 +66,7 @@ impl Trajectory {
         (0..=CHECKED).find_map(|step| {
             let t = self.duration * step as f64 / CHECKED as f64;
             let (states, jerk) = (self.at(t), self.jerk(t));
-            (0..7).find(|&joint| {
-                let (state, limit) = (&states[joint], &limits[joint]);
-                !limit.contain(state.position, -1e-9)
-                    || state.velocity.abs() > limit.velocity
-                    || state.acceleration.abs() > limit.acceleration
-                    || jerk[joint].abs() > limit.jerk
-            })
+            (0..7).find(|&joint| !limits[joint].allows(&states[joint], jerk[joint]))
         })
     }
 }

@@ -1,9 +1,11 @@
+use crate::bell::during;
 use crate::comfort::{WEIGHT, cost};
 use crate::quadratic::Quadratic;
+use crate::roughness::Roughness;
 use crate::route::Route;
 use crate::solver::anywhere;
 use crate::trajectory::excursion;
-use crate::{Clearance, Margin, Near, Refusal, Stage, StageKind, Trajectory};
+use crate::{Clearance, Margin, Near, Plan, Refusal, Stage, StageKind, Trajectory, bell};
 use coact_robot::{JointLimits, Posture};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -30,21 +32,31 @@ const STEPS: u32 = 25;
 const NEARBY: f64 = 0.06;
 /// Demands on one step at most: the nearest ones.
 const DEMANDS: usize = 120;
-/// Room for what lies between the points, m.
+/// Room for what lies between the points, m, and by how much a plan may come nearer than its stages.
 const BETWEEN: f64 = 0.004;
+const BETWEEN_KNOTS: f64 = 0.001;
 /// Postures that are drawn at most until one is clear.
 const DRAWS: u32 = 40;
 /// Largest change of the excursion in one step, rad.
 const TRUST: f64 = 0.5;
 
-impl Way<'_> {
+impl<'a> Way<'a> {
+    /// The direct movement along the route.
+    ///
     /// # Errors
-    /// [`Refusal::Way`] when nothing was found, [`Refusal::TooFast`] when the start is too fast for the rest.
-    pub fn find(&self) -> Result<Vec<Stage>, Refusal> {
-        let direct = self.timed([0.0; 7])?;
-        self.check_straight_stages(&direct)?;
-        let Some(reach) = reach(&direct) else { return Ok(direct) };
-        let Some(nearest) = self.worst(&reach, CHECKED) else { return Ok(direct) };
+    /// [`Refusal::TooFast`] when the start is too fast for the rest.
+    pub fn direct(&self) -> Result<Vec<Stage>, Refusal> {
+        self.timed([0.0; 7])
+    }
+
+    /// The movement with the smallest excursion that keeps clear.
+    ///
+    /// # Errors
+    /// [`Refusal::Way`] when nothing was found.
+    pub fn find(&self, direct: &[Stage]) -> Result<Vec<Stage>, Refusal> {
+        self.check_straight_stages(direct)?;
+        let Some(reach) = reach(direct) else { return Ok(direct.to_vec()) };
+        let Some(nearest) = self.worst(&reach, CHECKED) else { return Ok(direct.to_vec()) };
         let mut random = Pcg64::seed_from_u64(11);
         for attempt in 0..self.tries {
             let bounce = if attempt == 0 { [0.0; 7] } else { self.somewhere(&reach, &mut random, attempt) };
@@ -55,26 +67,43 @@ impl Way<'_> {
         Err(self.refusal(&nearest))
     }
 
-    /// The movement with the smallest excursion near this posture, half-way through the reach.
-    pub fn find_near(&self, via: &Posture) -> Option<Vec<Stage>> {
-        let direct = self.timed([0.0; 7]).ok()?;
+    /// The movement with the smallest excursion near one of these postures, half-way through the reach.
+    pub fn find_near(&self, vias: &[Posture]) -> Option<Vec<Stage>> {
+        let direct = self.direct().ok()?;
         self.check_straight_stages(&direct).ok()?;
         let reach = reach(&direct)?;
-        let middle = reach.posture(0.5);
-        self.shrink(std::array::from_fn(|joint| via[joint] - middle[joint]), &reach)
+        vias.iter().find_map(|via| self.shrink(bounce_to(via, &reach), &reach))
     }
 
-    /// The movement along a route of several reaches, if all of it is clear.
+    /// These stages, with hand and joints moving more smoothly, if that is clear.
+    pub fn smooth(&self, stages: &[Stage]) -> Option<Vec<Stage>> {
+        let room = |t: f64| {
+            let (clearance, margin) = self.room(stages, t);
+            (clearance, margin + BETWEEN)
+        };
+        let change = self.route.smoothing(self.clearance.mechanism, stages, &room);
+        let stages = self.route.changed(stages, &change).timed(&self.limits).ok()?;
+        self.check(&stages).is_ok().then_some(stages)
+    }
+
+    /// Holds all stages against everything.
     ///
     /// # Errors
-    /// As [`Way::find`].
-    pub fn follow(&self) -> Result<Vec<Stage>, Refusal> {
-        let stages = self.timed([0.0; 7])?;
-        self.check_straight_stages(&stages)?;
+    /// What comes too near.
+    pub fn check(&self, stages: &[Stage]) -> Result<(), Refusal> {
+        self.check_straight_stages(stages)?;
         let reaches = stages.iter().filter(|stage| stage.kind == StageKind::Reach);
-        match reaches.filter_map(|stage| self.worst(&stage.trajectory, CHECKED)).next() {
-            None => Ok(stages),
-            Some(worst) => Err(self.refusal(&worst)),
+        let mut worst = reaches.filter_map(|stage| self.worst(&stage.trajectory, CHECKED));
+        worst.next().map_or(Ok(()), |worst| Err(self.refusal(&worst)))
+    }
+
+    /// The distances that count at an instant of these stages, and how much of them is kept, m.
+    fn room(&self, stages: &[Stage], t: f64) -> (Clearance<'a>, f64) {
+        let Some((stage, t)) = during(stages, t) else { return (self.clearance, self.margin.way) };
+        let s = t / stage.trajectory.duration;
+        match stage.kind {
+            StageKind::Reach => (self.clearance, self.margin.at(s)),
+            kind => (self.touching, self.straight_margin(kind, s)),
         }
     }
 
@@ -90,11 +119,9 @@ impl Way<'_> {
     fn check_straight_stages(&self, stages: &[Stage]) -> Result<(), Refusal> {
         let straight = stages.iter().filter(|stage| stage.kind != StageKind::Reach);
         let near = straight.flat_map(|stage| {
-            // The start is where it is: leaving may begin nearer than the margin.
             let postures = (0..=WATCHED).map(|point| f64::from(point) / f64::from(WATCHED));
             postures.filter_map(|s| {
-                let begins = stage.kind == StageKind::Leave && s < 0.5;
-                let margin = if begins { 0.0 } else { self.margin.goal };
+                let margin = self.straight_margin(stage.kind, s);
                 let near = self.touching.nearest(&stage.trajectory.posture(s), margin)?;
                 Some((margin - near.distance, near))
             })
@@ -208,16 +235,29 @@ impl Way<'_> {
         let middle = reach.posture(0.5);
         let joints = self.clearance.mechanism.joints();
         let share = (0.12 * f64::from(attempt)).min(0.9);
-        let mut excursion = [0.0; 7];
+        let mut posture = middle;
         for _ in 0..DRAWS {
             let anywhere = anywhere(random, &self.limits, joints);
-            excursion = std::array::from_fn(|joint| share * (anywhere[joint] - middle[joint]));
-            let posture = std::array::from_fn(|joint| middle[joint] + excursion[joint]);
+            posture = std::array::from_fn(|joint| middle[joint] + share * (anywhere[joint] - middle[joint]));
             if self.clearance.is_clear(&posture, self.margin.way) {
                 break;
             }
         }
-        excursion
+        bounce_to(&posture, reach)
+    }
+
+    /// The stages as a plan, whose law of time is that of one bell where that keeps clear and within the limits.
+    pub fn plan(&self, stages: &[Stage]) -> (Roughness, Plan) {
+        let keeps = |t: f64, posture: &Posture| {
+            let (clearance, margin) = self.room(stages, t);
+            clearance.is_clear(posture, margin - BETWEEN_KNOTS)
+        };
+        bell::timed(self.clearance.mechanism, stages, &self.limits, &keeps)
+    }
+
+    /// What is kept while leaving and approaching, m. The start is where it is: leaving may begin nearer than the margin.
+    fn straight_margin(&self, kind: StageKind, s: f64) -> f64 {
+        if kind == StageKind::Leave && s < 0.5 { 0.0 } else { self.margin.goal }
     }
 
     fn refusal(&self, (share, near): &(f64, Near)) -> Refusal {
@@ -228,6 +268,12 @@ impl Way<'_> {
 
 /// Cost of each metre by which a demand is not met, rad².
 const PENALTY: f64 = 200.0;
+
+/// The bounce with which a reach is at a posture half-way.
+fn bounce_to(posture: &Posture, reach: &Trajectory) -> Posture {
+    let middle = reach.posture(0.5);
+    std::array::from_fn(|joint| reach.bounce[joint] + posture[joint] - middle[joint])
+}
 
 fn reach(stages: &[Stage]) -> Option<Trajectory> {
     stages.iter().find(|stage| stage.kind == StageKind::Reach).map(|stage| stage.trajectory)

@@ -87,6 +87,7 @@ fn an_arm_without_closed_form_reaches_what_it_can_reach() {
             start: mechanism.park.map(MotionState::at_rest),
             leave: None,
             aim: Aim::Hand(vec![goal]),
+            then: Vec::new(),
             margin: Margin::default(),
         };
         let plan = problem.plan().unwrap();

@@ -25,7 +25,7 @@ fn grip_at(x: f64, y: f64, z: f64) -> HandGoal {
 fn problem<'a>(scene: &'a Scene, start: [MotionState; 7], goal: HandGoal) -> Problem<'a> {
     let (mechanism, body) = &*AROS;
     let (aim, margin) = (Aim::Hand(vec![goal]), Margin::default());
-    Problem { mechanism, body, scene, start, leave: None, aim, margin }
+    Problem { mechanism, body, scene, start, leave: None, aim, then: Vec::new(), margin }
 }
 
 fn parked() -> [MotionState; 7] {
@@ -62,7 +62,7 @@ fn the_hand_comes_to_its_goal_from_the_side_it_was_told() {
 fn what_stands_in_the_way_is_passed_at_the_margin() {
     let goal = grip_at(-0.55, 0.25, 0.9);
     let free = problem(&Scene::default(), parked(), goal).plan().unwrap();
-    let middle = grasp_point(&posture(&free, 0.45));
+    let middle = grasp_point(&posture(&free, 0.4));
     let scene = pillar(middle.x, middle.y);
     let problem = problem(&scene, parked(), goal);
     let plan = problem.plan().unwrap();
@@ -109,6 +109,52 @@ fn the_same_problem_gives_the_same_movement() {
     let scene = pillar(-0.3, 0.45);
     let plan = || problem(&scene, parked(), grip_at(-0.55, 0.25, 0.9)).plan();
     assert_eq!(plan(), plan());
+}
+
+/// Whether the hand can stand so, with nothing around.
+fn can_stand(palm: &Isometry3<f64>) -> bool {
+    let closed_form = AROS.0.closed_form.as_ref().unwrap();
+    (0..72).any(|step| !closed_form.solve(palm, f64::from(step) * 0.0873, 0.0175).as_slice().is_empty())
+}
+
+#[test]
+fn a_part_that_goes_on_is_gripped_so_that_the_hand_can_go_on() {
+    let scene = Scene::default();
+    let part = Isometry3::translation(-0.45, 0.5, 0.85);
+    let grips = (0..12)
+        .map(|side| {
+            HandGoal::grip_from_side(&part, 0.04, f64::from(side) * std::f64::consts::FRAC_PI_6, 0.15)
+        })
+        .collect();
+    let mut problem = problem(&scene, parked(), grip_at(0.0, 0.0, 0.0));
+    problem.aim = Aim::Hand(grips);
+    let palm = |plan: &Plan| AROS.0.arm.palm(&plan.target.unwrap().at);
+    let comfortable = palm(&problem.plan().unwrap());
+    let mut others = 0;
+    for turn in 1..8 {
+        let socket = Isometry3::translation(-0.7, 0.2, 1.0)
+            * nalgebra::UnitQuaternion::from_axis_angle(
+                &Vector3::z_axis(),
+                std::f64::consts::FRAC_PI_4 * f64::from(turn),
+            );
+        let then = socket * part.inverse();
+        problem.then = vec![then];
+        let plan = problem.plan().unwrap();
+        if !can_stand(&(then * comfortable)) && can_stand(&(then * palm(&plan))) {
+            others += 1;
+        }
+        assert!(can_stand(&(then * palm(&plan))) || !can_stand(&(then * comfortable)), "turn {turn}");
+    }
+    assert!(others > 0, "the comfortable grip could go on everywhere");
+}
+
+#[test]
+fn what_follows_is_no_reason_to_refuse_a_grip() {
+    let scene = Scene::default();
+    let mut problem = problem(&scene, parked(), grip_at(-0.4, 0.55, 0.8));
+    let target = problem.plan().unwrap().target;
+    problem.then = vec![Isometry3::translation(0.0, 0.0, 50.0)];
+    assert_eq!(problem.plan().unwrap().target, target);
 }
 
 proptest! {

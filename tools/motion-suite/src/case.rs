@@ -27,6 +27,7 @@ impl Case {
             start: self.start,
             leave: self.leave,
             aim: self.aim.clone(),
+            then: Vec::new(),
             margin: Margin::default(),
         }
     }

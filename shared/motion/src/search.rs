@@ -1,0 +1,158 @@
+use crate::choice::Choice;
+use crate::route::{Passing, Route};
+use crate::way::Way;
+use crate::{Aim, Plan, Problem, Refusal, Stage, StageKind, Target, detour};
+use coact_robot::Posture;
+
+/// The search for a movement to one of several targets on which the hand moves in one unit.
+pub(crate) struct Search<'a> {
+    pub problem: &'a Problem<'a>,
+    /// The posture after leaving.
+    pub away: Option<Posture>,
+    pub choice: Choice,
+}
+
+/// How stages are joined where they cannot be joined smoothly: ever more straightly and slowly.
+const STRAIGHT: [Passing; 3] = [Passing::Straight(1.0), Passing::Straight(0.5), Passing::Straight(0.0)];
+/// Targets for which all kinds of ways are tried before the next ones.
+const AT_ONCE: usize = 2;
+/// Excursions that are tried for each target.
+const TRIES: u32 = 2;
+/// Distance beyond the margin that a way through several postures keeps before it is made smooth, m: first, then.
+const ROOM: [f64; 2] = [0.02, 0.004];
+/// Postures that a way passes at most.
+const MOST_VIAS: usize = 12;
+
+impl<'a> Search<'a> {
+    /// The first movement in one unit, or else the smoothest one.
+    ///
+    /// # Errors
+    /// The constraint that binds.
+    pub fn run(mut self, targets: &[Target]) -> Result<Plan, Refusal> {
+        let kinds: [fn(&mut Self, &Target); 4] =
+            [Self::direct, Self::through_the_middle, Self::straighter, Self::bounce];
+        for few in targets.chunks(AT_ONCE) {
+            for target in few {
+                for offer in kinds {
+                    offer(&mut self, target);
+                    if self.choice.is_smooth() {
+                        return self.choice.result();
+                    }
+                }
+            }
+            for target in few {
+                if self.choice.is_open() {
+                    self.detour(target);
+                }
+            }
+            if self.choice.is_smooth() {
+                break;
+            }
+        }
+        self.choice.result()
+    }
+
+    /// Where the reach begins.
+    fn from(&self) -> Posture {
+        self.away.unwrap_or_else(|| self.problem.start.map(|state| state.position))
+    }
+
+    /// The direct movement.
+    fn direct(&mut self, target: &Target) {
+        let way = self.way(target, &[], Passing::Smooth);
+        match way.direct() {
+            Ok(stages) => self.offer(&way, target, &stages, false),
+            Err(refusal) => self.choice.refuse(refusal),
+        }
+    }
+
+    /// The direct movement, but free in how it passes its middle.
+    fn through_the_middle(&mut self, target: &Target) {
+        self.follow(target, &detour::denser(&self.from(), &[], &target.before));
+    }
+
+    /// The direct movement with stages joined less smoothly.
+    fn straighter(&mut self, target: &Target) {
+        if self.away.is_none() && target.before == target.at {
+            return;
+        }
+        for passing in STRAIGHT {
+            let way = self.way(target, &[], passing);
+            if let Ok(stages) = way.direct() {
+                self.offer(&way, target, &stages, false);
+            }
+            if self.choice.is_smooth() {
+                return;
+            }
+        }
+    }
+
+    /// The movement with a single excursion.
+    fn bounce(&mut self, target: &Target) {
+        for passing in [Passing::Smooth].into_iter().chain(STRAIGHT) {
+            let way = self.way(target, &[], passing);
+            match way.direct().and_then(|direct| way.find(&direct)) {
+                Ok(stages) => self.offer(&way, target, &stages, true),
+                Err(refusal) => self.choice.refuse(refusal),
+            }
+            if self.choice.is_smooth() || self.away.is_none() && target.before == target.at {
+                return;
+            }
+        }
+    }
+
+    /// A movement through several postures.
+    fn detour(&mut self, target: &Target) {
+        for room in ROOM {
+            let margin = self.problem.margin.way + room;
+            let found = detour::find(&self.problem.clearance(), &self.from(), &target.before, margin);
+            let Some(mut vias) = found else { continue };
+            let way = self.way(target, &[], Passing::Smooth);
+            if let Some(stages) = way.find_near(&vias) {
+                self.offer(&way, target, &stages, true);
+            }
+            while self.choice.is_open() && vias.len() < MOST_VIAS {
+                self.follow(target, &vias);
+                vias = detour::denser(&self.from(), &vias, &target.before);
+            }
+        }
+    }
+
+    /// The movement through these postures.
+    fn follow(&mut self, target: &Target, vias: &[Posture]) {
+        let way = self.way(target, vias, Passing::Smooth);
+        if let Ok(stages) = way.direct() {
+            self.offer(&way, target, &stages, true);
+        }
+    }
+
+    /// Offers stages more smoothly than they are and as they are, as far as they are clear.
+    fn offer(&mut self, way: &Way, target: &Target, stages: &[Stage], bounces: bool) {
+        let target = matches!(self.problem.aim, Aim::Hand(_)).then_some(*target);
+        let clear = way.check(stages);
+        let bounces = bounces || clear.is_err();
+        if let Some(smoother) = way.smooth(stages) {
+            self.choice.offer(way.plan(&smoother), target, bounces);
+            if stages.len() == 1 && self.choice.is_smooth() {
+                return;
+            }
+        }
+        match clear {
+            Ok(()) => self.choice.offer(way.plan(stages), target, bounces),
+            Err(refusal) => self.choice.refuse(refusal),
+        }
+    }
+
+    /// The way to a target through these postures.
+    fn way(&self, target: &Target, vias: &[Posture], passing: Passing) -> Way<'a> {
+        let Problem { mechanism, start, margin, .. } = *self.problem;
+        let limits = mechanism.limits();
+        let leave = self.away.map(|away| (StageKind::Leave, away));
+        let reaches = vias.iter().chain([&target.before]).map(|posture| (StageKind::Reach, *posture));
+        let approach = (target.before != target.at).then_some((StageKind::Approach, target.at));
+        let legs = leave.into_iter().chain(reaches).chain(approach).collect();
+        let route = Route::new(mechanism, start, legs, passing).smoothest(mechanism, &limits);
+        let (clearance, touching) = (self.problem.clearance(), self.problem.touching());
+        Way { clearance, touching, limits, route, margin, tries: TRIES }
+    }
+}

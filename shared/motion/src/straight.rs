@@ -1,0 +1,233 @@
+//! Movements in which the hand moves most smoothly: people move the hand on nearly straight ways, and the joints on
+//! whatever ways that takes.
+
+use crate::body::Frames;
+use crate::comfort::WEIGHT;
+use crate::trajectory::excursion;
+use crate::{Clearance, Mechanism, Stage, StageKind};
+use coact_robot::{MotionState, Posture, Quintic};
+use nalgebra::{DMatrix, DVector, Matrix3xX, Vector3};
+
+/// Places of the hand between which its jerk is measured.
+const PIECES: usize = 36;
+/// Steps of Gauss and Newton, and the shares of one that are tried until it makes the movement smoother.
+const STEPS: u32 = 8;
+const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.1];
+/// What the joints' jerk counts for against that of the hand, 1/rad².
+const JOINTS: f64 = 0.03;
+
+/// What a joint beyond its limits of position costs at each place, 1/rad², the distance from them that is kept, rad, and
+/// what coming too near to something costs, 1/m².
+const BEYOND: f64 = 1e7;
+const FROM_LIMITS: f64 = 0.01;
+const TOO_NEAR: f64 = 1e7;
+
+/// What may be changed: for each joint the bounce of the reach and, where they are free, velocity and acceleration at
+/// each posture passed, as for a movement of 1 s; and the posture itself where it lies between two reaches.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Change {
+    pub bounce: Posture,
+    pub passed: Vec<[Posture; 3]>,
+}
+
+/// The change of these stages for which the jerk of hand and joints is least.
+/// `room`: the distances that count at an instant of the stages, and how much of them is kept, m.
+pub(crate) fn smoothest<'a>(
+    mechanism: &'a Mechanism,
+    stages: &[Stage],
+    is_free: bool,
+    room: &dyn Fn(f64) -> (Clearance<'a>, f64),
+) -> Change {
+    let smoothing = Smoothing::of(mechanism, stages, is_free, room);
+    let mut best = DVector::zeros(7 * smoothing.shapes.len());
+    let mut way = smoothing.way(&best);
+    for _ in 0..STEPS {
+        let Some(step) = smoothing.step(&way, &best) else { break };
+        let smoother = SHARES.iter().find_map(|share| {
+            let next = &best + *share * &step;
+            let found = smoothing.way(&next);
+            (found.merit < way.merit).then_some((next, found))
+        });
+        match smoother {
+            Some(found) => (best, way) = found,
+            None => break,
+        }
+    }
+    let of = |shape: usize| std::array::from_fn(|joint| best[7 * shape + joint]);
+    let passed = (0..smoothing.shapes.len() / 3).map(|via| [0, 1, 2].map(|order| of(1 + 3 * via + order)));
+    Change { bounce: of(0), passed: passed.collect() }
+}
+
+/// The movement of all joints in 1 s, and how it can be changed.
+struct Smoothing<'a> {
+    mechanism: &'a Mechanism,
+    /// Postures at equal steps of time.
+    postures: Vec<Posture>,
+    /// Distances that count there, and how much of them is kept, m.
+    room: Vec<(Clearance<'a>, f64)>,
+    /// Shapes of the changes at these steps, the same for all joints.
+    shapes: Vec<Vec<f64>>,
+    /// Third differences of the shapes, as jerks.
+    jerks: Vec<Vec<f64>>,
+}
+
+/// How the hand moves.
+struct Way {
+    merit: f64,
+    /// Jerks of the hand over the length of its way, and their changes.
+    jerk: Vec<Vector3<f64>>,
+    slope: Vec<Matrix3xX<f64>>,
+    /// What is not kept, and its change by the joints, each with its step.
+    broken: Vec<(usize, f64, Posture)>,
+}
+
+impl<'a> Smoothing<'a> {
+    fn of(
+        mechanism: &'a Mechanism,
+        stages: &[Stage],
+        is_free: bool,
+        room: &dyn Fn(f64) -> (Clearance<'a>, f64),
+    ) -> Self {
+        let total: f64 = stages.iter().map(|stage| stage.trajectory.duration).sum();
+        let mut shapes = vec![Vec::new(); 1 + if is_free { 3 * (stages.len() - 1) } else { 0 }];
+        let mut postures = Vec::new();
+        for piece in 0..=PIECES {
+            let (mut t, mut index) = (piece as f64 / PIECES as f64 * total, 0);
+            while index + 1 < stages.len() && t >= stages[index].trajectory.duration {
+                t -= stages[index].trajectory.duration;
+                index += 1;
+            }
+            let Stage { kind, trajectory } = &stages[index];
+            postures.push(trajectory.at(t).map(|state| state.position));
+            let own = trajectory.duration / total;
+            let [share, ..] = excursion((t / trajectory.duration).min(1.0));
+            shapes[0].push(if *kind == StageKind::Reach { share } else { 0.0 });
+            for (shape, values) in shapes.iter_mut().enumerate().skip(1) {
+                let (via, order) = ((shape - 1) / 3, (shape - 1) % 3);
+                let is_between = [via, via + 1].iter().all(|stage| stages[*stage].kind == StageKind::Reach);
+                let of = |which: usize| if order == which { 1.0 } else { 0.0 };
+                let position = if is_between { of(0) } else { 0.0 };
+                let moved = MotionState { position, velocity: of(1), acceleration: of(2) };
+                let rest = MotionState::default();
+                values.push(match index {
+                    before if before == via => Quintic::new(rest, moved, own).at(t / total).position,
+                    after if after == via + 1 => Quintic::new(moved, rest, own).at(t / total).position,
+                    _ => 0.0,
+                });
+            }
+        }
+        let room = (0..=PIECES).map(|piece| room(piece as f64 / PIECES as f64 * total)).collect();
+        let jerks = shapes.iter().map(|shape| shape.windows(4).map(|p| third(p) * UNIT).collect()).collect();
+        Self { mechanism, postures, room, shapes, jerks }
+    }
+
+    fn way(&self, change: &DVector<f64>) -> Way {
+        let joints = self.mechanism.joints();
+        let count = self.shapes.len();
+        let postures: Vec<Posture> = (0..=PIECES)
+            .map(|piece| {
+                std::array::from_fn(|joint| {
+                    let changes =
+                        (0..count).map(|shape| self.shapes[shape][piece] * change[7 * shape + joint]);
+                    self.postures[piece][joint] + changes.sum::<f64>()
+                })
+            })
+            .collect();
+        let mut places = Vec::with_capacity(PIECES + 1);
+        let mut slopes = Vec::with_capacity(PIECES + 1);
+        for (piece, posture) in postures.iter().enumerate() {
+            let frames = Frames::of(self.mechanism, posture);
+            let hand = frames.pose[joints - 1] * self.mechanism.arm.tool * self.mechanism.grasp_point();
+            let jacobian = frames.jacobian(&hand, joints);
+            let mut slope = Matrix3xX::zeros(7 * count);
+            for (shape, values) in self.shapes.iter().enumerate() {
+                slope.fixed_columns_mut::<7>(7 * shape).copy_from(&(values[piece] * jacobian));
+            }
+            places.push(hand.coords);
+            slopes.push(slope);
+        }
+        let broken = self.broken(&postures);
+        let length: f64 = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        let unit = UNIT / length.max(1e-3);
+        let jerk: Vec<_> = places.windows(4).map(|p| (p[3] - p[0] + 3.0 * (p[1] - p[2])) * unit).collect();
+        let slope = slopes.windows(4).map(|p| (&p[3] - &p[0] + 3.0 * (&p[1] - &p[2])) * unit).collect();
+        let of_joints: f64 = (0..7)
+            .map(|joint| {
+                let angles: Vec<f64> = postures.iter().map(|posture| posture[joint]).collect();
+                WEIGHT[joint] * angles.windows(4).map(|p| (third(p) * UNIT).powi(2)).sum::<f64>()
+            })
+            .sum();
+        let merit = jerk.iter().map(Vector3::norm_squared).sum::<f64>()
+            + JOINTS * of_joints
+            + broken.iter().map(|(_, amount, _)| amount * amount).sum::<f64>();
+        Way { merit, jerk, slope, broken }
+    }
+
+    /// Limits and distances that are not kept.
+    fn broken(&self, postures: &[Posture]) -> Vec<(usize, f64, Posture)> {
+        let mut broken = Vec::new();
+        let mut near = Vec::new();
+        for (piece, posture) in postures.iter().enumerate() {
+            for (joint, limit) in self.mechanism.arm.joints.iter().map(|joint| joint.limits).enumerate() {
+                let (below, above) =
+                    (limit.lower + FROM_LIMITS - posture[joint], posture[joint] - limit.upper + FROM_LIMITS);
+                for (excess, sign) in
+                    [(below, -1.0), (above, 1.0)].into_iter().filter(|(excess, _)| *excess > 0.0)
+                {
+                    let mut slope = [0.0; 7];
+                    slope[joint] = sign * BEYOND.sqrt();
+                    broken.push((piece, excess * BEYOND.sqrt(), slope));
+                }
+            }
+            let (clearance, margin) = &self.room[piece];
+            clearance.near(posture, *margin, &mut near);
+            broken.extend(near.iter().map(|near| {
+                let short = (margin - near.distance) * TOO_NEAR.sqrt();
+                (piece, short, near.slope.map(|slope| -slope * TOO_NEAR.sqrt()))
+            }));
+        }
+        broken
+    }
+
+    /// The change that makes the merit least, were the hand's way linear in it.
+    fn step(&self, way: &Way, change: &DVector<f64>) -> Option<DVector<f64>> {
+        let count = self.shapes.len();
+        let (mut matrix, mut right) =
+            (DMatrix::<f64>::identity(7 * count, 7 * count) * 1e-9, DVector::zeros(7 * count));
+        for (jerk, slope) in way.jerk.iter().zip(&way.slope) {
+            matrix.gemm_tr(1.0, slope, slope, 1.0);
+            right.gemv_tr(-1.0, slope, jerk, 1.0);
+        }
+        for (piece, amount, slope) in &way.broken {
+            let row =
+                DVector::from_fn(7 * count, |column, _| self.shapes[column / 7][*piece] * slope[column % 7]);
+            matrix.ger(1.0, &row, &row, 1.0);
+            right.axpy(-amount, &row, 1.0);
+        }
+        for one in 0..count {
+            for joint in 0..7 {
+                let angles: Vec<f64> = self.postures.iter().map(|posture| posture[joint]).collect();
+                let given: f64 =
+                    angles.windows(4).zip(&self.jerks[one]).map(|(p, jerk)| third(p) * UNIT * jerk).sum();
+                right[7 * one + joint] -= JOINTS * WEIGHT[joint] * given;
+            }
+            for other in 0..count {
+                let product: f64 = self.jerks[one].iter().zip(&self.jerks[other]).map(|(a, b)| a * b).sum();
+                for joint in 0..7 {
+                    matrix[(7 * one + joint, 7 * other + joint)] += JOINTS * WEIGHT[joint] * product;
+                    right[7 * one + joint] -= JOINTS * WEIGHT[joint] * product * change[7 * other + joint];
+                }
+            }
+        }
+        matrix.cholesky().map(|factors| factors.solve(&right))
+    }
+}
+
+/// Third difference of four values.
+fn third(p: &[f64]) -> f64 {
+    p[3] - p[0] + 3.0 * (p[1] - p[2])
+}
+
+/// With this factor the squares of third differences of a movement of 1 s add up to half the integral of its squared
+/// jerk: sqrt(PIECES^5 / 2).
+const UNIT: f64 = 5498.5;
