@@ -93,7 +93,9 @@ impl<'a> Way<'a> {
     pub fn check(&self, stages: &[Stage]) -> Result<(), Refusal> {
         self.check_straight_stages(stages)?;
         let reaches = stages.iter().filter(|stage| stage.kind == StageKind::Reach);
-        let mut worst = reaches.filter_map(|stage| self.worst(&stage.trajectory, CHECKED));
+        let mut worst = reaches.filter_map(|stage| {
+            self.worst_of(&stage.trajectory, CHECKED, &|s| self.reach_margin(stages, stage, s))
+        });
         worst.next().map_or(Ok(()), |worst| Err(self.refusal(&worst)))
     }
 
@@ -102,7 +104,7 @@ impl<'a> Way<'a> {
         let Some((stage, t)) = during(stages, t) else { return (self.clearance, self.margin.way) };
         let s = t / stage.trajectory.duration;
         match stage.kind {
-            StageKind::Reach => (self.clearance, self.margin.at(s)),
+            StageKind::Reach => (self.clearance, self.reach_margin(stages, stage, s)),
             kind => (self.touching, self.straight_margin(kind, s)),
         }
     }
@@ -137,10 +139,21 @@ impl<'a> Way<'a> {
 
     /// The point of the way that comes nearest to something, if it comes nearer than the margin.
     fn worst(&self, way: &Trajectory, points: u32) -> Option<(f64, Near)> {
+        self.worst_of(way, points, &|s| self.margin.at(s))
+    }
+
+    fn worst_of(&self, way: &Trajectory, points: u32, margin: &dyn Fn(f64) -> f64) -> Option<(f64, Near)> {
         let shares = (0..=points).map(|point| f64::from(point) / f64::from(points));
-        let found =
-            shares.filter_map(|s| Some((s, self.clearance.nearest(&way.posture(s), self.margin.at(s))?)));
+        let found = shares.filter_map(|s| Some((s, self.clearance.nearest(&way.posture(s), margin(s))?)));
         found.min_by(|one, other| one.1.distance.total_cmp(&other.1.distance))
+    }
+
+    /// What is kept on a reach, m: it narrows where the first begins and the last ends, not where they meet.
+    fn reach_margin(&self, stages: &[Stage], stage: &Stage, s: f64) -> f64 {
+        let mut reaches = stages.iter().filter(|stage| stage.kind == StageKind::Reach);
+        let end = if s < 0.5 { reaches.next() } else { reaches.next_back() };
+        let is_end = end.is_some_and(|end| std::ptr::eq(end, stage));
+        if is_end { self.margin.at(s) } else { self.margin.way }
     }
 
     /// From this excursion, to the smallest one nearby that keeps clear.
