@@ -71,6 +71,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         start: start(&args, &setting)?,
         leave: None,
         aim: Aim::Hand(vec![goal(&args)?]),
+        then: Vec::new(),
         margin: Margin::default(),
     };
     let plan = problem.plan()?;
