@@ -1,5 +1,8 @@
+use crate::errand::Errand;
+use crate::memory::FINGER_JOINTS;
+use crate::places::Places;
 use coact_messages::{ARM_JOINTS, JOINTS};
-use coact_robot::{JointLimits, Posture, ROBOT_JOINTS, Robot};
+use coact_robot::{HAND_JOINTS, JointLimits, Robot};
 
 /// Gap between an open finger and the part that it opens around, m.
 const OPENING: f64 = 0.01;
@@ -42,25 +45,43 @@ impl Body {
         std::array::from_fn(|joint| own.get(joint).copied().unwrap_or(reserved))
     }
 
-    /// All angles for an arm posture and what the fingers do.
-    pub fn angles(&self, arm: &Posture, fingers: Fingers) -> [f64; JOINTS] {
+    /// Angles of the hand's joints (message order) for what the fingers do.
+    pub fn fingers(&self, fingers: Fingers) -> [f64; HAND_JOINTS] {
         let hand = &self.robot.hand;
-        let fingers = match fingers {
+        match fingers {
             Fingers::Relaxed => hand.posture(hand.base_for_width(RELAXED)),
             Fingers::Around(width) => hand.grasp(width, OPENING).angles,
             Fingers::On(width) => hand.grasp(width, -SQUEEZE * width).angles,
             Fingers::Slender => hand.posture(hand.base_for_width(SLENDER)),
             Fingers::HeldOut => hand.posture(HELD_OUT),
-        };
-        let mut angles = [0.0; JOINTS];
-        angles[..ARM_JOINTS].copy_from_slice(arm);
-        angles[ARM_JOINTS..ROBOT_JOINTS].copy_from_slice(&fingers);
+        }
+    }
+
+    /// The same with the reserved joint, as the servo takes them.
+    pub fn finger_joints(&self, fingers: Fingers) -> [f64; FINGER_JOINTS] {
+        let mut angles = [0.0; FINGER_JOINTS];
+        angles[..HAND_JOINTS].copy_from_slice(&self.fingers(fingers));
         angles
+    }
+
+    /// What the fingers do on the way to an errand's goal.
+    pub fn on_the_way(&self, errand: Errand, kind: Option<usize>, held: Option<usize>, places: &Places) -> Fingers {
+        let width = |kind: usize| places.width(kind);
+        match (errand, held, kind) {
+            (_, Some(held), _) => Fingers::On(width(held)),
+            (Errand::Take | Errand::Receive, _, Some(kind)) => Fingers::Around(width(kind)),
+            (Errand::Ask, ..) => Fingers::HeldOut,
+            (Errand::Steady | Errand::Point, ..) => Fingers::Slender,
+            _ => Fingers::Relaxed,
+        }
     }
 
     /// Angles at rest.
     pub fn park(&self) -> [f64; JOINTS] {
-        self.angles(&self.robot.park, Fingers::Relaxed)
+        let mut angles = [0.0; JOINTS];
+        angles[..ARM_JOINTS].copy_from_slice(&self.robot.park);
+        angles[ARM_JOINTS..].copy_from_slice(&self.finger_joints(Fingers::Relaxed));
+        angles
     }
 
     /// Measured angles as a place to start from: within the limits, and at rest where nothing usable was measured.

@@ -1,43 +1,86 @@
-use crate::body::Body;
+use crate::body::{Body, Fingers};
 use crate::choice::{self, Choice};
 use crate::errand::{Errand, Leg};
+use crate::guard::Guard;
 use crate::places::Places;
+use crate::planner::Planner;
+use crate::planning::Planning;
 use crate::senses::Senses;
 use crate::servo::Servo;
-use crate::{ControlError, Memory, Settings};
-use coact_joint_task::{Action, Task};
+use crate::{ControlError, Memory, PlanningThread, Settings};
+use coact_joint_task::{Action, Motion, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
 use coact_robot::Robot;
+use nalgebra::Isometry3;
 
 /// The control stage: decisions in, setpoints out, one period of 1 ms at each step.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Control {
     pub(crate) body: Body,
     pub(crate) places: Places,
     pub(crate) actions: Vec<Action>,
     pub(crate) settings: Settings,
     pub(crate) servo: Servo,
+    pub(crate) guard: Guard,
+    pub(crate) planning: Planning,
     pub(crate) memory: Memory,
     /// Whether setpoints have been sent, or recalled: then they go on from there.
     started: bool,
 }
 
 impl Control {
+    /// Control that plans its movements within the step that needs them: the same inputs always give the same bits.
+    ///
     /// # Errors
-    /// [`ControlError::Unreachable`] when the robot cannot reach a place that the task's actions need.
+    /// [`ControlError::Unreachable`] when the robot cannot reach a place that the task's actions need,
+    /// [`ControlError::Robot`] when its collision geometry cannot be used.
     pub fn new(robot: Robot, task: &Task, settings: Settings) -> Result<Self, ControlError> {
+        Ok(Self::with(robot, task, settings, |planner| (Planning::at_once(planner), ()))?.0)
+    }
+
+    /// Control for real time: its movements are planned by the thread that is returned, beside the servo.
+    ///
+    /// # Errors
+    /// As [`Control::new`].
+    pub fn in_real_time(
+        robot: Robot,
+        task: &Task,
+        settings: Settings,
+    ) -> Result<(Self, PlanningThread), ControlError> {
+        Self::with(robot, task, settings, Planning::beside)
+    }
+
+    fn with<T>(
+        robot: Robot,
+        task: &Task,
+        settings: Settings,
+        planning: impl FnOnce(Planner) -> (Planning, T),
+    ) -> Result<(Self, T), ControlError> {
         let body = Body { robot };
-        let places = Places::new(&body, task)?;
+        let places = Places::new(&body, task);
+        let planner = Planner::new(body.clone(), places.clone(), task)?;
+        check(&planner, &places, task)?;
+        let mut bodies = vec![planner.figure(Fingers::Relaxed, None)?];
+        for kind in 0..task.kinds.len() {
+            let goal = places.part(kind, &Isometry3::identity());
+            let palm = body.robot.hand.palm_at(&goal.point, &goal.approach, &goal.closing, 0.0);
+            bodies.push(planner.figure(Fingers::On(places.width(kind)), Some((kind, palm.inverse())))?);
+        }
         let park = body.park();
-        Ok(Self {
+        let guard = Guard::new(planner.mechanism().clone(), bodies);
+        let (planning, thread) = planning(planner);
+        let control = Self {
             servo: Servo::new(body.limits(), park),
             memory: Memory::at_rest(park),
+            guard,
+            planning,
             actions: task.actions.clone(),
             body,
             places,
             settings,
             started: false,
-        })
+        };
+        Ok((control, thread))
     }
 
     /// Continues from the last command of a predecessor: its setpoints, its movement, its errand.
@@ -69,7 +112,8 @@ impl Control {
             self.pursue(&senses);
             self.decide(&senses);
         }
-        self.servo.advance(&mut self.memory, !senses.blind());
+        let pace = self.pace(&senses);
+        self.servo.advance(&mut self.memory, !senses.blind(), pace);
         self.report(&senses, out);
         let measured = sample.map(|sample| sample.joints.position);
         out.tracking_error = std::array::from_fn(|joint| tracking_error(measured, before, joint));
@@ -105,12 +149,30 @@ impl Control {
         if leg.is_firm() || (choice.is_under_way(&self.memory) && !resting) {
             return;
         }
-        if leg.is_close() && self.memory.goal().back > 0.0 {
-            self.go_back(if self.memory.held().is_some() { Leg::Lift } else { Leg::Retreat });
-        } else if choice::can_begin(&choice, senses) {
+        if choice::can_begin(&choice, senses) {
+            self.memory.decided = senses.tick();
             self.begin(&choice, senses);
         } else if self.memory.errand() != Errand::Park || resting {
             self.begin(&Choice { errand: Errand::Park, ..choice }, senses);
+        }
+    }
+
+    /// How fast the arm may go on: slower, or not at all, where the person comes near.
+    fn pace(&mut self, senses: &Senses) -> f64 {
+        let Some(person) = senses.person_arm().filter(|_| !self.memory.arrived()) else { return 1.0 };
+        let Memory { course, elapsed, .. } = &self.memory;
+        let meets = self.memory.errand().meets();
+        let pace = self.guard.pace(course, *elapsed, self.memory.held(), &person, meets);
+        self.memory.blocked = if pace < 0.1 { self.memory.blocked + 1 } else { 0 };
+        pace
+    }
+
+    /// Notes how long after the decision its movement begins.
+    pub(crate) fn note_reaction(&mut self, senses: &Senses) {
+        if self.memory.decided > 0 {
+            self.memory.reaction = senses.tick() - self.memory.decided.min(senses.tick());
+            self.memory.begun += 1;
+            self.memory.decided = 0;
         }
     }
 
@@ -128,18 +190,43 @@ impl Control {
     }
 
     fn phase(&self) -> MotionPhase {
-        let (empty, leg) = (self.memory.held().is_none(), self.memory.leg());
-        match leg {
+        let empty = self.memory.held().is_none();
+        match self.memory.leg() {
             Leg::Rest => MotionPhase::Rest,
-            Leg::Park | Leg::Retreat if empty => MotionPhase::Retreat,
-            Leg::Plan | Leg::Reach if empty => MotionPhase::Reach,
-            Leg::Plan | Leg::Reach | Leg::Park | Leg::Retreat | Leg::Lift => MotionPhase::Transport,
+            Leg::Move if self.memory.course.is_approach(self.memory.elapsed) => MotionPhase::Approach,
+            Leg::Plan | Leg::Move if !empty => MotionPhase::Transport,
+            Leg::Plan | Leg::Move if self.memory.errand() == Errand::Park => MotionPhase::Retreat,
+            Leg::Plan | Leg::Move => MotionPhase::Reach,
             Leg::Await | Leg::Stay => MotionPhase::Hold,
-            Leg::Approach => MotionPhase::Approach,
             Leg::Close | Leg::Feel => MotionPhase::Grasp,
             Leg::Open => MotionPhase::Release,
         }
     }
+}
+
+/// Refuses a task with a place that the hand needs and cannot reach.
+fn check(planner: &Planner, places: &Places, task: &Task) -> Result<(), ControlError> {
+    for action in &task.actions {
+        let goals = match (action.motion, action.kind, action.subgoal) {
+            (Motion::Insert, Some(kind), Some(subgoal)) => vec![places.part(kind, &places.socket(subgoal))],
+            (Motion::Receive | Motion::Give, Some(kind), _) => {
+                vec![places.part(kind, &Isometry3::from_parts(places.handover().into(), Default::default()))]
+            }
+            (Motion::Request, ..) => vec![places.held_out()],
+            (Motion::Hold, ..) => vec![places.steadying()],
+            _ => continue,
+        };
+        let goal = goals[0];
+        if !planner.reaches(goals)? {
+            let [x, y, z]: [f64; 3] = goal.approach.into();
+            return Err(ControlError::Unreachable {
+                what: format!("the place for \"{}\"", action.name),
+                place: goal.point.coords.into(),
+                towards: format!("pointing along ({x:.2}, {y:.2}, {z:.2}) and {:.2} m before it", goal.back),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Measured minus commanded position, rad; 0 when nothing usable was measured.

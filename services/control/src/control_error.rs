@@ -1,5 +1,5 @@
 /// Why control refuses to start.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 pub enum ControlError {
     /// The hand cannot get where the task needs it.
     #[error(
@@ -14,4 +14,7 @@ pub enum ControlError {
         /// How the hand would have to stand there.
         towards: String,
     },
+    /// The arm's or the hand's collision geometry cannot be used.
+    #[error(transparent)]
+    Robot(#[from] coact_robot::RobotError),
 }

@@ -28,28 +28,20 @@ pub(crate) enum Errand {
 pub(crate) enum Leg {
     /// Standing, ready for the next errand.
     Rest = 0,
-    /// Moving to the park posture.
-    Park = 1,
-    /// Searching the postures; a movement under way goes on meanwhile.
-    Plan = 2,
-    /// Moving to the pose before the goal.
-    Reach = 3,
+    /// Waiting for the plan; a movement under way goes on meanwhile.
+    Plan = 1,
+    /// Moving along the plan: out of where the hand is, to the goal.
+    Move = 2,
     /// Waiting before the goal for the person to bring the part.
-    Await = 4,
-    /// Moving straight to the goal.
-    Approach = 5,
+    Await = 3,
     /// Closing the fingers.
-    Close = 6,
+    Close = 4,
     /// Feeling whether something is between them.
-    Feel = 7,
-    /// Moving the part away, back along the approach.
-    Lift = 8,
+    Feel = 5,
     /// Staying at the goal.
-    Stay = 9,
+    Stay = 6,
     /// Opening the fingers.
-    Open = 10,
-    /// Moving the hand away, back along the approach.
-    Retreat = 11,
+    Open = 7,
 }
 
 impl Errand {
@@ -69,23 +61,16 @@ impl Errand {
     pub fn from_word(word: u64) -> Option<Self> {
         Self::ALL.into_iter().find(|errand| *errand as u64 == word)
     }
+
+    /// Whether the robot's hand and the person's shall meet in it.
+    pub fn meets(self) -> bool {
+        matches!(self, Self::Ask | Self::Receive | Self::Offer)
+    }
 }
 
 impl Leg {
-    const ALL: [Self; 12] = [
-        Self::Rest,
-        Self::Park,
-        Self::Plan,
-        Self::Reach,
-        Self::Await,
-        Self::Approach,
-        Self::Close,
-        Self::Feel,
-        Self::Lift,
-        Self::Stay,
-        Self::Open,
-        Self::Retreat,
-    ];
+    const ALL: [Self; 8] =
+        [Self::Rest, Self::Plan, Self::Move, Self::Await, Self::Close, Self::Feel, Self::Stay, Self::Open];
 
     /// From its word in memory.
     pub fn from_word(word: u64) -> Option<Self> {
@@ -94,11 +79,6 @@ impl Leg {
 
     /// Whether a new decision must wait until this leg has ended.
     pub fn is_firm(self) -> bool {
-        matches!(self, Self::Close | Self::Feel | Self::Lift | Self::Open | Self::Retreat)
-    }
-
-    /// Whether the hand is so close to its goal that it must go back along the approach first.
-    pub fn is_close(self) -> bool {
-        matches!(self, Self::Approach | Self::Stay)
+        matches!(self, Self::Close | Self::Feel | Self::Open)
     }
 }

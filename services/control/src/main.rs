@@ -36,7 +36,7 @@ fn main() -> anyhow::Result<()> {
     let mut process = Process::from_arguments("control")?;
     let run = process.run().settings();
     let (task, robot) = (Task::load(&run.task)?, Robot::load(&run.robot)?);
-    let mut control = Control::new(robot, &task, Settings::default())?;
+    let (mut control, planner) = Control::in_real_time(robot, &task, Settings::default())?;
     let sample = process.bus().input(topic::SENSORS)?;
     let percept = process.bus().input(topic::PERCEPT)?;
     let frame = process.bus().trigger(topic::FIELDS)?;
@@ -44,5 +44,6 @@ fn main() -> anyhow::Result<()> {
     if let Some(last) = process.survivor(&mut command)? {
         control.resume(&last);
     }
+    process.work_beside("planner", move || planner.run())?;
     Ok(process.run_cycles(Servos { control, sample, percept, frame, command })?)
 }

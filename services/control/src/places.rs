@@ -1,11 +1,16 @@
-use crate::ControlError;
 use crate::body::Body;
-use coact_joint_task::{Motion, Scene, Shape, Task};
-use coact_robot::{Hand, HandGoal, PostureSearch};
+use crate::errand::Errand;
+use crate::request::Request;
+use coact_joint_task::{Scene, Shape, Task};
+use coact_robot::{Hand, HandGoal};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
 /// Distance of the pose before a grasp or a placing from the goal, m.
-const BACK: f64 = 0.15;
+pub(crate) const BACK: f64 = 0.15;
+/// Rest of the way from there to a part that the person holds out, on which the hand moves straight, m.
+const STRAIGHT: f64 = 0.03;
+/// Turns in which a round part is put into its socket, and in which one with flat sides is put on the table.
+const TURNS: [u32; 2] = [12, 4];
 /// How far the palm of the held-out hand is raised above the horizontal, rad (15 degrees).
 const RAISED: f64 = 0.262;
 /// Distance from the palm to the middle of the held-out hand, m.
@@ -35,18 +40,60 @@ struct Grip {
 }
 
 impl Places {
-    /// # Errors
-    /// [`ControlError::Unreachable`] names a place of the task that the hand needs and cannot reach.
-    pub fn new(body: &Body, task: &Task) -> Result<Self, ControlError> {
-        let places = Self {
+    pub fn new(body: &Body, task: &Task) -> Self {
+        Self {
             scene: task.scene.clone(),
             shoulder: body.robot.arm().centres(&body.robot.park)[0],
             hand: body.robot.hand.clone(),
             kinds: task.kinds.iter().map(|kind| grip(kind.width, &kind.shape)).collect(),
             sockets: task.subgoals.iter().map(|subgoal| frame(subgoal.socket, subgoal.axis)).collect(),
+        }
+    }
+
+    /// The goals of the hand that serve a request; none for standing at rest.
+    pub fn goals(&self, request: &Request) -> Vec<HandGoal> {
+        let at = Point3::from(request.frame.translation.vector);
+        let held = request.held.filter(|(kind, _)| request.kind == Some(*kind));
+        match (request.errand, request.kind) {
+            (Errand::Place | Errand::Offer | Errand::PutBack, _) => {
+                held.map_or_else(Vec::new, |held| self.puts(held, &request.frame, request.errand))
+            }
+            (Errand::Take, Some(kind)) => vec![self.part(kind, &request.frame)],
+            (Errand::Receive, Some(kind)) => {
+                let goal = self.part(kind, &request.frame);
+                let before = HandGoal { point: goal.point - goal.approach * BACK, back: 0.0, ..goal };
+                vec![if request.before { before } else { HandGoal { back: STRAIGHT, ..goal } }]
+            }
+            (Errand::Ask, _) => vec![self.held_out()],
+            (Errand::Steady, _) => vec![self.steadying()],
+            (Errand::Point, _) => vec![self.pointing(&at)],
+            (Errand::Park | Errand::Take | Errand::Receive, _) => Vec::new(),
+        }
+    }
+
+    /// The goals with which the held part comes to `place`, as it is held: a round one turned about its own axis at
+    /// will, one with flat sides so that it fits.
+    fn puts(&self, (kind, in_palm): (usize, Isometry3<f64>), place: &Isometry3<f64>, errand: Errand) -> Vec<HandGoal> {
+        let round = self.kinds[kind].rolls == 0;
+        let turns = if round { TURNS[0] } else if errand == Errand::Place { 1 } else { TURNS[1] };
+        let goal = |step: u32| {
+            let turn = std::f64::consts::TAU * f64::from(step) / f64::from(turns);
+            let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
+            self.palm_at(&(place * about * in_palm.inverse()), BACK)
         };
-        places.check(body, task)?;
-        Ok(places)
+        (0..turns).map(goal).collect()
+    }
+
+    /// The goal that is reached with the palm there, `back` m before it first.
+    pub fn palm_at(&self, palm: &Isometry3<f64>, back: f64) -> HandGoal {
+        HandGoal {
+            point: palm * self.hand.grasp_point(),
+            approach: palm.rotation * Vector3::z(),
+            closing: palm.rotation * Vector3::x(),
+            rolls: 1,
+            back,
+            floor: self.scene.table_height,
+        }
     }
 
     /// Width of a kind of part, m.
@@ -63,24 +110,19 @@ impl Places {
         HandGoal { point: goal.point + goal.approach * deeper, ..goal }
     }
 
-    /// Putting a part into its socket.
-    pub fn socket(&self, kind: usize, subgoal: usize) -> HandGoal {
-        self.part(kind, &self.sockets[subgoal])
+    /// Where the part of a subgoal belongs.
+    pub fn socket(&self, subgoal: usize) -> Isometry3<f64> {
+        self.sockets[subgoal]
     }
 
-    /// Setting a part down on the table.
-    pub fn on_table(&self, kind: usize, at: [f64; 2]) -> HandGoal {
-        self.part(kind, &Isometry3::translation(at[0], at[1], self.scene.table_height))
+    /// A place for a part on the table.
+    pub fn on_table(&self, at: [f64; 2]) -> Isometry3<f64> {
+        Isometry3::translation(at[0], at[1], self.scene.table_height)
     }
 
     /// Where parts change hands, m.
     pub fn handover(&self) -> Point3<f64> {
         Point3::from(self.scene.handover)
-    }
-
-    /// Taking or holding out a part at the handover place, from above.
-    pub fn exchange(&self, kind: usize) -> HandGoal {
-        self.part(kind, &Translation3::from(self.handover()).into())
     }
 
     /// The open hand held out to the handover place: away from the shoulder, raised, so that what lies in the hand
@@ -126,30 +168,6 @@ impl Places {
 
     fn free(&self, point: Point3<f64>, approach: Vector3<f64>, back: f64) -> HandGoal {
         HandGoal { point, approach, closing: Vector3::y(), rolls: 0, back, floor: self.scene.table_height }
-    }
-
-    fn check(&self, body: &Body, task: &Task) -> Result<(), ControlError> {
-        for action in &task.actions {
-            let goal = match (action.motion, action.kind, action.subgoal) {
-                (Motion::Insert, Some(kind), Some(subgoal)) => self.socket(kind, subgoal),
-                (Motion::Receive | Motion::Give, Some(kind), _) => self.exchange(kind),
-                (Motion::Request, ..) => self.held_out(),
-                (Motion::Hold, ..) => self.steadying(),
-                _ => continue,
-            };
-            if PostureSearch::complete(&body.robot, &goal, &body.robot.park).is_none() {
-                let [x, y, z]: [f64; 3] = goal.approach.into();
-                return Err(ControlError::Unreachable {
-                    what: format!("the place for \"{}\"", action.name),
-                    place: goal.point.coords.into(),
-                    towards: format!(
-                        "pointing along ({x:.2}, {y:.2}, {z:.2}) and {:.2} m before it",
-                        goal.back
-                    ),
-                });
-            }
-        }
-        Ok(())
     }
 }
 

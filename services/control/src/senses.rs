@@ -1,4 +1,6 @@
 use crate::Settings;
+use crate::person::PersonArm;
+use crate::request::Request;
 use coact_messages::{Decision, FieldFrame, Percept, ROBOT, SensorSample};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
@@ -10,10 +12,13 @@ const BELIEF: f64 = 0.5;
 const HAND_LENGTH: f64 = 0.25;
 /// A hand slower than this waits, m/s.
 const WAITING: f64 = 0.25;
+/// Nothing that concerns the robot is farther away than this, m.
+const FAR: f64 = 10.0;
 
 /// What the newest messages say, where they are young enough to say anything.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Senses<'a> {
+    tick: u64,
     sample: Option<&'a SensorSample>,
     percept: Option<&'a Percept>,
     frame: Option<&'a FieldFrame>,
@@ -29,6 +34,7 @@ impl<'a> Senses<'a> {
     ) -> Self {
         let young = |cycle: u64| tick.saturating_sub(cycle) <= settings.stale_after;
         Self {
+            tick,
             sample: sample.filter(|message| young(message.header.cycle)),
             percept: percept.filter(|message| young(message.header.cycle)),
             frame: frame.filter(|message| young(message.header.cycle)),
@@ -38,6 +44,11 @@ impl<'a> Senses<'a> {
     /// Whether a sensor sample or a field frame is missing: the robot must not move on.
     pub fn blind(&self) -> bool {
         self.sample.is_none() || self.frame.is_none()
+    }
+
+    /// The cycle.
+    pub fn tick(&self) -> u64 {
+        self.tick
     }
 
     pub fn decision(&self) -> Option<Decision> {
@@ -54,7 +65,7 @@ impl<'a> Senses<'a> {
     pub fn part(&self, workspace: usize, kind: usize) -> Option<Isometry3<f64>> {
         let seen = &self.percept?.workspace[workspace];
         let position = Point3::from(seen.position[kind]);
-        if !(seen.seen[kind] > BELIEF && position.iter().all(|value| value.is_finite())) {
+        if !(seen.seen[kind] > BELIEF && position.iter().all(|value| value.abs() < FAR)) {
             return None;
         }
         let [x, y, z, w] = seen.orientation[kind];
@@ -103,5 +114,24 @@ impl<'a> Senses<'a> {
             let distance = (Point3::from(hand.wrist) - place).norm();
             hand.tracked == 1 && speed < WAITING && distance < HAND_LENGTH
         })
+    }
+
+    /// The person's arm, when it is tracked.
+    pub fn person_arm(&self) -> Option<PersonArm> {
+        PersonArm::of(&self.percept?.hand, &self.sample?.hand)
+    }
+
+    /// Whether somebody pulls at what the hand holds; where that is not measured, whether the person's hand is there.
+    pub fn pull(&self, place: &Point3<f64>) -> bool {
+        self.person_waits_at(place)
+    }
+
+    /// All parts and screens in sight, into a request.
+    pub fn surroundings(&self, request: &mut Request) {
+        let Some(scene) = self.sample.map(|sample| &sample.scene) else { return };
+        request.seen = (scene.sightings as usize).min(scene.sighting.len());
+        request.parts[..request.seen].copy_from_slice(&scene.sighting[..request.seen]);
+        request.screened = (scene.occluders as usize).min(scene.occluder.len());
+        request.screens[..request.screened].copy_from_slice(&scene.occluder[..request.screened]);
     }
 }

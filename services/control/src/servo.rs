@@ -1,12 +1,19 @@
 use crate::Memory;
-use coact_messages::{Command, JOINTS};
-use coact_robot::{JointLimits, Limiter, MotionState, Movement};
+use crate::memory::{FINGER_JOINTS, split};
+use coact_messages::{ARM_JOINTS, Command, JOINTS};
+use coact_robot::{JointLimits, Limiter, MotionState, Movement, Posture};
 
 /// Length of a cycle, s.
 pub(crate) const PERIOD: f64 = 1e-3;
+/// How fast the pace of a movement changes at most, 1/s, and the change of that, 1/s².
+const PACE: (f64, f64) = (4.0, 40.0);
+/// How fast the pace goes to what it shall be, 1/s.
+const PROMPT: f64 = 12.0;
+/// What is tried of a change of pace when the whole of it would break a limit of a joint.
+const TRIED: [f64; 4] = [1.0, 0.5, 0.0, -0.5];
 
-/// Turns the movement in memory into setpoints, one cycle after the other, through the limiters.
-#[derive(Debug, Clone)]
+/// Turns the movements in memory into setpoints, one cycle after the other, through the limiters.
+#[derive(Debug)]
 pub(crate) struct Servo {
     /// The setpoints.
     pub joints: [Limiter; JOINTS],
@@ -41,76 +48,111 @@ impl Servo {
         self.joints.map(|joint| joint.position)
     }
 
-    /// Starts a movement to `target` from wherever the present one is. When no movement from there keeps the limits,
-    /// the robot brakes first.
-    pub fn launch(&self, memory: &mut Memory, target: [f64; JOINTS], slowness: f64) {
-        memory.slowness = slowness;
-        if memory.halted == 1 {
-            memory.target = target;
-            return;
-        }
-        let start = if arrived(memory) {
-            memory.target.map(MotionState::at_rest)
+    /// Those of the arm, rad.
+    pub fn posture(&self) -> Posture {
+        split(self.position()).0
+    }
+
+    /// Whether the arm's setpoints stand still.
+    pub fn arm_stands(&self) -> bool {
+        self.joints[..ARM_JOINTS].iter().all(Limiter::is_at_rest)
+    }
+
+    /// Starts a movement of the fingers from wherever the present one is. When none from there keeps the limits, they
+    /// brake first.
+    pub fn launch_fingers(&self, memory: &mut Memory, target: [f64; FINGER_JOINTS]) {
+        let start = if memory.fingers_arrived() {
+            memory.finger_target.map(MotionState::at_rest)
         } else {
-            memory.movement().at(memory.elapsed as f64 * PERIOD)
+            memory.finger_movement().at(memory.finger_elapsed as f64 * PERIOD)
         };
-        match Movement::plan(start, target, &self.limits) {
-            Some(movement) => memory.set_movement(&movement.slower(slowness)),
-            None => {
-                memory.target = target;
-                memory.halted = 1;
-            }
+        let halted = memory.fingers_halted == 1;
+        match (!halted).then(|| Movement::plan(start, target, &self.finger_limits())).flatten() {
+            Some(movement) => memory.set_finger_movement(&movement),
+            None => (memory.finger_target, memory.fingers_halted) = (target, 1),
         }
     }
 
-    /// One cycle. With `go` false, or when the movement cannot be followed, all joints brake; when all stand and
-    /// `go` is true, the movement starts anew.
-    pub fn advance(&mut self, memory: &mut Memory, go: bool) {
+    /// One cycle: the arm's course goes on at `pace`, the share of its own speed. With `go` false, or when a movement
+    /// cannot be followed, the joints brake; when the fingers stand and `go` is true, theirs starts anew.
+    pub fn advance(&mut self, memory: &mut Memory, go: bool, pace: f64) {
         if !go {
-            memory.halted = 1;
+            (memory.arm_halted, memory.fingers_halted) = (1, 1);
         }
-        if memory.halted == 1 && go && self.joints.iter().all(Limiter::is_at_rest) {
-            let start = self.joints.map(|joint| MotionState::at_rest(joint.position));
-            if let Some(movement) = Movement::plan(start, memory.target, &self.limits) {
-                memory.set_movement(&movement.slower(memory.slowness));
-                memory.halted = 0;
-            }
+        if memory.arm_halted == 1 || !self.follow_course(memory, pace) {
+            memory.arm_halted = 1;
+            self.brake(0..ARM_JOINTS);
         }
-        if memory.halted == 0 && self.follow(memory) {
-            return;
+        let fingers_stand = self.joints[ARM_JOINTS..].iter().all(Limiter::is_at_rest);
+        if memory.fingers_halted == 1 && go && fingers_stand {
+            let start = split(self.position()).1.map(MotionState::at_rest);
+            let movement = Movement::plan(start, memory.finger_target, &self.finger_limits());
+            movement.into_iter().for_each(|movement| memory.set_finger_movement(&movement));
         }
-        memory.halted = 1;
-        for (joint, limits) in self.joints.iter_mut().zip(&self.limits) {
-            *joint = joint.brake(limits, PERIOD);
+        if memory.fingers_halted == 1 || !self.follow_fingers(memory) {
+            memory.fingers_halted = 1;
+            self.brake(ARM_JOINTS..JOINTS);
         }
     }
 
-    /// Takes the next point of the movement; `false`, and nothing changed, when a limiter refuses it.
-    fn follow(&mut self, memory: &mut Memory) -> bool {
-        let next = if arrived(memory) {
-            memory.target.map(MotionState::at_rest)
+    /// Takes the next point of the course, as near to the wanted pace as the limiters allow; `false`, and nothing
+    /// changed, when they refuse all.
+    fn follow_course(&mut self, memory: &mut Memory, wanted: f64) -> bool {
+        if memory.pace == wanted && memory.pace_change == 0.0 {
+            let t = memory.elapsed + PERIOD * memory.pace;
+            let accepted = self.take(0, &memory.course.at(t));
+            memory.elapsed = if accepted { t } else { memory.elapsed };
+            return accepted;
+        }
+        let change = (PROMPT * (wanted - memory.pace)).clamp(-PACE.0, PACE.0);
+        let step = (change - memory.pace_change).clamp(-PACE.1 * PERIOD, PACE.1 * PERIOD);
+        TRIED.iter().any(|share| {
+            let mut pace_change = memory.pace_change + share * step;
+            let mut pace = memory.pace + PERIOD * pace_change;
+            if (pace - wanted).abs() < 1e-4 || !(0.0..=1.0).contains(&pace) {
+                (pace, pace_change) = (if (pace - wanted).abs() < 1e-4 { wanted } else { pace.clamp(0.0, 1.0) }, 0.0);
+            }
+            let t = memory.elapsed + PERIOD * pace;
+            let accepted = self.take(0, &memory.course.at(t));
+            if accepted {
+                (memory.elapsed, memory.pace, memory.pace_change) = (t, pace, pace_change);
+            }
+            accepted
+        })
+    }
+
+    fn follow_fingers(&mut self, memory: &mut Memory) -> bool {
+        let next = if memory.fingers_arrived() {
+            memory.finger_target.map(MotionState::at_rest)
         } else {
-            memory.movement().at((memory.elapsed + 1) as f64 * PERIOD)
+            memory.finger_movement().at((memory.finger_elapsed + 1) as f64 * PERIOD)
         };
+        let accepted = self.take(ARM_JOINTS, &next);
+        memory.finger_elapsed = memory.finger_elapsed.saturating_add(u64::from(accepted));
+        accepted
+    }
+
+    /// Takes these setpoints for the joints from `first` on; `false`, and nothing changed, when a limiter refuses one.
+    fn take(&mut self, first: usize, next: &[MotionState]) -> bool {
         let mut joints = self.joints;
-        for (joint, (wish, limits)) in joints.iter_mut().zip(next.iter().zip(&self.limits)) {
-            match joint.accept(wish.position, limits, PERIOD) {
-                Some(accepted) => *joint = accepted,
+        for (offset, wish) in next.iter().enumerate() {
+            let joint = first + offset;
+            match joints[joint].accept(wish.position, &self.limits[joint], PERIOD) {
+                Some(accepted) => joints[joint] = accepted,
                 None => return false,
             }
         }
         self.joints = joints;
-        memory.elapsed = memory.elapsed.saturating_add(1);
         true
     }
-}
 
-/// Whether the movement has come to its end.
-pub(crate) fn arrived(memory: &Memory) -> bool {
-    progress(memory) >= 1.0
-}
+    fn brake(&mut self, joints: std::ops::Range<usize>) {
+        for joint in joints {
+            self.joints[joint] = self.joints[joint].brake(&self.limits[joint], PERIOD);
+        }
+    }
 
-/// Share of its time that the movement has taken so far; 0 while braking.
-pub(crate) fn progress(memory: &Memory) -> f64 {
-    if memory.halted == 1 { 0.0 } else { memory.elapsed as f64 * PERIOD / memory.duration }
+    fn finger_limits(&self) -> [JointLimits; FINGER_JOINTS] {
+        std::array::from_fn(|joint| self.limits[ARM_JOINTS + joint])
+    }
 }

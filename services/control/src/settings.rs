@@ -7,12 +7,10 @@ pub struct Settings {
     pub put_back_after: u64,
     /// How long after a failure the same decision is tried again.
     pub retry_after: u64,
-    /// Grid points of the posture search looked at in one cycle: about 3 µs each.
-    pub search_budget: u32,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { stale_after: 50, put_back_after: 5_000, retry_after: 2_000, search_budget: 12 }
+        Self { stale_after: 50, put_back_after: 5_000, retry_after: 2_000 }
     }
 }

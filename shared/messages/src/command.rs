@@ -24,7 +24,7 @@ pub struct Command {
     /// [`MotionPhase`] of that action.
     pub phase: u32,
     /// Opaque state words of control; `services/control` says what each holds.
-    pub memory: [f64; 256],
+    pub memory: [f64; 2048],
 }
 
 /// Phase of a movement.

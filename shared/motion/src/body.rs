@@ -135,9 +135,17 @@ impl Body {
         Self::new(mechanism, self.bones)
     }
 
+    /// As [`hulls`](Self::hulls), into a list that is used again and again.
+    pub fn hulls_into(&self, mechanism: &Mechanism, posture: &Posture, hulls: &mut Vec<Capsule>) {
+        let frames = Frames::of(mechanism, posture);
+        hulls.clear();
+        hulls.extend(self.bones.iter().map(|bone| bone.hull.within(&frames.carrier(bone))));
+    }
+
     /// Capsules around all bones in the world, for a posture of the arm.
     pub fn hulls(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Capsule> {
-        let frames = Frames::of(mechanism, posture);
-        self.bones.iter().map(|bone| bone.hull.within(&frames.carrier(bone))).collect()
+        let mut hulls = Vec::with_capacity(self.bones.len());
+        self.hulls_into(mechanism, posture, &mut hulls);
+        hulls
     }
 }

@@ -1,4 +1,8 @@
 use nalgebra::{Isometry3, Point3, Vector3};
+use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::query::ClosestPoints;
+use parry3d_f64::query::details::closest_points_segment_segment;
+use parry3d_f64::shape::Segment;
 
 /// All points within a radius of a line: what links, fingers and held parts are to the planner. m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,6 +64,22 @@ impl Capsule {
         let line = self.end - self.start;
         let share = (point - self.start).dot(&line) / line.norm_squared().max(1e-18);
         (point - (self.start + line * share.clamp(0.0, 1.0))).norm()
+    }
+
+    /// Distance of the surfaces of two capsules, m; negative when they overlap.
+    pub fn distance(&self, other: &Self) -> f64 {
+        let segment = |capsule: &Self| {
+            let [start, end] = [capsule.start, capsule.end].map(|at| Vector::new(at.x, at.y, at.z));
+            Segment::new(start, end)
+        };
+        let (one, two) = (segment(self), segment(other));
+        let nearest = closest_points_segment_segment(&Pose::IDENTITY, &one, &two, f64::INFINITY);
+        let gap = match nearest {
+            ClosestPoints::WithinMargin(mine, theirs) => (mine - theirs).length(),
+            ClosestPoints::Intersecting => 0.0,
+            ClosestPoints::Disjoint => f64::INFINITY,
+        };
+        gap - self.radius - other.radius
     }
 
     /// A distance, m, that two capsules have at least: from this line to a ball around the other.

@@ -70,7 +70,7 @@ pub use detour::exists as way_exists;
 pub use hand_path::HandPath;
 pub use mechanism::{MAX_JOINTS, Mechanism, Meshes};
 pub use obstacle::Obstacle;
-pub use plan::{Knot, Plan};
+pub use plan::{Knot, Plan, state_at};
 pub use planner::{Aim, Margin, Problem};
 pub use refusal::Refusal;
 pub use scene::Scene;

@@ -1,4 +1,5 @@
 use crate::{StageKind, Target};
+use bytemuck::{Pod, Zeroable};
 use coact_robot::{JointLimits, MotionState, Posture, Quintic};
 
 /// A planned movement: states of all joints at instants, and between them the polynomials of fifth degree that join
@@ -16,7 +17,8 @@ pub struct Plan {
 }
 
 /// State of the arm at an instant of a plan.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Knot {
     /// Time since the start, s.
     pub t: f64,
@@ -40,13 +42,7 @@ impl Plan {
 
     /// State of all joints `t` s after the start; outside the movement the nearer end.
     pub fn at(&self, t: f64) -> [MotionState; 7] {
-        let next = self.knots.partition_point(|knot| knot.t <= t);
-        match (next.checked_sub(1).map(|last| &self.knots[last]), self.knots.get(next)) {
-            (Some(from), Some(to)) => pieces(from, to).map(|piece| piece.at(t - from.t)),
-            (None, Some(first)) => first.states,
-            (Some(last), None) => last.states,
-            (None, None) => [MotionState::default(); 7],
-        }
+        state_at(&self.knots, t)
     }
 
     /// Posture at the end, rad.
@@ -99,6 +95,17 @@ impl Plan {
                 (pieces.map(|piece| piece.at(t)), pieces.map(|piece| piece.jerk(t)))
             })
         })
+    }
+}
+
+/// State of all joints of a movement through these knots, `t` s after its start; outside it the nearer end.
+pub fn state_at(knots: &[Knot], t: f64) -> [MotionState; 7] {
+    let next = knots.partition_point(|knot| knot.t <= t);
+    match (next.checked_sub(1).map(|last| &knots[last]), knots.get(next)) {
+        (Some(from), Some(to)) => pieces(from, to).map(|piece| piece.at(t - from.t)),
+        (None, Some(first)) => first.states,
+        (Some(last), None) => last.states,
+        (None, None) => [MotionState::default(); 7],
     }
 }
 

@@ -103,6 +103,21 @@ impl Process {
         Ok(survivor)
     }
 
+    /// Starts a thread for work that takes longer than a cycle: of the ordinary class, and off the real-time cores where
+    /// there are others, so that it never holds up a cycle. It ends with the process.
+    ///
+    /// # Errors
+    /// [`ProcessError::Thread`] when the system grants no thread.
+    pub fn work_beside(&self, name: &str, work: impl FnOnce() + Send + 'static) -> Result<(), ProcessError> {
+        let pipeline = self.pipeline.clone();
+        let beside = move || {
+            scheduling::step_aside(&pipeline);
+            work();
+        };
+        std::thread::Builder::new().name(name.to_owned()).spawn(beside).map_err(ProcessError::Thread)?;
+        Ok(())
+    }
+
     /// Goes real time as far as the process table asks and the machine grants, and reports readiness.
     ///
     /// What was refused stands in the report, which the supervisor shows in red; the process runs all the same.

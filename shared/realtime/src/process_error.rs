@@ -33,6 +33,9 @@ pub enum ProcessError {
         /// Its value.
         found: String,
     },
+    /// No thread for work beside the cycle.
+    #[error("the system grants no thread for work beside the cycle: {0}; raise the limit on threads (ulimit -u)")]
+    Thread(#[source] std::io::Error),
     /// A signal handler cannot be installed.
     #[error("signals cannot be handled: {0}; expected a system that lets a process handle SIGTERM")]
     Signals(#[source] std::io::Error),

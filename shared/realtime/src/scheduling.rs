@@ -31,6 +31,16 @@ pub fn keep_off_real_time_cores(pipeline: &Pipeline) {
     let _ = sched_setaffinity(None, &others);
 }
 
+/// Makes the calling thread of a real-time process one that is not: ordinary class, off the real-time cores.
+pub(crate) fn step_aside(pipeline: &Pipeline) {
+    // SAFETY: sets the class of the calling thread from a structure of ours; to give up a class is always granted.
+    unsafe {
+        let parameter = std::mem::zeroed::<libc::sched_param>();
+        libc::sched_setscheduler(0, libc::SCHED_OTHER, &raw const parameter);
+    }
+    keep_off_real_time_cores(pipeline);
+}
+
 /// Asks for what `entry` wants; returns what was refused, with the reasons.
 pub(crate) fn request(entry: &ProcessEntry) -> Vec<String> {
     // Without SCHED_FIFO the kernel may delay wake-ups by this slack, 50 µs by default.

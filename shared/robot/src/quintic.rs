@@ -1,5 +1,8 @@
+use bytemuck::{Pod, Zeroable};
+
 /// Position, velocity and acceleration of one joint at an instant; rad, rad/s, rad/s².
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]
 pub struct MotionState {
     /// Position, rad.
     pub position: f64,

@@ -1,0 +1,12 @@
+use crate::course::Course;
+
+/// What the planner says.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Answer {
+    /// The request's.
+    pub id: u64,
+    /// The movement, or none.
+    pub course: Option<Course>,
+    /// Whether the movement only gets the hand out of where it is: the question must be asked again.
+    pub withdraws: bool,
+}

@@ -1,0 +1,179 @@
+//! Between the servo and the planner: questions, and the movements that answer them.
+
+use crate::Control;
+use crate::errand::{Errand, Leg};
+use crate::memory::{LEAD, pose};
+use crate::request::Request;
+use crate::senses::Senses;
+use crate::servo::PERIOD;
+use coact_messages::MAX_PARTS;
+use coact_robot::MotionState;
+use nalgebra::Vector3;
+
+/// Cycles after which a question that was refused is asked again, and after which one that was not answered is.
+const AGAIN: u64 = 300;
+const LOST: u64 = 8_000;
+/// How far the hand backs out of where it is, with a part and without, m.
+const LIFT: f64 = 0.06;
+const RETREAT: f64 = 0.10;
+/// A hand less far in a narrow place than this share of the way is out of it.
+const OUT: f64 = 0.05;
+/// Setpoints may differ by this from the state for which a movement was planned, rad.
+const EXACT: f64 = 1e-7;
+
+impl Control {
+    /// Asks for the movement that the errand needs: from rest at once, in motion from where the arm will be a moment
+    /// later. An arm that is neither at rest nor at its full pace comes to rest first.
+    pub(crate) fn ask(&mut self, senses: &Senses) {
+        let standing = self.stands();
+        let steady = self.memory.arm_halted == 0 && self.memory.pace == 1.0 && self.memory.pace_change == 0.0;
+        self.memory.begins = 0;
+        if !standing && !steady {
+            (self.memory.asking, self.memory.waited) = (0, AGAIN);
+            return;
+        }
+        let start = if standing {
+            self.servo.posture().map(MotionState::at_rest)
+        } else {
+            self.memory.begins = senses.tick() + self.memory.lead;
+            self.memory.course.at(self.memory.elapsed + self.memory.lead as f64 * PERIOD)
+        };
+        self.memory.questions += 1;
+        (self.memory.asking, self.memory.waited) = (1, 0);
+        let request = self.request(senses, start);
+        self.planning.ask(&request);
+    }
+
+    /// Asks again what was refused, or lost.
+    pub(crate) fn ask_again(&mut self, senses: &Senses) {
+        self.memory.waited += 1;
+        let due = if self.memory.asking == 1 { LOST } else { AGAIN };
+        if self.memory.waited > due && self.memory.begins == 0 {
+            self.ask(senses);
+        }
+    }
+
+    /// Takes an answer up: a movement from rest begins at once, one from motion in the cycle for which it was planned.
+    pub(crate) fn take_up_movement(&mut self, senses: &Senses) {
+        self.settle();
+        if self.memory.asking == 1 {
+            if let Some(answer) = self.planning.answer(self.memory.questions) {
+                self.memory.asking = 0;
+                self.memory.withdraws = u64::from(answer.withdraws);
+                match answer.course {
+                    Some(course) if self.memory.begins > 0 => {
+                        self.memory.next = course;
+                        self.memory.ready = 1;
+                    }
+                    Some(course) => {
+                        self.memory.next = course;
+                        self.start_next(senses);
+                    }
+                    None => self.be_without_movement(),
+                }
+            }
+        }
+        if self.memory.begins > 0 && senses.tick() >= self.memory.begins {
+            self.memory.begins = 0;
+            if self.memory.ready == 1 {
+                self.start_next(senses);
+            } else {
+                // The answer is late: it gets more time.
+                self.memory.lead = (2 * self.memory.lead).min(LEAD.1);
+                self.ask(senses);
+            }
+        }
+    }
+
+    /// Follows the planned movement, if the arm is where that begins.
+    fn start_next(&mut self, senses: &Senses) {
+        self.memory.ready = 0;
+        let begin = self.memory.next.posture(0.0);
+        let here = self.servo.posture();
+        if (0..begin.len()).any(|joint| (begin[joint] - here[joint]).abs() > EXACT) {
+            self.ask(senses);
+            return;
+        }
+        let next = self.memory.next;
+        self.memory.follow(&next);
+        self.memory.blocked = 0;
+        self.memory.enter(Leg::Move);
+        self.note_reaction(senses);
+    }
+
+    /// A refusal: an arm in motion brakes, for it goes where it shall not go; one at rest asks again later.
+    fn be_without_movement(&mut self) {
+        self.memory.waited = 0;
+        if self.memory.begins > 0 {
+            (self.memory.begins, self.memory.arm_halted) = (0, 1);
+            self.memory.waited = AGAIN;
+        } else {
+            self.be_refused();
+        }
+        if self.memory.leg() == Leg::Move {
+            self.memory.enter(Leg::Plan);
+        }
+    }
+
+    /// After braking, the arm stands where it stands.
+    fn settle(&mut self) {
+        if self.memory.arm_halted == 1 && self.servo.arm_stands() {
+            self.memory.inside = self.inside();
+            let course = crate::course::Course::resting(self.servo.posture());
+            self.memory.follow(&course);
+            if self.memory.leg() == Leg::Move {
+                (self.memory.asking, self.memory.waited) = (0, AGAIN);
+                self.memory.enter(Leg::Plan);
+            }
+        }
+    }
+
+    /// Whether the arm stands, and will until it is told otherwise.
+    fn stands(&self) -> bool {
+        let still = self.memory.arrived() || self.memory.pace == 0.0;
+        self.memory.arm_halted == 0 && still && self.servo.arm_stands()
+    }
+
+    /// How far the hand is in a narrow place, as a share of the way into it.
+    fn inside(&self) -> f64 {
+        let course = &self.memory.course;
+        if course.duration() > 0.0 { course.inside(self.memory.elapsed) } else { self.memory.inside }
+    }
+
+    /// What is asked: all that the planner must know.
+    fn request(&self, senses: &Senses, start: [MotionState; 7]) -> Request {
+        let held = self.memory.held().map(|kind| (kind, pose(self.memory.in_palm)));
+        let action = self.actions.get(self.memory.action as usize);
+        let taking = self.memory.errand() == Errand::Take;
+        let next = action.and_then(|action| action.subgoal).filter(|_| taking);
+        let mut request = Request {
+            id: self.memory.questions,
+            errand: self.memory.errand(),
+            kind: self.memory.kind(),
+            frame: pose(self.memory.place),
+            next: next.map(|subgoal| self.places.socket(subgoal)),
+            before: self.memory.before == 1,
+            start,
+            leave: self.leave(start),
+            held,
+            parts: [bytemuck::Zeroable::zeroed(); MAX_PARTS],
+            seen: 0,
+            screens: [[0.0; 6]; 4],
+            screened: 0,
+            person: senses.person_arm(),
+        };
+        senses.surroundings(&mut request);
+        request
+    }
+
+    /// Out of where the hand is: up with a part that was taken, else back as it came.
+    fn leave(&self, start: [MotionState; 7]) -> Option<(Vector3<f64>, f64)> {
+        let inside = self.inside();
+        if inside < OUT {
+            return None;
+        }
+        let back = self.body.robot.palm(&start.map(|state| state.position)).rotation * -Vector3::z();
+        let lifts = self.memory.held().is_some() && self.memory.taken == 1;
+        Some(if lifts { (Vector3::z(), LIFT) } else { (back, RETREAT * inside) })
+    }
+}

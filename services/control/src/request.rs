@@ -1,0 +1,35 @@
+use crate::errand::Errand;
+use crate::person::PersonArm;
+use coact_messages::{MAX_PARTS, Sighting};
+use coact_robot::MotionState;
+use nalgebra::{Isometry3, Vector3};
+
+/// What the planner is asked: all that it needs to know, of fixed size, so that it passes a lock-free slot.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Request {
+    /// Counts the questions.
+    pub id: u64,
+    /// What the hand is about, and the kind of part that this concerns.
+    pub errand: Errand,
+    pub kind: Option<usize>,
+    /// Frame of the place: of the part to take, of the socket, of the place on the table, of the handover.
+    pub frame: Isometry3<f64>,
+    /// Where a part that is taken goes next, if that is known.
+    pub next: Option<Isometry3<f64>>,
+    /// Whether the hand stops before the place.
+    pub before: bool,
+    /// State of the arm in which the movement shall begin.
+    pub start: [MotionState; 7],
+    /// First out of a narrow place: direction and distance, m.
+    pub leave: Option<(Vector3<f64>, f64)>,
+    /// Kind of the part in the hand, and its frame in that of the palm.
+    pub held: Option<(usize, Isometry3<f64>)>,
+    /// Parts in sight, the first `seen` of them.
+    pub parts: [Sighting; MAX_PARTS],
+    pub seen: usize,
+    /// Screens: centre and half extents, m, the first `screened` of them.
+    pub screens: [[f64; 6]; 4],
+    pub screened: usize,
+    /// The person's arm, when it is tracked.
+    pub person: Option<PersonArm>,
+}
