@@ -1,6 +1,7 @@
 use crate::choice::Choice;
 use crate::route::{Passing, Route};
 use crate::way::Way;
+use crate::work::Work;
 use crate::{Aim, Plan, Problem, Refusal, Stage, StageKind, Target, detour};
 use coact_robot::Posture;
 
@@ -9,6 +10,8 @@ pub(crate) struct Search<'a> {
     pub problem: &'a Problem<'a>,
     /// The posture after leaving.
     pub away: Option<Posture>,
+    /// What it may do.
+    pub work: &'a Work,
     pub choice: Choice,
 }
 
@@ -45,7 +48,7 @@ impl<'a> Search<'a> {
                     self.detour(target);
                 }
             }
-            if self.choice.is_smooth() {
+            if self.choice.is_smooth() || self.work.is_done() {
                 break;
             }
         }
@@ -105,7 +108,8 @@ impl<'a> Search<'a> {
     fn detour(&mut self, target: &Target) {
         for room in ROOM {
             let margin = self.problem.margin.way + room;
-            let found = detour::find(&self.problem.clearance(), &self.from(), &target.before, margin);
+            let found =
+                detour::find(&self.problem.clearance(), [&self.from(), &target.before], margin, self.work);
             let Some(mut vias) = found else { continue };
             let way = self.way(target, &[], Passing::Smooth);
             if let Some(stages) = way.find_near(&vias) {
@@ -153,6 +157,6 @@ impl<'a> Search<'a> {
         let legs = leave.into_iter().chain(reaches).chain(approach).collect();
         let route = Route::new(mechanism, start, legs, passing).smoothest(mechanism, &limits);
         let (clearance, touching) = (self.problem.clearance(), self.problem.touching());
-        Way { clearance, touching, limits, route, margin, tries: TRIES }
+        Way { clearance, touching, limits, route, margin, tries: TRIES, work: self.work }
     }
 }

@@ -5,6 +5,7 @@ use crate::roughness::Roughness;
 use crate::route::Route;
 use crate::solver::anywhere;
 use crate::trajectory::excursion;
+use crate::work::Work;
 use crate::{Clearance, Margin, Near, Plan, Refusal, Stage, StageKind, Trajectory, bell};
 use coact_robot::{JointLimits, Posture};
 use rand::SeedableRng;
@@ -21,11 +22,15 @@ pub(crate) struct Way<'a> {
     pub margin: Margin,
     /// Excursions that are tried at most.
     pub tries: u32,
+    /// What the search may do.
+    pub work: &'a Work,
 }
 
 /// Points of a way at which the search watches the distances, and those at which the result is checked.
 const WATCHED: u32 = 24;
 const CHECKED: u32 = 96;
+/// Postures that making a movement smooth looks at, about.
+const SMOOTHING: u32 = 300;
 /// Steps of one search.
 const STEPS: u32 = 25;
 /// Bones nearer than this are watched, m, beyond the margin.
@@ -81,6 +86,9 @@ impl<'a> Way<'a> {
             let (clearance, margin) = self.room(stages, t);
             (clearance, margin + BETWEEN)
         };
+        if !self.work.spend(SMOOTHING) {
+            return None;
+        }
         let change = self.route.smoothing(self.clearance.mechanism, stages, &room);
         let stages = self.route.changed(stages, &change).timed(&self.limits).ok()?;
         self.check(&stages).is_ok().then_some(stages)
@@ -162,6 +170,9 @@ impl<'a> Way<'a> {
         let shape = |bounce: Posture| Trajectory { bounce, ..*direct };
         let mut merit = self.merit(&shape(bounce));
         for _ in 0..STEPS {
+            if !self.work.spend(2 * WATCHED) {
+                return None;
+            }
             let step = self.step(&shape(bounce), trust)?;
             let next = std::array::from_fn(|joint| bounce[joint] + step[joint]);
             let after = self.merit(&shape(next));
