@@ -21,6 +21,8 @@ const STRAIGHT: [Passing; 3] = [Passing::Straight(1.0), Passing::Straight(0.5), 
 const AT_ONCE: usize = 2;
 /// Excursions that are tried for each target.
 const TRIES: u32 = 2;
+/// And as many more for each where no movement in one unit was found.
+const MORE: u32 = 8;
 /// Distance beyond the margin that a way through several postures keeps before it is made smooth, m: first, then.
 const ROOM: [f64; 2] = [0.02, 0.004];
 /// Postures that a way passes at most.
@@ -52,7 +54,32 @@ impl<'a> Search<'a> {
                 break;
             }
         }
+        if !self.choice.is_open() {
+            self.go_on(targets);
+        }
         self.choice.result()
+    }
+
+    /// Looks for a movement in one unit where there is one in more: other excursions, and ways through several postures.
+    fn go_on(&mut self, targets: &[Target]) {
+        for attempt in TRIES..TRIES + MORE {
+            for target in targets {
+                if self.choice.is_smooth() || self.work.is_done() {
+                    return;
+                }
+                let way = self.way(target, &[], Passing::Smooth);
+                let found = way.direct().and_then(|direct| way.find(&direct, attempt..attempt + 1));
+                if let Ok(stages) = found {
+                    self.offer(&way, target, &stages, true);
+                }
+            }
+        }
+        for target in targets {
+            if self.choice.is_smooth() || self.work.is_done() {
+                return;
+            }
+            self.detour(target);
+        }
     }
 
     /// Where the reach begins.
@@ -94,7 +121,7 @@ impl<'a> Search<'a> {
     fn bounce(&mut self, target: &Target) {
         for passing in [Passing::Smooth].into_iter().chain(STRAIGHT) {
             let way = self.way(target, &[], passing);
-            match way.direct().and_then(|direct| way.find(&direct)) {
+            match way.direct().and_then(|direct| way.find(&direct, 0..TRIES)) {
                 Ok(stages) => self.offer(&way, target, &stages, true),
                 Err(refusal) => self.choice.refuse(refusal),
             }
@@ -115,7 +142,7 @@ impl<'a> Search<'a> {
             if let Some(stages) = way.find_near(&vias) {
                 self.offer(&way, target, &stages, true);
             }
-            while self.choice.is_open() && vias.len() < MOST_VIAS {
+            while !self.choice.is_smooth() && vias.len() < MOST_VIAS {
                 self.follow(target, &vias);
                 vias = detour::denser(&self.from(), &vias, &target.before);
             }
@@ -157,6 +184,6 @@ impl<'a> Search<'a> {
         let legs = leave.into_iter().chain(reaches).chain(approach).collect();
         let route = Route::new(mechanism, start, legs, passing).smoothest(mechanism, &limits);
         let (clearance, touching) = (self.problem.clearance(), self.problem.touching());
-        Way { clearance, touching, limits, route, margin, tries: TRIES, work: self.work }
+        Way { clearance, touching, limits, route, margin, work: self.work }
     }
 }
