@@ -1,7 +1,8 @@
 //! Ways through several postures, for where no single excursion helps.
 
-use crate::Clearance;
 use crate::solver::anywhere;
+use crate::work::Work;
+use crate::{Clearance, Mechanism};
 use coact_robot::Posture;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -16,8 +17,14 @@ const ROUNDS: usize = 4;
 /// Postures between `from` and `to`, such that the straight ways of the joints between them keep `margin` m from
 /// everything: found by growing trees from both ends (RRT-Connect), then shortened. None when the search ends without
 /// a way.
-pub(crate) fn find(clearance: &Clearance, from: &Posture, to: &Posture, margin: f64) -> Option<Vec<Posture>> {
-    let mut way = connect(clearance, from, to, margin, STEP, TRIES)?;
+pub(crate) fn find(
+    clearance: &Clearance,
+    [from, to]: [&Posture; 2],
+    margin: f64,
+    work: &Work,
+) -> Option<Vec<Posture>> {
+    let is_free = |posture: &Posture| work.spend(1) && clearance.is_clear(posture, margin);
+    let mut way = connect(clearance.mechanism, [from, to], is_free, STEP, TRIES)?;
     for _ in 0..ROUNDS {
         shorten(&mut way, |one, other| is_open(clearance, one, other, margin));
     }
@@ -67,22 +74,29 @@ fn posture(angles: &[f64]) -> Posture {
 
 /// Whether there is a way between two postures at all, as far as a long search can tell (the judge of the planner).
 pub fn exists(clearance: &Clearance, from: &Posture, to: &Posture, margin: f64) -> bool {
-    connect(clearance, from, to, margin, 0.5 * STEP, 5 * TRIES).is_some()
+    let is_free = |posture: &Posture| clearance.is_clear(posture, margin);
+    connect(clearance.mechanism, [from, to], is_free, 0.5 * STEP, 5 * TRIES).is_some()
 }
 
 /// The postures of a way that RRT-Connect finds in so many tries, `step` rad apart.
 fn connect(
-    clearance: &Clearance,
-    from: &Posture,
-    to: &Posture,
-    margin: f64,
+    mechanism: &Mechanism,
+    [from, to]: [&Posture; 2],
+    is_free: impl Fn(&Posture) -> bool,
     step: f64,
     tries: usize,
 ) -> Option<Vec<Posture>> {
-    let (limits, joints) = (clearance.mechanism.limits(), clearance.mechanism.joints());
+    let (limits, joints) = (mechanism.limits(), mechanism.joints());
     let random = RefCell::new(Pcg64::seed_from_u64(13));
-    let is_free = |angles: &[f64]| clearance.is_clear(&posture(angles), margin);
     let draw = || anywhere(&mut *random.borrow_mut(), &limits, joints)[..joints].to_vec();
-    let found = rrt::dual_rrt_connect(&from[..joints], &to[..joints], is_free, draw, step, tries).ok()?;
+    let found = rrt::dual_rrt_connect(
+        &from[..joints],
+        &to[..joints],
+        |angles| is_free(&posture(angles)),
+        draw,
+        step,
+        tries,
+    )
+    .ok()?;
     Some(found.iter().map(|angles| posture(angles)).collect())
 }

@@ -61,6 +61,7 @@ mod straight;
 mod target;
 mod trajectory;
 mod way;
+mod work;
 pub mod workplace;
 
 pub use body::{Body, Bone};

@@ -9,44 +9,6 @@ use std::path::{Path, PathBuf};
 /// Share of an arm link's stand-in radius that stands in for a finger.
 const FINGER: f64 = 1.0 / 6.0;
 
-/// Name of the link at the end of the arm: the first below which moving joints branch.
-pub(crate) fn palm(urdf: &Urdf) -> Result<String, RobotError> {
-    let joints = &urdf.model().joints;
-    let root = urdf.root()?;
-    let mut at = root.clone();
-    for _ in 0..=joints.len() {
-        let children: Vec<_> = joints.iter().filter(|joint| joint.parent.link == at).collect();
-        let moving: Vec<_> = children.iter().filter(|joint| has_motion(urdf, joint)).collect();
-        match moving.as_slice() {
-            [only] => at.clone_from(&only.child.link),
-            [] => {
-                return Err(
-                    urdf.fault(&at, "ends the chain of joints, and no fingers branch off; expected a hand")
-                );
-            }
-            _ => return Ok(at),
-        }
-    }
-    Err(urdf.fault(&root, "is part of a loop of joints; expected a tree"))
-}
-
-/// Whether this joint, or one below it, moves.
-fn has_motion(urdf: &Urdf, joint: &urdf_rs::Joint) -> bool {
-    let joints = &urdf.model().joints;
-    let mut below = vec![joint];
-    let mut seen = 0;
-    while let Some(next) = below.pop() {
-        seen += 1;
-        if next.joint_type != urdf_rs::JointType::Fixed {
-            return true;
-        }
-        if seen <= joints.len() {
-            below.extend(joints.iter().filter(|joint| joint.parent.link == next.child.link));
-        }
-    }
-    false
-}
-
 /// Distance of the farthest link of the fingers from the palm, with all as straight as they go, m.
 pub(crate) fn finger_length(urdf: &Urdf, palm: &str, arm_joints: usize) -> Result<f64, RobotError> {
     let (_, tool) = urdf.chain(None, palm)?;
@@ -152,7 +114,7 @@ fn mesh(
     finger: bool,
 ) -> Result<Option<Capsule>, RobotError> {
     let urdf = &mechanism.urdf;
-    let file = locate(urdf.path(), filename);
+    let file = locate(urdf.path_of(&link.name), filename);
     match (file, mechanism.meshes) {
         (Some(file), _) => {
             let scene = mesh_loader::Loader::default().load(&file).map_err(|error| {

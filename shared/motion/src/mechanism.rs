@@ -60,16 +60,13 @@ impl Mechanism {
     /// [`RobotError`] with file and line: a broken URDF, a hand without fingers, an arm of other than six or seven
     /// joints, limits reversed or zero, a missing mesh.
     pub fn from_urdf(urdf: Urdf, meshes: Meshes) -> Result<Self, RobotError> {
-        let palm = links::palm(&urdf)?;
+        let palm = urdf.palm()?;
         let (mut joints, tool) = urdf.chain(None, &palm)?;
-        if !(6..=MAX_JOINTS).contains(&joints.len()) {
-            let count = joints.len();
-            return Err(urdf.fault(&palm, &format!("ends an arm of {count} joints; expected six or seven")));
-        }
+        is_an_arm(&urdf, &palm, joints.len())?;
         for joint in &mut joints {
             (joint.limits.acceleration, joint.limits.jerk) = USUAL;
         }
-        let grasp_distance = 0.6 * links::finger_length(&urdf, &palm, joints.len())?;
+        let grasp_distance = grasp_distance(&urdf, &palm, joints.len())?;
         let arm = Arm { joints, tool };
         let closed_form = if arm.joints.len() == 7 { Srs::new(arm.clone()).ok() } else { None };
         let mut park = [0.0; 7];
@@ -79,6 +76,28 @@ impl Mechanism {
         park[3] = 0.5 * arm.joints[3].limits.upper.clamp(0.0, 1.6);
         let name = urdf.name().to_owned();
         let mechanism = Self { name, arm, closed_form, park, grasp_distance, urdf, meshes };
+        links::arm_bones(&mechanism)?;
+        Ok(mechanism)
+    }
+
+    /// The same arm with the hand of another URDF, which stands where the palm stood.
+    ///
+    /// # Errors
+    /// [`RobotError`] with file and line: a hand without fingers, limits reversed or zero, a missing mesh.
+    pub fn with_hand(self, hand: &Urdf, meshes: Meshes) -> Result<Self, RobotError> {
+        let urdf = self.urdf.with_hand(hand)?;
+        let palm = urdf.palm()?;
+        let (joints, tool) = urdf.chain(None, &palm)?;
+        if joints.len() > self.joints() {
+            return Err(
+                urdf.fault(&palm, "hangs on joints of its own; expected a hand whose fingers alone move")
+            );
+        }
+        let grasp_distance = grasp_distance(&urdf, &palm, joints.len())?;
+        let arm = Arm { joints: self.arm.joints, tool };
+        let closed_form = self.closed_form.and_then(|_| Srs::new(arm.clone()).ok());
+        let name = urdf.name().to_owned();
+        let mechanism = Self { name, arm, closed_form, park: self.park, grasp_distance, urdf, meshes };
         links::arm_bones(&mechanism)?;
         Ok(mechanism)
     }
@@ -129,4 +148,22 @@ impl Mechanism {
         let grip = grip::frame(&point, &goal.approach, &goal.closing, roll);
         grip * Translation3::new(0.0, 0.0, -self.grasp_distance)
     }
+}
+
+/// Refuses what has too few or too many joints before its palm.
+fn is_an_arm(urdf: &Urdf, palm: &str, joints: usize) -> Result<(), RobotError> {
+    match joints {
+        0 => Err(urdf.fault(
+            palm,
+            "carries fingers, but no joints of an arm lead to it: this is a hand alone; give it with --hand FILE and an \
+             arm with --robot FILE",
+        )),
+        6..=MAX_JOINTS => Ok(()),
+        _ => Err(urdf.fault(palm, &format!("ends an arm of {joints} joints; expected six or seven"))),
+    }
+}
+
+/// Where fingers meet that are so long as these, m from the palm.
+fn grasp_distance(urdf: &Urdf, palm: &str, arm_joints: usize) -> Result<f64, RobotError> {
+    Ok(0.6 * links::finger_length(urdf, palm, arm_joints)?)
 }

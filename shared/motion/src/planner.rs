@@ -2,6 +2,7 @@ use crate::choice::Choice;
 use crate::search::Search;
 use crate::solver::Solver;
 use crate::target::{Target, TargetSearch};
+use crate::work::Work;
 use crate::{Body, Clearance, Mechanism, Plan, Refusal, Scene};
 use coact_robot::{HandGoal, MotionState, Posture};
 use nalgebra::{Isometry3, Translation3, Vector3};
@@ -60,6 +61,8 @@ impl Default for Margin {
     }
 }
 
+/// Postures that a search for a way may look at: less than a second's work at a laid table.
+const WORK: u32 = 40_000;
 /// Share of a way in which the margin narrows.
 const NARROWING: f64 = 0.2;
 
@@ -72,7 +75,8 @@ impl Problem<'_> {
         let away = self.away()?;
         let from = away.unwrap_or_else(|| self.start.map(|state| state.position));
         let targets = self.targets(&from)?;
-        Search { problem: self, away, choice: Choice::default() }.run(&targets)
+        let work = Work::of(WORK);
+        Search { problem: self, away, work: &work, choice: Choice::default() }.run(&targets)
     }
 
     /// The postures that serve as an end, best first; none when there are none. `from`: the posture from which the way

@@ -1,6 +1,7 @@
 use crate::choice::Choice;
 use crate::route::{Passing, Route};
 use crate::way::Way;
+use crate::work::Work;
 use crate::{Aim, Plan, Problem, Refusal, Stage, StageKind, Target, detour};
 use coact_robot::Posture;
 
@@ -9,6 +10,8 @@ pub(crate) struct Search<'a> {
     pub problem: &'a Problem<'a>,
     /// The posture after leaving.
     pub away: Option<Posture>,
+    /// What it may do.
+    pub work: &'a Work,
     pub choice: Choice,
 }
 
@@ -18,6 +21,8 @@ const STRAIGHT: [Passing; 3] = [Passing::Straight(1.0), Passing::Straight(0.5), 
 const AT_ONCE: usize = 2;
 /// Excursions that are tried for each target.
 const TRIES: u32 = 2;
+/// And as many more for each where no movement in one unit was found.
+const MORE: u32 = 8;
 /// Distance beyond the margin that a way through several postures keeps before it is made smooth, m: first, then.
 const ROOM: [f64; 2] = [0.02, 0.004];
 /// Postures that a way passes at most.
@@ -45,11 +50,36 @@ impl<'a> Search<'a> {
                     self.detour(target);
                 }
             }
-            if self.choice.is_smooth() {
+            if self.choice.is_smooth() || self.work.is_done() {
                 break;
             }
         }
+        if !self.choice.is_open() {
+            self.go_on(targets);
+        }
         self.choice.result()
+    }
+
+    /// Looks for a movement in one unit where there is one in more: other excursions, and ways through several postures.
+    fn go_on(&mut self, targets: &[Target]) {
+        for attempt in TRIES..TRIES + MORE {
+            for target in targets {
+                if self.choice.is_smooth() || self.work.is_done() {
+                    return;
+                }
+                let way = self.way(target, &[], Passing::Smooth);
+                let found = way.direct().and_then(|direct| way.find(&direct, attempt..attempt + 1));
+                if let Ok(stages) = found {
+                    self.offer(&way, target, &stages, true);
+                }
+            }
+        }
+        for target in targets {
+            if self.choice.is_smooth() || self.work.is_done() {
+                return;
+            }
+            self.detour(target);
+        }
     }
 
     /// Where the reach begins.
@@ -91,7 +121,7 @@ impl<'a> Search<'a> {
     fn bounce(&mut self, target: &Target) {
         for passing in [Passing::Smooth].into_iter().chain(STRAIGHT) {
             let way = self.way(target, &[], passing);
-            match way.direct().and_then(|direct| way.find(&direct)) {
+            match way.direct().and_then(|direct| way.find(&direct, 0..TRIES)) {
                 Ok(stages) => self.offer(&way, target, &stages, true),
                 Err(refusal) => self.choice.refuse(refusal),
             }
@@ -105,13 +135,14 @@ impl<'a> Search<'a> {
     fn detour(&mut self, target: &Target) {
         for room in ROOM {
             let margin = self.problem.margin.way + room;
-            let found = detour::find(&self.problem.clearance(), &self.from(), &target.before, margin);
+            let found =
+                detour::find(&self.problem.clearance(), [&self.from(), &target.before], margin, self.work);
             let Some(mut vias) = found else { continue };
             let way = self.way(target, &[], Passing::Smooth);
             if let Some(stages) = way.find_near(&vias) {
                 self.offer(&way, target, &stages, true);
             }
-            while self.choice.is_open() && vias.len() < MOST_VIAS {
+            while !self.choice.is_smooth() && vias.len() < MOST_VIAS {
                 self.follow(target, &vias);
                 vias = detour::denser(&self.from(), &vias, &target.before);
             }
@@ -153,6 +184,6 @@ impl<'a> Search<'a> {
         let legs = leave.into_iter().chain(reaches).chain(approach).collect();
         let route = Route::new(mechanism, start, legs, passing).smoothest(mechanism, &limits);
         let (clearance, touching) = (self.problem.clearance(), self.problem.touching());
-        Way { clearance, touching, limits, route, margin, tries: TRIES }
+        Way { clearance, touching, limits, route, margin, work: self.work }
     }
 }

@@ -5,10 +5,12 @@ use crate::roughness::Roughness;
 use crate::route::Route;
 use crate::solver::anywhere;
 use crate::trajectory::excursion;
+use crate::work::Work;
 use crate::{Clearance, Margin, Near, Plan, Refusal, Stage, StageKind, Trajectory, bell};
 use coact_robot::{JointLimits, Posture};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
+use std::ops::Range;
 
 /// The search for a movement along a route that stays clear of everything: the direct one, or the one with the smallest
 /// excursion on the reach.
@@ -19,13 +21,15 @@ pub(crate) struct Way<'a> {
     pub limits: [JointLimits; 7],
     pub route: Route,
     pub margin: Margin,
-    /// Excursions that are tried at most.
-    pub tries: u32,
+    /// What the search may do.
+    pub work: &'a Work,
 }
 
 /// Points of a way at which the search watches the distances, and those at which the result is checked.
 const WATCHED: u32 = 24;
 const CHECKED: u32 = 96;
+/// Postures that making a movement smooth looks at, about.
+const SMOOTHING: u32 = 300;
 /// Steps of one search.
 const STEPS: u32 = 25;
 /// Bones nearer than this are watched, m, beyond the margin.
@@ -49,17 +53,17 @@ impl<'a> Way<'a> {
         self.timed([0.0; 7])
     }
 
-    /// The movement with the smallest excursion that keeps clear.
+    /// The movement with the smallest excursion that keeps clear, beginning from these attempts, one after the other:
+    /// the first begins at the direct movement, the others ever farther from it.
     ///
     /// # Errors
     /// [`Refusal::Way`] when nothing was found.
-    pub fn find(&self, direct: &[Stage]) -> Result<Vec<Stage>, Refusal> {
+    pub fn find(&self, direct: &[Stage], attempts: Range<u32>) -> Result<Vec<Stage>, Refusal> {
         self.check_straight_stages(direct)?;
         let Some(reach) = reach(direct) else { return Ok(direct.to_vec()) };
         let Some(nearest) = self.worst(&reach, CHECKED) else { return Ok(direct.to_vec()) };
-        let mut random = Pcg64::seed_from_u64(11);
-        for attempt in 0..self.tries {
-            let bounce = if attempt == 0 { [0.0; 7] } else { self.somewhere(&reach, &mut random, attempt) };
+        for attempt in attempts {
+            let bounce = if attempt == 0 { [0.0; 7] } else { self.somewhere(&reach, attempt) };
             if let Some(found) = self.shrink(bounce, &reach) {
                 return Ok(found);
             }
@@ -81,6 +85,9 @@ impl<'a> Way<'a> {
             let (clearance, margin) = self.room(stages, t);
             (clearance, margin + BETWEEN)
         };
+        if !self.work.spend(SMOOTHING) {
+            return None;
+        }
         let change = self.route.smoothing(self.clearance.mechanism, stages, &room);
         let stages = self.route.changed(stages, &change).timed(&self.limits).ok()?;
         self.check(&stages).is_ok().then_some(stages)
@@ -162,6 +169,9 @@ impl<'a> Way<'a> {
         let shape = |bounce: Posture| Trajectory { bounce, ..*direct };
         let mut merit = self.merit(&shape(bounce));
         for _ in 0..STEPS {
+            if !self.work.spend(2 * WATCHED) {
+                return None;
+            }
             let step = self.step(&shape(bounce), trust)?;
             let next = std::array::from_fn(|joint| bounce[joint] + step[joint]);
             let after = self.merit(&shape(next));
@@ -244,13 +254,14 @@ impl<'a> Way<'a> {
     }
 
     /// An excursion to a random posture that is clear of everything, ever farther from the middle of the way.
-    fn somewhere(&self, reach: &Trajectory, random: &mut Pcg64, attempt: u32) -> Posture {
+    fn somewhere(&self, reach: &Trajectory, attempt: u32) -> Posture {
+        let mut random = Pcg64::seed_from_u64(10 + u64::from(attempt));
         let middle = reach.posture(0.5);
         let joints = self.clearance.mechanism.joints();
         let share = (0.12 * f64::from(attempt)).min(0.9);
         let mut posture = middle;
         for _ in 0..DRAWS {
-            let anywhere = anywhere(random, &self.limits, joints);
+            let anywhere = anywhere(&mut random, &self.limits, joints);
             posture = std::array::from_fn(|joint| middle[joint] + share * (anywhere[joint] - middle[joint]));
             if self.clearance.is_clear(&posture, self.margin.way) {
                 break;

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_motion::{Aim, Margin, Mechanism, Meshes, Problem, Scene};
-use coact_robot::{HandGoal, MotionState, RobotError, Urdf};
+use coact_robot::{HandGoal, MotionState, Posture, Robot, RobotError, Urdf};
 use nalgebra::Vector3;
 use std::fmt::Write;
 use std::path::Path;
@@ -47,13 +47,25 @@ fn six_joints(limits: &str, geometry: &str, fingers: usize) -> String {
         joint(&mut text, &format!("{name}_joint"), [parent, name], at, axis, limits);
         parent = name;
     }
-    for finger in 0..fingers {
-        let name = format!("finger_{finger}");
-        link(&mut text, &name, "<box size=\"0.02 0.02 0.08\"/>");
-        let at = [0.04 * finger as f64 - 0.02, 0.0, 0.12];
-        joint(&mut text, &format!("{name}_joint"), [parent, &name], at, "1 0 0", "lower=\"0\" upper=\"1\"");
-    }
+    self::fingers(&mut text, parent, fingers);
     text + "</robot>"
+}
+
+/// A hand alone, with a palm of this form.
+fn hand(geometry: &str) -> String {
+    let mut text = "<robot name=\"hand\">\n".to_owned();
+    link(&mut text, "wrist", geometry);
+    fingers(&mut text, "wrist", 2);
+    text + "</robot>"
+}
+
+fn fingers(text: &mut String, palm: &str, count: usize) {
+    for finger in 0..count {
+        let name = format!("finger_{finger}");
+        link(text, &name, "<box size=\"0.02 0.02 0.08\"/>");
+        let at = [0.04 * finger as f64 - 0.02, 0.0, 0.12];
+        joint(text, &format!("{name}_joint"), [palm, &name], at, "1 0 0", "lower=\"0\" upper=\"1\"");
+    }
 }
 
 const WIDE: &str = "lower=\"-2.8\" upper=\"2.8\"";
@@ -63,39 +75,77 @@ fn load(text: String) -> Result<Mechanism, RobotError> {
     Mechanism::from_urdf(Urdf::parse(Path::new("six.urdf"), text)?, Meshes::Required)
 }
 
+/// Plans from the middle of all joint ranges to where the hand is at this posture.
+fn is_reached(mechanism: &Mechanism, posture: &Posture) {
+    let body = mechanism.body(&|_| 0.5).unwrap();
+    let palm = mechanism.arm.palm(posture);
+    let goal = HandGoal {
+        point: palm * mechanism.grasp_point(),
+        approach: palm.rotation * Vector3::z(),
+        closing: palm.rotation * Vector3::x(),
+        rolls: 0,
+        back: 0.0,
+        floor: f64::NEG_INFINITY,
+    };
+    let problem = Problem {
+        mechanism,
+        body: &body,
+        scene: &Scene::default(),
+        start: mechanism.park.map(MotionState::at_rest),
+        leave: None,
+        aim: Aim::Hand(vec![goal]),
+        then: Vec::new(),
+        margin: Margin::default(),
+    };
+    let plan = problem.plan().unwrap();
+    let reached = mechanism.arm.palm(&plan.end());
+    assert!((reached * mechanism.grasp_point() - goal.point).norm() < 1e-3);
+    assert!((reached.rotation * Vector3::z()).angle(&goal.approach) < 0.03);
+    assert_eq!(plan.broken(&mechanism.limits()), None);
+}
+
 #[test]
 fn an_arm_without_closed_form_reaches_what_it_can_reach() {
     let mechanism = load(six_joints(WIDE, BALL, 2)).unwrap();
     assert!(mechanism.closed_form.is_none());
-    let body = mechanism.body(&|_| 0.5).unwrap();
-    for at in [[0.4, -0.8, 1.0, 0.3, 0.5, 0.2], [-0.6, 0.5, -1.2, 0.7, -0.4, 1.0]] {
-        let mut posture = [0.0; 7];
-        posture[..6].copy_from_slice(&at);
-        let palm = mechanism.arm.palm(&posture);
-        let goal = HandGoal {
-            point: palm * mechanism.grasp_point(),
-            approach: palm.rotation * Vector3::z(),
-            closing: palm.rotation * Vector3::x(),
-            rolls: 0,
-            back: 0.0,
-            floor: f64::NEG_INFINITY,
-        };
-        let problem = Problem {
-            mechanism: &mechanism,
-            body: &body,
-            scene: &Scene::default(),
-            start: mechanism.park.map(MotionState::at_rest),
-            leave: None,
-            aim: Aim::Hand(vec![goal]),
-            then: Vec::new(),
-            margin: Margin::default(),
-        };
-        let plan = problem.plan().unwrap();
-        let reached = mechanism.arm.palm(&plan.end());
-        assert!((reached * mechanism.grasp_point() - goal.point).norm() < 1e-3);
-        assert!((reached.rotation * Vector3::z()).angle(&goal.approach) < 0.03);
-        assert_eq!(plan.broken(&mechanism.limits()), None);
-    }
+    is_reached(&mechanism, &[0.4, -0.8, 1.0, 0.3, 0.5, 0.2, 0.0]);
+    is_reached(&mechanism, &[-0.6, 0.5, -1.2, 0.7, -0.4, 1.0, 0.0]);
+}
+
+#[test]
+fn our_arm_moves_with_another_hand() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let robot = Robot::load(&root.join("../../rt-config/robots/aros.toml")).unwrap();
+    let ours = Mechanism::of(&robot).unwrap();
+    let hand = Urdf::parse(Path::new("hand.urdf"), hand(BALL)).unwrap();
+    let mechanism = ours.clone().with_hand(&hand, Meshes::Required).unwrap();
+    assert!(mechanism.closed_form.is_some());
+    assert_eq!(mechanism.limits(), ours.limits());
+    let names: Vec<_> =
+        mechanism.body(&|_| 0.0).unwrap().bones().iter().map(|bone| bone.name.clone()).collect();
+    assert!(
+        names.iter().any(|name| name == "hand/finger_1") && names.iter().all(|name| name != "palm"),
+        "{names:?}"
+    );
+    let mut posture = robot.park;
+    posture.iter_mut().for_each(|angle| *angle *= 0.6);
+    is_reached(&mechanism, &posture);
+}
+
+#[test]
+fn a_hand_alone_is_refused_with_what_to_do_about_it() {
+    let error = load(hand(BALL)).unwrap_err().to_string();
+    assert!(error.starts_with("six.urdf:2:") && error.contains("--hand"), "{error}");
+}
+
+#[test]
+fn a_mesh_that_a_mounted_hand_lacks_is_said_to_be_the_hands() {
+    let arm = Urdf::parse(Path::new("six.urdf"), six_joints(WIDE, BALL, 0)).unwrap();
+    let hand = Urdf::parse(Path::new("hand.urdf"), hand("<mesh filename=\"knuckle.stl\"/>")).unwrap();
+    let urdf = arm.with_hand(&hand).unwrap();
+    let error = Mechanism::from_urdf(urdf.clone(), Meshes::Required).unwrap_err().to_string();
+    assert!(error.starts_with("hand.urdf:2:") && error.contains("knuckle.stl"), "{error}");
+    assert!(Mechanism::from_urdf(urdf, Meshes::OrCapsules(0.05)).is_ok());
 }
 
 #[test]

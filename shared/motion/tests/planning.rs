@@ -91,6 +91,27 @@ fn a_goal_beyond_the_arm_is_refused() {
     assert!(matches!(refusal, Refusal::OutOfReach { .. }), "{refusal}");
 }
 
+/// Four bars close around the wrist: the hand does not fit through.
+fn ring() -> Scene {
+    let wrist = AROS.0.arm.frame(&AROS.0.park, 6) * Isometry3::translation(0.0, 0.0, 0.09);
+    let bar = |x: f64, y: f64| {
+        let solid = Solid::Box(Vector3::new(
+            if x == 0.0 { 0.16 } else { 0.02 },
+            if y == 0.0 { 0.16 } else { 0.02 },
+            0.02,
+        ));
+        Obstacle::new("ring", solid, &(wrist * Isometry3::translation(x, y, 0.0)))
+    };
+    let obstacles = vec![bar(0.065, 0.0), bar(-0.065, 0.0), bar(0.0, 0.065), bar(0.0, -0.065)];
+    Scene { obstacles, ..Scene::default() }
+}
+
+#[test]
+fn a_hand_that_cannot_get_out_is_told_so_whatever_is_tried() {
+    let refusal = problem(&ring(), parked(), grip_at(-0.4, 0.55, 0.8)).plan().unwrap_err();
+    assert!(matches!(&refusal, Refusal::Way { other, .. } if other == "ring"), "{refusal}");
+}
+
 #[test]
 fn a_start_inside_something_is_refused() {
     let hand = grasp_point(&AROS.0.park);

@@ -5,8 +5,11 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaterni
 /// Height above a part's underside at which it is gripped, m, for a part `height` m high: half-way up, but never
 /// more than 35 mm below its top, so that the palm stays clear of a tall part, and higher on a low one, so that the
 /// fingers stay clear of what it stands on.
+///
+/// Not so high, though, that they press near its upper edge: a nut of 20 mm slips when it is held at 15.
 pub fn grip_height(height: f64) -> f64 {
-    (0.5 * height).max(height - 0.035).max(0.015f64.min(0.75 * height))
+    let clear_of_the_ground = (0.6 * height).clamp(0.012, 0.015).min(0.75 * height);
+    (0.5 * height).max(height - 0.035).max(clear_of_the_ground)
 }
 
 /// Frame at `point` with z along `approach` and x as near to `closing` as the approach allows, turned by `roll` rad

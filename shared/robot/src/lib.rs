@@ -26,12 +26,14 @@
 //! ```
 
 mod arm;
+mod arm_end;
 mod config;
 mod error;
 pub mod grip;
 mod hand;
 mod joint;
 mod limiter;
+mod mounting;
 mod movement;
 mod posture_search;
 mod quintic;
@@ -41,6 +43,7 @@ mod urdf;
 mod xml_line;
 
 pub use arm::Arm;
+pub use arm_end::ArmEnd;
 pub use error::RobotError;
 pub use hand::{Finger, Grasp, HAND_JOINTS, Hand};
 pub use joint::{Joint, JointLimits};

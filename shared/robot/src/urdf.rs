@@ -5,9 +5,18 @@ use std::path::{Path, PathBuf};
 /// A URDF file, read and checked joint by joint as chains are taken from it.
 #[derive(Debug, Clone)]
 pub struct Urdf {
+    /// The file; then those of the hands that were mounted.
+    sources: Vec<Source>,
+    robot: urdf_rs::Robot,
+}
+
+/// A file that links and joints come from.
+#[derive(Debug, Clone)]
+struct Source {
     path: PathBuf,
     text: String,
-    robot: urdf_rs::Robot,
+    /// What was put before its names.
+    prefix: String,
 }
 
 impl Urdf {
@@ -27,7 +36,10 @@ impl Urdf {
     /// [`RobotError::Malformed`].
     pub fn parse(path: &Path, text: String) -> Result<Self, RobotError> {
         match urdf_rs::read_from_string(&text) {
-            Ok(robot) => Ok(Self { path: path.to_path_buf(), text, robot }),
+            Ok(robot) => {
+                let source = Source { path: path.to_path_buf(), text, prefix: String::new() };
+                Ok(Self { sources: vec![source], robot })
+            }
             Err(error) => Err(RobotError::Malformed {
                 path: path.to_path_buf(),
                 line: crate::xml_line::of_first_fault(&text),
@@ -38,7 +50,24 @@ impl Urdf {
 
     /// The file.
     pub fn path(&self) -> &Path {
-        &self.path
+        &self.sources[0].path
+    }
+
+    /// The file in which this link or joint is described: its own, or that of a mounted hand.
+    pub fn path_of(&self, name: &str) -> &Path {
+        &self.source(name).path
+    }
+
+    /// The source of a link or joint.
+    fn source(&self, name: &str) -> &Source {
+        self.sources.iter().rfind(|source| name.starts_with(&source.prefix)).unwrap_or(&self.sources[0])
+    }
+
+    /// This arm as part of a robot with a hand whose names begin with `prefix`.
+    pub(crate) fn mounted(&self, robot: urdf_rs::Robot, hand: &Self, prefix: String) -> Self {
+        let mut sources = self.sources.clone();
+        sources.push(Source { prefix, ..hand.sources[0].clone() });
+        Self { sources, robot }
     }
 
     /// The link that is nobody's child.
@@ -152,9 +181,10 @@ impl Urdf {
 
     /// An error about the named element, with the line on which the name is declared.
     pub fn fault(&self, name: &str, message: &str) -> RobotError {
+        let Source { path, text, prefix } = self.source(name);
         RobotError::Malformed {
-            path: self.path.clone(),
-            line: crate::xml_line::of_name(&self.text, name),
+            path: path.clone(),
+            line: crate::xml_line::of_name(text, name.trim_start_matches(prefix.as_str())),
             message: format!("\"{name}\" {message}"),
         }
     }

@@ -1,7 +1,7 @@
 //! Robot descriptions: ours, others', and broken ones.
 #![allow(clippy::unwrap_used)]
 
-use coact_robot::{Arm, NotSrs, Robot, Srs, Urdf};
+use coact_robot::{Arm, ArmEnd, NotSrs, Robot, Srs, Urdf};
 use nalgebra::{Point3, Vector3};
 use std::path::{Path, PathBuf};
 
@@ -190,4 +190,83 @@ fn the_motors_carry_arm_hand_and_part_at_full_reach() {
         assert!(*torque < 0.7 * effort, "joint {}: {torque:.1} Nm of {effort}", joint + 1);
     }
     assert!(largest[1] > 20.0, "the test moves a real load: {largest:?}");
+}
+
+/// A hand of two fingers whose links are called as those of our robot.
+fn gripper(limits: &str) -> Urdf {
+    let finger = |name: &str, y: f64| {
+        format!(
+            "<link name=\"{name}\"/>\n<joint name=\"{name}_joint\" type=\"revolute\"><origin xyz=\"0 {y} 0.05\"/>\
+             <parent link=\"palm\"/><child link=\"{name}\"/><axis xyz=\"1 0 0\"/>\n<limit {limits} effort=\"5\" \
+             velocity=\"2\"/></joint>\n"
+        )
+    };
+    let links = "<link name=\"world\"/>\n<link name=\"palm\"/>\n<joint name=\"mount\" type=\"fixed\">\
+                 <origin xyz=\"0 0 0.01\"/><parent link=\"world\"/><child link=\"palm\"/></joint>\n";
+    let fingers = finger("left", 0.04) + &finger("right", -0.04);
+    Urdf::parse(Path::new("gripper.urdf"), format!("<robot name=\"gripper\">\n{links}{fingers}</robot>"))
+        .unwrap()
+}
+
+#[test]
+fn another_hand_stands_where_ours_stood() {
+    let (path, text) = ours();
+    let ours = Urdf::parse(&path, text).unwrap();
+    let robot = ours.with_hand(&gripper("lower=\"0\" upper=\"1\"")).unwrap();
+    assert_eq!(robot.palm().unwrap(), "gripper/palm");
+    let (_, before) = ours.chain(None, "palm").unwrap();
+    let (joints, after) = robot.chain(None, "gripper/palm").unwrap();
+    assert_eq!(joints.len(), 7);
+    assert!(
+        (before.inverse() * after).translation.vector.metric_distance(&Vector3::new(0.0, 0.0, 0.01)) < 1e-9
+    );
+    assert!(robot.chain(None, "gripper/left").unwrap().0.len() == 8);
+    assert!(!robot.links().iter().any(|link| link.name == "palm" || link.name.starts_with("finger")));
+}
+
+#[test]
+fn a_hand_is_mounted_on_an_arm_that_has_none() {
+    let (path, text) = ours();
+    let cut = text.find("<link name=\"palm\">").unwrap();
+    let bare = Urdf::parse(&path, text[..cut].to_owned() + "</robot>").unwrap();
+    assert_eq!(bare.arm_end().unwrap(), ArmEnd::Bare("wrist_roll".into()));
+    assert!(bare.palm().unwrap_err().to_string().contains("--hand"));
+    let robot = bare.with_hand(&gripper("lower=\"0\" upper=\"1\"")).unwrap();
+    assert_eq!(robot.palm().unwrap(), "gripper/palm");
+    assert_eq!(robot.chain(None, "gripper/right").unwrap().0.len(), 8);
+    assert!(robot.links().iter().any(|link| link.name == "wrist_roll"));
+}
+
+#[test]
+fn faults_of_a_mounted_hand_name_its_own_file_and_line() {
+    let (path, text) = ours();
+    let ours = Urdf::parse(&path, text).unwrap();
+    for limits in ["lower=\"1\" upper=\"0\"", "lower=\"0\" upper=\"0\""] {
+        let robot = ours.with_hand(&gripper(limits)).unwrap();
+        let error = robot.chain(None, "gripper/left").unwrap_err().to_string();
+        assert!(error.starts_with("gripper.urdf:6:") && error.contains("lower < upper"), "{error}");
+    }
+}
+
+#[test]
+fn what_has_no_fingers_is_no_hand() {
+    let (path, text) = ours();
+    let ours = Urdf::parse(&path, text).unwrap();
+    let stick = "<robot name=\"stick\"><link name=\"stick\"/></robot>".to_owned();
+    let stick = Urdf::parse(Path::new("stick.urdf"), stick).unwrap();
+    let error = ours.with_hand(&stick).unwrap_err().to_string();
+    assert!(error.starts_with("stick.urdf:1:") && error.contains("no fingers branch off"), "{error}");
+}
+
+#[test]
+fn a_real_hand_is_mounted_on_our_arm() {
+    let Some(file) = others("bh282.urdf") else { return };
+    let (path, text) = ours();
+    let robot = Urdf::parse(&path, text).unwrap().with_hand(&Urdf::load(&file).unwrap()).unwrap();
+    assert_eq!(robot.palm().unwrap(), "bh282/bh_base_link");
+    assert_eq!(robot.chain(None, "bh282/bh_finger_13_link").unwrap().0.len(), 10);
+    assert_eq!(robot.path_of("bh282/bh_finger_13_link"), file);
+    assert_eq!(robot.path_of("wrist_roll"), path);
+    let (mimicked, ..) = robot.mimicked("bh282/bh_j13_joint").unwrap();
+    assert_eq!(mimicked, "bh282/bh_j12_joint");
 }

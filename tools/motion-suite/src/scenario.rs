@@ -63,8 +63,8 @@ impl Scenario {
         }
     }
 
-    /// Whether it needs a task, and so a robot of ours.
-    pub fn needs_task(self) -> bool {
+    /// Whether it needs a hand of ours: one of which a robot file says how it grips.
+    pub fn needs_hand(self) -> bool {
         matches!(self, Self::Pick | Self::Insert | Self::Park)
     }
 

@@ -15,6 +15,7 @@ use std::process::ExitCode;
   coact motion bench                                  all scenarios, 50 random cases each
   coact motion bench --only pick,insert --cases 500   these, for longer
   coact motion bench --robot arm.urdf --missing-meshes capsules
+  coact motion bench --hand hand.urdf                 our arm with the hand of another URDF
   coact motion bench --json > bench.json              every figure, for programs")]
 pub struct Args {
     #[command(flatten)]
@@ -48,10 +49,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     let wanted =
         |scenario: &Scenario| args.only.is_empty() || args.only.iter().any(|name| name == scenario.name());
-    let able = |scenario: &Scenario| setting.task.is_some() || !scenario.needs_task();
+    let able = |scenario: &Scenario| setting.hand.is_some() || !scenario.needs_hand();
     let scenarios: Vec<Scenario> = Scenario::ALL.into_iter().filter(wanted).filter(able).collect();
     if scenarios.is_empty() {
-        bail!("{} need a robot file (.toml) with a task; a URDF alone has none", args.only.join(", "));
+        bail!(
+            "{} need a robot file (.toml) with its own hand: a URDF does not say how a hand grips",
+            args.only.join(", ")
+        );
     }
     let count = u64::from(args.cases);
     let bar = ProgressBar::new(count * scenarios.len() as u64)

@@ -17,6 +17,7 @@ use std::process::ExitCode;
   coact motion plan --to=-0.4,0.55,0.83 --back 0.15 --task rt-config/tasks/toy-vehicle.toml --out motion
   coact motion plan --to=-0.5,0.3,1.0 --approach=-1,0,0 --obstacle cylinder:-0.4,0.4,1.0,0.04,0.6 --out motion
   coact motion plan --robot arm.urdf --missing-meshes capsules --from 0,0.5,0,0.8,0,0,0 --to 0.4,0.2,-0.6 --out motion
+  coact motion plan --hand hand.urdf --missing-meshes capsules --to=-0.4,0.55,0.9 --out motion
 
 Places are in the world frame (z up). A number list that begins with a minus needs the equals sign: --to=-0.4,...")]
 pub struct Args {

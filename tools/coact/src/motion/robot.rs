@@ -10,9 +10,12 @@ use std::path::PathBuf;
 /// Which robot moves.
 #[derive(Debug, clap::Args)]
 pub struct RobotArgs {
-    /// Robot: a robot file (.toml), or any URDF of an arm of six or seven joints with a hand [default: ARoS]
+    /// Robot: a robot file (.toml), or any URDF of an arm of six or seven joints [default: ARoS]
     #[arg(long, value_name = "FILE")]
     robot: Option<PathBuf>,
+    /// Hand in place of the robot's own, or for an arm without one: the URDF of a hand alone, z out of its palm
+    #[arg(long, value_name = "FILE")]
+    hand: Option<PathBuf>,
     /// What to do about meshes of a URDF that are not there
     #[arg(long, value_enum, default_value_t = MissingMeshes::Refuse)]
     missing_meshes: MissingMeshes,
@@ -39,15 +42,25 @@ impl RobotArgs {
         let installation = Installation::find()?;
         let own = installation.configuration.join("robots/aros.toml");
         let file = self.robot.as_ref().unwrap_or(&own);
-        if file.extension().is_some_and(|extension| extension == "toml") {
-            let toy = installation.configuration.join("tasks/toy-vehicle.toml");
-            let task = Task::load(task.unwrap_or(&toy))?;
-            return Ok(Setting::of(&Robot::load(file)?, task)?);
-        }
+        let hand = self.hand.as_deref().map(Urdf::load).transpose()?;
         let meshes = match self.missing_meshes {
             MissingMeshes::Refuse => Meshes::Required,
             MissingMeshes::Capsules => Meshes::OrCapsules(STAND_IN),
         };
-        Ok(Setting::foreign(Mechanism::from_urdf(Urdf::load(file)?, meshes)?)?)
+        if file.extension().is_some_and(|extension| extension == "toml") {
+            let toy = installation.configuration.join("tasks/toy-vehicle.toml");
+            let task = Task::load(task.unwrap_or(&toy))?;
+            let robot = Robot::load(file)?;
+            return Ok(match hand {
+                None => Setting::of(&robot, task)?,
+                Some(hand) => {
+                    let mechanism = Mechanism::of(&robot)?.with_hand(&hand, meshes)?;
+                    Setting { task: Some(task), ..Setting::foreign(mechanism)? }
+                }
+            });
+        }
+        let arm = Urdf::load(file)?;
+        let urdf = hand.map_or_else(|| Ok(arm.clone()), |hand| arm.with_hand(&hand))?;
+        Ok(Setting::foreign(Mechanism::from_urdf(urdf, meshes)?)?)
     }
 }
