@@ -67,6 +67,18 @@ fn a_subgoal_is_open_until_its_part_lies_in_the_socket() {
 }
 
 #[test]
+fn a_part_that_stands_beside_its_socket_is_not_in_it() {
+    for (away, mounted) in [(0.012, true), (0.016, false), (0.025, false)] {
+        let mut stage = Stage::new();
+        let goal = stage.task.subgoals.iter().position(|goal| goal.name == "column 1 in its hole").unwrap();
+        let (part, socket) = (stage.part("column 1"), stage.task.subgoals[goal].socket);
+        stage.run(700, |stage, _| stage.things[part].position = [socket[0], socket[1] + away, socket[2]]);
+        let achieved = stage.percept.achieved[goal];
+        assert!(if mounted { achieved > 0.9 } else { achieved < 0.1 }, "{away} m: {achieved}");
+    }
+}
+
+#[test]
 fn a_mounted_part_is_free_in_no_workspace_and_stays_mounted_while_the_hand_is_near() {
     let mut stage = Stage::new();
     let goal = stage.task.subgoals.iter().position(|goal| goal.name == "wheel on the person's side").unwrap();

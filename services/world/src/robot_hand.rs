@@ -62,6 +62,8 @@ pub(crate) struct RobotHandMemory {
     changing: u64,
     /// The part that has slipped out of fingers that are still closed.
     pub slipped: Slot,
+    /// The part in the person's hand that is between the open fingers.
+    pub receiving: Slot,
 }
 
 /// Mean finger angles at which a kind of part is touched, gripped and let go, rad, and all hand joints in the grip.
@@ -203,8 +205,8 @@ impl RobotHand {
         nearest.into_iter().for_each(|part| take(palm, memory, parts, part));
     }
 
-    /// Notes since when the hand has stood where the person pays attention to it.
-    pub fn notice(&self, tick: u64, palm: &Palm, memory: &mut RobotHandMemory) {
+    /// Notes since when the hand has stood where the person pays attention to it, and what the person puts into it.
+    pub fn notice(&self, tick: u64, palm: &Palm, memory: &mut RobotHandMemory, parts: &Parts, task: &Task) {
         let at_handover = palm.grasp_point.distance(self.handover) < AT_PLACE;
         let at_base = palm.grasp_point.distance(self.hold) < AT_PLACE;
         let empty = memory.held.get().is_none();
@@ -217,6 +219,11 @@ impl RobotHand {
         memory.asking_since = since(at_handover && empty && palm.closing < self.open, memory.asking_since);
         memory.offering_since = since(at_handover && memory.brought == 1, memory.offering_since);
         memory.holding_since = since(at_base && empty, memory.holding_since);
+        let between = |part: &usize| {
+            parts.is(*part, Holder::Person) && parts.distance_to_axis(*part, palm.grasp_point, task) <= REACH
+        };
+        let received = (0..parts.all().len()).find(between).filter(|_| empty);
+        memory.receiving = received.map_or(Slot::EMPTY, Slot::of);
     }
 }
 

@@ -1,7 +1,7 @@
 use crate::body::{Body, FingerStop, Influence, Joints, Kinematic, Physics};
 use crate::memory::Memory;
 use crate::noise::Noise;
-use crate::parts::Parts;
+use crate::parts::{Holder, Parts};
 use crate::person::{HandModel, Person, Plan, Surroundings};
 use crate::robot_hand::{Palm, RobotHand};
 use crate::sensors::{Capture, read_joints, recognise, track};
@@ -97,6 +97,7 @@ impl World {
             person: self.memory.person.hand.wrist(),
             held: self.memory.robot.held.get(),
             slipped: self.memory.robot.slipped.get(),
+            pull: self.memory.person.force.into(),
         };
         self.body.advance(&influence, &mut self.joints, &mut self.parts);
         let palm = self.hand.palm(&self.joints.position);
@@ -148,7 +149,7 @@ impl World {
             memory.slipped |= 1 << index;
             hand.lose(&mut memory.robot, parts, slip.to, task);
         }
-        hand.notice(tick, palm, &mut memory.robot);
+        hand.notice(tick, palm, &mut memory.robot, parts, task);
         let mut around = Surroundings { tick, task, parts, robot: &memory.robot };
         person.advance(&mut memory.person, &mut around);
         if let Some(sentence) = person.speak(&mut memory.person, task) {
@@ -197,7 +198,14 @@ impl World {
         let wanted = command.map_or(0.0, |command| coact_messages::closing(&command.position));
         let ruled = || hand.touch(&memory.robot, parts, wanted);
         let touch = body.grip().map_or_else(ruled, |grip| grip.force);
-        read_joints(tick, noise, (&joints.position, &joints.velocity), touch, &mut out.joints);
+        let of_person = DVec3::from(memory.person.force);
+        let outside = match (body.outside(), memory.person.grip.get()) {
+            // A pull goes through the body that measures it; what the person alone has is held by rules.
+            (Some(outside), Some(part)) if parts.is(part, Holder::Person) => outside + of_person,
+            (Some(outside), _) => outside,
+            (None, _) => of_person,
+        };
+        read_joints(tick, noise, joints, (touch, outside), &mut out.joints);
         let (eye, (blocks, count)) = (task.scene.eye(), staging.occluders(tick, memory.person.screen()));
         let occluders = &blocks[..count];
         let Memory { person: moved, tracker, .. } = memory;

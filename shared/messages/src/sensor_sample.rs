@@ -21,7 +21,7 @@ pub struct SensorSample {
     pub heard: Heard,
 }
 
-/// Proprioception: joint encoders and fingertip touch.
+/// Proprioception: joint encoders, fingertip touch and the force at the wrist.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
 pub struct JointReading {
@@ -29,8 +29,16 @@ pub struct JointReading {
     pub position: [f64; JOINTS],
     /// Measured velocities, rad/s.
     pub velocity: [f64; JOINTS],
-    /// Force that the fingers exert on what they hold, N; 0 when they touch nothing.
+    /// Force that the fingers exert on what they hold, N, as the mean of the last 30 ms: contacts chatter from step to
+    /// step, and a force sensor has no more than such a bandwidth. 0 when they touch nothing.
     pub touch: f64,
+    /// Force that something outside exerts on the hand and on what it holds, N, world frame, without the weight and the
+    /// inertia of both: 0 while nobody pulls and nothing is in the way. NaN: not measured.
+    ///
+    /// The world with dynamics measures it at the contacts, along their normals and without friction, as a mean of 30 ms;
+    /// the person's pull goes through there. Without dynamics, and where a part is pressed into the open hand, it is the
+    /// force of the person's model.
+    pub wrist_force: [f64; 3],
 }
 
 /// One frame of the hand tracker.

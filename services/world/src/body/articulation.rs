@@ -21,8 +21,8 @@ const PAD: f32 = 1.0;
 #[derive(Debug, Clone)]
 pub(super) struct Articulation {
     joints: Vec<DrivenJoint>,
-    /// Colliders of the fingers, and which finger each belongs to.
-    pub pads: Vec<(ColliderHandle, usize)>,
+    /// Colliders of the hand, and which finger each belongs to; none: to the palm.
+    pub shapes: Vec<(ColliderHandle, Option<usize>)>,
 }
 
 #[derive(Debug, Clone)]
@@ -56,7 +56,7 @@ impl Articulation {
             places.insert(&link.name, (root, Isometry3::identity()));
             furnish(world, link, &places[link.name.as_str()], Layer::Arm);
         }
-        let (mut joints, mut pads) = (Vec::<DrivenJoint>::new(), Vec::new());
+        let (mut joints, mut of_hand) = (Vec::<DrivenJoint>::new(), Vec::new());
         let mut waiting: Vec<&urdf_rs::Joint> = model.joints.iter().collect();
         while let Some(next) =
             waiting.iter().position(|joint| places.contains_key(joint.parent.link.as_str()))
@@ -76,14 +76,14 @@ impl Articulation {
                 let on_hand = robot.urdf.chain(None, &link.name).is_ok_and(|(joints, _)| joints.len() >= 7);
                 let layer = if on_hand { Layer::Hand } else { Layer::Arm };
                 let shapes = furnish(world, link, &place, layer);
-                if let Some(finger) = joints.last().and_then(|last| last.finger())
-                    && joint.joint_type != urdf_rs::JointType::Fixed
-                {
-                    pads.extend(shapes.into_iter().map(|shape| (shape, finger)));
+                let moved = joints.last().filter(|_| joint.joint_type != urdf_rs::JointType::Fixed);
+                let finger = moved.and_then(DrivenJoint::finger);
+                if on_hand {
+                    of_hand.extend(shapes.into_iter().map(|shape| (shape, finger)));
                 }
             }
         }
-        let built = Self { joints, pads };
+        let built = Self { joints, shapes: of_hand };
         built.gear(world);
         Ok(built)
     }

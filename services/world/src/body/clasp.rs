@@ -1,9 +1,8 @@
 use super::Grip;
 use super::articulation::Articulation;
+use super::contacts::pushes;
 use rapier3d::prelude::*;
 
-/// Friction coefficient between finger pads and parts.
-const FRICTION: f64 = 0.85;
 /// For how many steps a load must exceed what friction can carry before the part slips, and must not before it sticks
 /// again.
 const SLIPS: u32 = 30;
@@ -55,9 +54,7 @@ impl Clasp {
 
     /// Lets the part slip when the load has been too large for the grip for too long, and stick again after that.
     pub fn check(&mut self, world: &mut PhysicsWorld, hand: &Articulation, grip: &Grip) {
-        // Two sides press with the force of the grip, and each has friction.
-        let carried = 2.0 * FRICTION * grip.force_on(self.part);
-        let too_much = self.load(world, hand).is_some_and(|load| load > carried);
+        let too_much = self.load(world, hand).is_some_and(|load| load > grip.carries(self.part));
         let sticks = self.joint.is_some();
         self.changing = if too_much == sticks { self.changing + 1 } else { 0 };
         if sticks && self.changing > SLIPS {
@@ -83,13 +80,10 @@ impl Clasp {
         let before = std::mem::replace(&mut self.velocity, body.linvel());
         let mut load = body.mass() * ((body.linvel() - before) / seconds - world.gravity) - body.user_force();
         for own in body.colliders() {
-            for pair in world.contact_pairs_with(*own) {
-                let (other, sign) =
-                    if pair.collider1 == *own { (pair.collider2, 1.0) } else { (pair.collider1, -1.0) };
-                if !hand.pads.iter().any(|(pad, _)| *pad == other) {
-                    load += sign * pair.total_impulse() / seconds;
-                }
-            }
+            let on_finger =
+                |other| hand.shapes.iter().any(|(shape, finger)| *shape == other && finger.is_some());
+            let others = pushes(world, *own).filter(|(other, _)| !on_finger(*other));
+            load += others.map(|(_, push)| push).sum::<Vector>();
         }
         Some(f64::from(load.length()))
     }

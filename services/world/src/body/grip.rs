@@ -1,8 +1,11 @@
-use super::articulation::Articulation;
+use super::contacts::Contacts;
 use coact_messages::MAX_PARTS;
 use rapier3d::prelude::*;
 
-/// What the fingers squeeze, measured at their contacts.
+/// Friction coefficient between finger pads and parts.
+const FRICTION: f64 = 0.85;
+
+/// What the fingers squeeze, as their force sensors tell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Grip {
     /// The part that is squeezed most.
@@ -20,24 +23,17 @@ impl Grip {
         self.forces[part]
     }
 
-    /// Reads the last step's contacts between fingers and parts, whose colliders carry their index + 1 as user data.
-    pub(super) fn measure(world: &PhysicsWorld, hand: &Articulation) -> Self {
-        let mut pushes = [[Vector::ZERO; 3]; MAX_PARTS];
-        for (pad, finger) in &hand.pads {
-            for pair in world.contact_pairs_with(*pad) {
-                let (other, sign) =
-                    if pair.collider1 == *pad { (pair.collider2, 1.0) } else { (pair.collider1, -1.0) };
-                let part = world.colliders.get(other).and_then(|other| other.user_data.checked_sub(1));
-                if let Some(part) = part {
-                    pushes[part as usize][*finger] += sign * pair.total_impulse();
-                }
-            }
-        }
-        let seconds = world.integration_parameters.dt;
-        let forces = pushes.map(|fingers| {
+    /// What friction can hold a part against, N: two sides press with the force of the grip, and each has friction.
+    pub(super) fn carries(&self, part: usize) -> f64 {
+        2.0 * FRICTION * self.force_on(part)
+    }
+
+    /// The grip that the fingers' forces make.
+    pub(super) fn of(contacts: &Contacts) -> Self {
+        let forces = contacts.pushes.map(|fingers| {
             let all: f32 = fingers.iter().map(|push| push.length()).sum();
             let unopposed = fingers.iter().copied().sum::<Vector>().length();
-            f64::from(0.5 * (all - unopposed) / seconds)
+            f64::from(0.5 * (all - unopposed))
         });
         let most = (0..MAX_PARTS).max_by(|one, other| forces[*one].total_cmp(&forces[*other]));
         let part = most.filter(|&part| forces[part] > 0.0);

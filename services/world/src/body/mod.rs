@@ -2,7 +2,9 @@
 
 mod articulation;
 mod clasp;
+mod contacts;
 mod finger_stop;
+mod force_sensor;
 mod grip;
 mod kinematic;
 mod physics;
@@ -46,6 +48,8 @@ pub(crate) struct Influence<'a> {
     pub held: Option<usize>,
     /// The part that has slipped out of the robot's hand, whose fingers are still closed.
     pub slipped: Option<usize>,
+    /// Force of the person on the part in the robot's hand, N.
+    pub pull: DVec3,
 }
 
 impl Body {
@@ -64,6 +68,15 @@ impl Body {
         match self {
             Self::Kinematic(_) => None,
             Self::Physics(body) => Some(body.grip()),
+        }
+    }
+
+    /// Force on the robot's hand and what it holds, by anything but the person's rules, N; none for a body that measures
+    /// nothing.
+    pub fn outside(&self) -> Option<DVec3> {
+        match self {
+            Self::Kinematic(_) => None,
+            Self::Physics(body) => Some(body.outside()),
         }
     }
 

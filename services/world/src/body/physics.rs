@@ -1,5 +1,7 @@
 use super::articulation::Articulation;
 use super::clasp::Clasp;
+use super::contacts::Contacts;
+use super::force_sensor::ForceSensor;
 use super::scene::furnish_scene;
 use super::shapes::{Layer, part_collider};
 use super::{Grip, Influence, Joints};
@@ -32,8 +34,12 @@ pub(crate) struct Physics {
     /// Parts as this body left them: what differs now was placed by someone else.
     left: Vec<PartState>,
     person: RigidBodyHandle,
+    forces: ForceSensor,
     grip: Grip,
+    outside: DVec3,
     clasp: Option<Clasp>,
+    /// The part at which the person pulls.
+    pulled: Option<usize>,
 }
 
 impl Physics {
@@ -65,8 +71,18 @@ impl Physics {
         let ball = ColliderBuilder::ball(PERSON_HAND).collision_groups(Layer::Person.groups());
         world.insert_collider(ball, Some(person));
         let left = parts.all().to_vec();
-        let mut built =
-            Self { world, articulation, parts: bodies, left, person, grip: Grip::NONE, clasp: None };
+        let mut built = Self {
+            world,
+            articulation,
+            parts: bodies,
+            left,
+            person,
+            forces: ForceSensor::new(),
+            grip: Grip::NONE,
+            outside: DVec3::ZERO,
+            clasp: None,
+            pulled: None,
+        };
         built.resume(joints, parts);
         Ok(built)
     }
@@ -90,10 +106,12 @@ impl Physics {
         parts.settle(influence.task);
         self.follow(influence.person, parts);
         self.assign_layers(parts, influence);
-        self.hold(influence.held.filter(|held| parts.is(*held, Holder::Robot)));
+        let held = influence.held.filter(|held| parts.is(*held, Holder::Robot));
+        self.hold(held);
+        self.pull_at(held, influence.pull);
         self.world.step();
         self.articulation.read(&self.world, joints);
-        self.grip = Grip::measure(&self.world, &self.articulation);
+        self.measure(held, parts);
         if let Some(clasp) = &mut self.clasp {
             clasp.check(&mut self.world, &self.articulation, &self.grip);
         }
@@ -109,9 +127,36 @@ impl Physics {
         }
     }
 
-    /// What the fingers squeezed in the last step.
+    /// What the fingers squeeze.
     pub fn grip(&self) -> Grip {
         self.grip
+    }
+
+    /// Force on the hand and on the part that it holds, N.
+    pub fn outside(&self) -> DVec3 {
+        self.outside
+    }
+
+    fn measure(&mut self, held: Option<usize>, parts: &Parts) {
+        let body = held.map(|held| self.parts[held]);
+        let own = |part| held == Some(part) || parts.is(part, Holder::Person);
+        self.forces.feel(Contacts::measure(&self.world, &self.articulation, body, own));
+        let felt = self.forces.read();
+        self.grip = Grip::of(&felt);
+        self.outside = DVec3::from_array(felt.outside.to_array().map(f64::from));
+    }
+
+    /// Lets the person pull at what the hand holds, as far as the grip withstands it: what gives way goes along.
+    fn pull_at(&mut self, held: Option<usize>, pull: DVec3) {
+        if let Some(body) = self.pulled.take().and_then(|part| self.world.bodies.get_mut(self.parts[part])) {
+            body.reset_forces(true);
+        }
+        let Some(held) = held.filter(|_| pull != DVec3::ZERO) else { return };
+        if let Some(body) = self.world.bodies.get_mut(self.parts[held]) {
+            let force = pull.clamp_length_max(self.grip.carries(held));
+            body.add_force(force.as_vec3().to_array().into(), true);
+            self.pulled = Some(held);
+        }
     }
 
     /// Clasps what the hand holds, and nothing else.

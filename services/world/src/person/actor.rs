@@ -75,6 +75,7 @@ impl Person {
             Stage::AwaitRelease => self.await_release(memory, around),
             Stage::Withdraw => self.withdrawing(memory, around),
         }
+        self.exert(memory, around);
     }
 
     /// The sentence that the person says now: the script's, or the phrase that goes with the present action.

@@ -67,6 +67,11 @@ impl HandModel {
         DVec3::new(-yaw.sin(), yaw.cos(), 0.0)
     }
 
+    /// Unit vector from a place to the shoulder: the way in which the person draws something nearer.
+    pub fn towards_shoulder(&self, place: DVec3) -> DVec3 {
+        (self.shoulder - place).normalize_or_zero()
+    }
+
     /// The middle between the finger tips, m: what the hand grasps lies there.
     pub fn centre(&self, pose: &HandPose) -> DVec3 {
         pose.wrist() + pose.extension * self.direction(pose) + pose.aside * self.thumb_side(pose)

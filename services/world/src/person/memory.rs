@@ -55,6 +55,10 @@ pub(crate) struct PersonMemory {
     pub waiting: u64,
     /// Actions of the script that were given up because no part came.
     pub skipped: u64,
+    /// Tick since which the person has pulled at a part in the robot's hand, or pressed one into it; 0: does not.
+    pub contact: u64,
+    /// Force of the person's hand on the robot's, through the part that both have, N, world frame.
+    pub force: [f64; 3],
 }
 
 /// What an action is for.

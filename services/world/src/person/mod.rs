@@ -2,6 +2,7 @@
 
 mod actor;
 mod erring;
+mod force;
 mod hand_model;
 mod hand_pose;
 mod intention;

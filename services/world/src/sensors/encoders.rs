@@ -1,5 +1,7 @@
+use crate::body::Joints;
 use crate::noise::{Noise, Stream};
-use coact_messages::{JOINTS, JointReading};
+use coact_messages::JointReading;
+use glam::DVec3;
 use rand_distr::{Distribution, StandardNormal};
 
 /// Scatter of a joint encoder, rad.
@@ -7,17 +9,18 @@ const POSITION: f64 = 2e-5;
 /// Scatter of a joint's velocity, rad/s.
 const VELOCITY: f64 = 1e-3;
 
-/// Reads all joint encoders and the fingertip force.
+/// Reads all joint encoders, the fingertip force and the force on the wrist.
 pub(crate) fn read_joints(
     tick: u64,
     noise: &Noise,
-    (position, velocity): (&[f64; JOINTS], &[f64; JOINTS]),
-    touch: f64,
+    joints: &Joints,
+    (touch, wrist_force): (f64, DVec3),
     out: &mut JointReading,
 ) {
     let mut rng = noise.at(Stream::Encoders, tick);
     let mut deviate = || -> f64 { StandardNormal.sample(&mut rng) };
-    out.position = std::array::from_fn(|joint| position[joint] + POSITION * deviate());
-    out.velocity = std::array::from_fn(|joint| velocity[joint] + VELOCITY * deviate());
+    out.position = std::array::from_fn(|joint| joints.position[joint] + POSITION * deviate());
+    out.velocity = std::array::from_fn(|joint| joints.velocity[joint] + VELOCITY * deviate());
     out.touch = touch;
+    out.wrist_force = wrist_force.into();
 }

@@ -3,6 +3,7 @@
 mod erring;
 mod fake_robot;
 mod grasping;
+mod handover;
 mod hidden;
 mod manipulator;
 mod partner;

@@ -4,23 +4,9 @@ use crate::parts::Holder;
 use coact_joint_task::{Agent, Subgoal};
 use coact_robot::Robot;
 use glam::{DQuat, DVec3};
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
 
 const AT: [f64; 2] = [-0.40, 0.55];
 const KINDS: [&str; 4] = ["wheel", "nut", "column 3", "top floor"];
-
-/// A robot that has taken a part of `kind` and holds it above the table; it took the part for lying up to 3 mm beside.
-fn holding(kind: &str, seed: u64) -> Manipulator {
-    let mut random = Pcg64Mcg::seed_from_u64(seed);
-    let mut any = |low: f64, high: f64| random.random_range(low..high);
-    let at = [any(-0.52, -0.32), any(0.50, 0.72)];
-    let mut robot = Manipulator::new(kind, at);
-    robot.stay(50);
-    let table = robot.world.task.scene.table_height;
-    robot.pick(DVec3::new(at[0] + any(-0.003, 0.003), at[1] + any(-0.003, 0.003), table));
-    robot
-}
 
 /// The place on the robot's side for the part.
 fn goal(robot: &Manipulator) -> Subgoal {
@@ -31,7 +17,7 @@ fn goal(robot: &Manipulator) -> Subgoal {
 
 /// Slip of the part in the hand over a movement to before its socket: m and degrees; none when it was lost.
 fn slip(kind: &str, seed: u64) -> Option<(f64, f64)> {
-    let mut robot = holding(kind, seed);
+    let mut robot = Manipulator::holding(kind, seed);
     let (lifted, goal) = (robot.in_hand(), goal(&robot));
     let (before, _) = robot.reach(goal.socket.into(), goal.axis.into());
     robot.go(&before, Fingers::Closed);
@@ -71,7 +57,7 @@ fn twenty_grasps_measured() {
 #[test]
 fn part_is_mounted_within_the_tolerances_and_not_outside() {
     for (aside, tilt, mounted) in [(0.5, 0.0, true), (2.0, 0.0, false), (0.0, 0.5, true), (0.0, 3.0, false)] {
-        let mut robot = holding("column 3", 3);
+        let mut robot = Manipulator::holding("column 3", 3);
         let (goal, fit) = (goal(&robot), robot.world.task.scene.fit);
         let turn = DQuat::from_axis_angle(DVec3::Y, tilt * fit.angle);
         let place = DVec3::from(goal.socket) + DVec3::new(0.0, aside * fit.position, 0.0);
@@ -84,7 +70,7 @@ fn part_is_mounted_within_the_tolerances_and_not_outside() {
 
 #[test]
 fn part_that_is_pulled_away_is_lost_and_no_longer_felt() {
-    let mut robot = holding("column 3", 5);
+    let mut robot = Manipulator::holding("column 3", 5);
     robot.pull(DVec3::new(0.0, 0.0, -2.0));
     robot.stay(500);
     assert!(robot.holds() && robot.out.sample.joints.touch > 1.0, "a weak pull is withstood");
@@ -106,7 +92,7 @@ fn fingers_that_close_beside_a_part_hold_nothing() {
 #[test]
 fn held_part_stays_held_when_the_world_is_killed() {
     for kind in KINDS {
-        let mut robot = holding(kind, 2);
+        let mut robot = Manipulator::holding(kind, 2);
         let before = robot.in_hand();
         robot.kill();
         robot.stay(500);
@@ -117,7 +103,7 @@ fn held_part_stays_held_when_the_world_is_killed() {
 
 #[test]
 fn arm_follows_with_a_part_and_sinks_when_its_motors_are_too_weak() {
-    assert!(holding("column 3", 4).deviation < 0.01);
+    assert!(Manipulator::holding("column 3", 4).deviation < 0.01);
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("aros.toml");
     std::fs::copy(config("robots/aros.toml"), &file).unwrap();

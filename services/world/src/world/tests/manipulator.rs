@@ -9,6 +9,8 @@ use coact_robot::{
 };
 use glam::{DQuat, DVec3};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 
 /// A robot in the physics world with one part on the table, moved posture by posture.
 pub(super) struct Manipulator {
@@ -64,6 +66,18 @@ impl Manipulator {
         Self { world, out: Out::new(), robot, limits, at, tick: 0, deviation: 0.0 }
     }
 
+    /// One that has taken a part of `kind` and holds it above the table; it took the part for lying up to 3 mm beside.
+    pub fn holding(kind: &str, seed: u64) -> Self {
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let mut any = |low: f64, high: f64| random.random_range(low..high);
+        let at = [any(-0.52, -0.32), any(0.50, 0.72)];
+        let mut robot = Self::new(kind, at);
+        robot.stay(50);
+        let table = robot.world.task.scene.table_height;
+        robot.pick(DVec3::new(at[0] + any(-0.003, 0.003), at[1] + any(-0.003, 0.003), table));
+        robot
+    }
+
     /// Shape and width of the part, m.
     fn part(&self) -> (f64, f64) {
         let kind = &self.world.task.kinds[self.world.parts.kind(0)];
@@ -86,6 +100,11 @@ impl Manipulator {
 
     /// Moves to an arm posture with the fingers open around the part, or closed on it.
     pub fn go(&mut self, arm: &Posture, fingers: Fingers) {
+        self.watch(arm, fingers, |_| {});
+    }
+
+    /// The same; `look` sees every tick.
+    pub fn watch(&mut self, arm: &Posture, fingers: Fingers, mut look: impl FnMut(&Self)) {
         let width = self.part().1;
         let gap = match fingers {
             Fingers::Open => 0.01,
@@ -98,6 +117,7 @@ impl Manipulator {
         let ticks = (movement.duration * 1e3).ceil() as u64;
         for tick in 1..=ticks {
             self.step(&movement.at((tick as f64 * 1e-3).min(movement.duration)));
+            look(self);
         }
         self.at = target;
     }
