@@ -60,6 +60,8 @@ pub fn run(
         if stages.ticks() % LOOK_EVERY != 0 {
             continue;
         }
+        monitor.sample(&stages.sample);
+        monitor.percept(&stages.percept);
         monitor.frame(&stages.frame, &mut events);
         monitor.command(&stages.command);
         let sentence = voice.observe(&stages.frame);
