@@ -77,7 +77,8 @@ impl Holdings {
             let let_go = before.held[who] & !self.held[who];
             let told = before.placed[who] | self.held[1 - who];
             news.extend(
-                kinds(let_go & !told, task).map(|kind| format!("{name} lets go of {}", task.kinds[kind].name)),
+                kinds(let_go & !told, task)
+                    .map(|kind| format!("{name} lets go of {}", task.kinds[kind].name)),
             );
         }
         (!news.is_empty()).then(|| news.join("; "))

@@ -54,7 +54,8 @@ pub fn draw(report: &Path, task: &Path, robot: &Path) -> Result<PathBuf> {
     let (task, robot) = (Task::load(task)?, Robot::load(robot)?);
     let moments = Album::read(report)?;
     let letters = Lettering::new()?;
-    let picture = ContactSheet { moments: &moments, task: &task, robot: &robot }.draw(&letters)?.png(&letters)?;
+    let picture =
+        ContactSheet { moments: &moments, task: &task, robot: &robot }.draw(&letters)?.png(&letters)?;
     let file = sheet(report);
     std::fs::create_dir_all(report.join("plots"))
         .and_then(|()| std::fs::write(&file, picture))

@@ -1,7 +1,7 @@
 use crate::person::arm_and_hand;
 use crate::view::{ARM, HAND, Stroke, THINGS, View, paint};
 use coact_figures::{Anchor, Lettering, Mark, Place, Sheet, TELLING};
-use coact_joint_task::{Kind, Task};
+use coact_joint_task::{Fixture, Kind, Task};
 use coact_messages::ARM_JOINTS;
 use coact_monitor::{Moment, SeenPart};
 use coact_motion::{Body, Capsule, Mechanism, workplace};
@@ -42,7 +42,7 @@ const CAPTION: i32 = 74;
 const HEAD: i32 = 84;
 const GAP: i32 = 16;
 /// Between the two, on the side where parts change hands, and above: the person is on the left, the robot on the right.
-const TOWARDS: Vector3<f64> = Vector3::new(-0.3, -0.8, 0.6);
+const TOWARDS: Vector3<f64> = Vector3::new(-0.12, -0.8, 0.55);
 const TABLE: RGBColor = RGBColor(232, 224, 210);
 const PERSON: RGBColor = RGBColor(225, 165, 130);
 const FRAME: RGBColor = RGBColor(200, 200, 200);
@@ -119,10 +119,11 @@ impl ContactSheet<'_> {
     }
 
     fn paint(&self, sheet: &mut Sheet, picture: &Picture, view: &View) -> Result<(), AlbumError> {
-        // What stands still lies below or behind all that moves.
-        for (index, fixture) in workplace::fixtures(self.task).iter().enumerate() {
-            paint(sheet, view.solid(fixture, if index == 0 { TABLE } else { THINGS }));
-        }
+        // What stands still is below all that moves; foot and axles are below the base.
+        let (tables, others): (Vec<_>, Vec<_>) =
+            workplace::fixtures(self.task).into_iter().partition(|fixture| fixture.name == Fixture::TABLE);
+        tables.iter().for_each(|table| paint(sheet, view.solid(table, TABLE)));
+        others.iter().rev().for_each(|other| paint(sheet, view.solid(other, THINGS)));
         let bones = picture.body.bones().iter().zip(&picture.hulls);
         let mut strokes: Vec<Stroke> =
             bones.map(|(bone, hull)| view.capsule(hull, if bone.hand { HAND } else { ARM })).collect();

@@ -1,7 +1,8 @@
 use coact_motion::Solid;
 use nalgebra::{Point3, Vector3};
+use std::f64::consts::PI;
 
-/// A flat piece of a form's surface, in the form's own frame.
+/// A piece of a form's outside, in the form's own frame.
 pub(crate) struct Face {
     /// Its corners, in turn, m.
     pub corners: Vec<Point3<f64>>,
@@ -9,20 +10,20 @@ pub(crate) struct Face {
     pub normal: Vector3<f64>,
 }
 
-/// Pieces of a circle.
-pub(crate) const CIRCLE: u32 = 24;
+/// Pieces of half a circle.
+const HALF: u32 = 16;
 
 /// Corners of a rectangle, in units of half its edges.
-const SQUARE: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+const RECTANGLE: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
 
 impl Face {
-    /// The faces of a box or a cylinder; a capsule has none.
-    pub fn of(solid: &Solid) -> Vec<Self> {
+    /// The faces of a box or a cylinder, its round side as it is seen from `eye`, a direction; a capsule has none.
+    pub fn of(solid: &Solid, eye: &Vector3<f64>) -> Vec<Self> {
         match *solid {
             Solid::Box(size) => (0..6).map(|side| Self::of_box(size, side)).collect(),
             Solid::Cylinder { radius, height } => {
-                let lids = [-1.0, 1.0].map(|side| Self::lid(radius, 0.5 * side * height));
-                lids.into_iter().chain((0..CIRCLE).map(|step| Self::stave(radius, height, step))).collect()
+                let [bottom, top] = [-0.5, 0.5].map(|side| Self::lid(radius, side * height));
+                vec![bottom, Self::round_side(radius, height, eye), top]
             }
             Solid::Capsule(_) => Vec::new(),
         }
@@ -39,26 +40,34 @@ impl Face {
         };
         let mut normal = Vector3::zeros();
         normal[axis] = sign;
-        Self { corners: SQUARE.map(corner).to_vec(), normal }
+        Self { corners: RECTANGLE.map(corner).to_vec(), normal }
     }
 
     fn lid(radius: f64, z: f64) -> Self {
-        let corners = (0..CIRCLE).map(|step| on_circle(radius, f64::from(step), z)).collect();
+        let corners = arc(radius, z, (0.0, 2.0 * PI), 2 * HALF).collect();
         Self { corners, normal: Vector3::z() * z.signum() }
     }
 
-    /// One of the flat pieces of which a cylinder's side is made.
-    fn stave(radius: f64, height: f64, step: u32) -> Self {
-        let corner = |(along, up): (f64, f64)| {
-            on_circle(radius, f64::from(step) + 0.5 * along, 0.5 * up * height)
-        };
-        let normal = on_circle(1.0, f64::from(step), 0.0).coords;
-        Self { corners: SQUARE.map(corner).to_vec(), normal }
+    /// The half of a cylinder's side that looks at the eye.
+    fn round_side(radius: f64, height: f64, eye: &Vector3<f64>) -> Self {
+        let middle = eye.y.atan2(eye.x);
+        let (first, last) = (middle - 0.5 * PI, middle + 0.5 * PI);
+        let below = arc(radius, -0.5 * height, (first, last), HALF);
+        let above = arc(radius, 0.5 * height, (last, first), HALF);
+        let normal = Vector3::new(middle.cos(), middle.sin(), 0.0);
+        Self { corners: below.chain(above).collect(), normal }
     }
 }
 
-/// A point of a circle about z, `steps` of [`CIRCLE`] on, at a height of `z` m.
-pub(crate) fn on_circle(radius: f64, steps: f64, z: f64) -> Point3<f64> {
-    let turn = std::f64::consts::TAU * steps / f64::from(CIRCLE);
-    Point3::new(radius * turn.cos(), radius * turn.sin(), z)
+/// Points of a circle about z, at a height of `z` m, from one angle to another, rad.
+pub(crate) fn arc(
+    radius: f64,
+    z: f64,
+    (from, to): (f64, f64),
+    steps: u32,
+) -> impl Iterator<Item = Point3<f64>> {
+    (0..=steps).map(move |step| {
+        let turn = from + (to - from) * f64::from(step) / f64::from(steps);
+        Point3::new(radius * turn.cos(), radius * turn.sin(), z)
+    })
 }

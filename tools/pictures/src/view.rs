@@ -1,8 +1,9 @@
-use crate::face::{CIRCLE, Face, on_circle};
+use crate::face::{Face, arc};
 use coact_figures::{Mark, Place, Sheet};
 use coact_motion::{Capsule, Obstacle, Solid};
 use nalgebra::{Point3, Vector3};
 use plotters::prelude::RGBColor;
+use std::f64::consts::TAU;
 
 /// Colour of the robot's arm.
 pub const ARM: RGBColor = RGBColor(120, 140, 165);
@@ -43,6 +44,8 @@ enum Form {
     Area,
 }
 
+/// Pieces of a third of a circle.
+const THIRD: u32 = 8;
 /// How light a face is that looks away from the light, and how much more one that looks towards it.
 const SHADE: (f64, f64) = (0.72, 0.28);
 /// From where the light comes, seen from the eye: from the right, from above, and from the eye.
@@ -108,7 +111,8 @@ impl View {
             let colour = shaded(colour, shade);
             (normal.dot(&self.towards) > 0.0).then_some(Stroke { places, form: Form::Area, colour, near })
         };
-        Face::of(&obstacle.solid).into_iter().filter_map(seen).collect()
+        let eye = obstacle.place.inverse() * self.towards;
+        Face::of(&obstacle.solid, &eye).into_iter().filter_map(seen).collect()
     }
 
     /// The edges of an obstacle.
@@ -128,10 +132,13 @@ impl View {
                 [face(-1.0), face(1.0)].into_iter().chain(posts).collect()
             }
             Solid::Cylinder { radius, height } => {
-                let point = |step: u32, z: f64| on_circle(radius, f64::from(step), 0.5 * z * height);
-                let ring = |z: f64| line(&(0..=CIRCLE).map(|step| point(step, z)).collect::<Vec<_>>());
-                let post = |step: u32| line(&[point(step, -1.0), point(step, 1.0)]);
-                vec![ring(-1.0), ring(1.0), post(0), post(CIRCLE / 3), post(2 * CIRCLE / 3)]
+                let [below, above] = [-0.5, 0.5]
+                    .map(|side| arc(radius, side * height, (0.0, TAU), 3 * THIRD).collect::<Vec<_>>());
+                let post = |third: usize| {
+                    let at = third * THIRD as usize;
+                    line(&[below[at], above[at]])
+                };
+                vec![line(&below), line(&above), post(0), post(1), post(2)]
             }
             Solid::Capsule(capsule) => vec![self.capsule(&capsule.within(&obstacle.place), colour)],
         }
