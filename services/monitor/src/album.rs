@@ -2,13 +2,12 @@ use crate::holdings::Holdings;
 use crate::sightings::Sightings;
 use crate::{Journal, JournalError, Moment};
 use coact_joint_task::Task;
-use coact_messages::{Command, NONE, PERSON, PartnerPhase, Percept, ROBOT, SensorSample, Truth};
+use coact_messages::{Command, NONE, PERSON, ROBOT, SensorSample, Truth};
 use std::path::Path;
 
 /// `album.jsonl`: a run in moments, one for every part that changed hands or came into its place.
 ///
-/// Where everything is, is what the sensors say; what is in a hand, what perception makes of that; what is in its place
-/// and what the person is at, what is true.
+/// Where everything is, is what the sensors say; what is in a hand or in its place, and what the person is at, is true.
 #[derive(Debug)]
 pub struct Album {
     task: Task,
@@ -39,7 +38,6 @@ impl Album {
     /// The file cannot be read or written, or holds something else.
     pub fn open(report: &Path, task: &Task) -> Result<Self, JournalError> {
         let journal = Journal::open(&report.join(Self::FILE))?;
-        let told = journal.entries().last().map(|moment| Holdings::of(moment, task));
         Ok(Self {
             task: task.clone(),
             journal,
@@ -47,8 +45,8 @@ impl Album {
             sightings: Sightings::default(),
             action: NONE,
             chain: NONE,
-            holdings: told.unwrap_or_default(),
-            told,
+            holdings: Holdings::default(),
+            told: None,
         })
     }
 
@@ -69,11 +67,6 @@ impl Album {
         }
     }
 
-    /// What perception makes of it.
-    pub fn percept(&mut self, percept: &Percept) {
-        self.holdings.percept(percept);
-    }
-
     /// What the arm was told to do.
     pub fn command(&mut self, command: &Command) {
         self.action = command.action;
@@ -81,8 +74,8 @@ impl Album {
 
     /// What is true.
     pub fn truth(&mut self, truth: &Truth) {
-        self.chain = if truth.phase == PartnerPhase::Idle as u32 { NONE } else { truth.chain };
-        self.holdings.in_place(truth.achieved, &self.task);
+        self.chain = truth.chain;
+        self.holdings = truth.into();
     }
 
     /// Takes down the moment if something has changed since the last look.
@@ -95,8 +88,8 @@ impl Album {
         }
         let now = self.holdings;
         let news = match self.told.replace(now) {
-            None => Some("the beginning".into()),
             Some(before) => now.news_since(&before, &self.task),
+            None => self.journal.entries().is_empty().then(|| "the beginning".into()),
         };
         match news {
             Some(what) if self.journal.entries().len() < FULL => self.take_down(what),

@@ -4,7 +4,7 @@ use crate::{
     LatencyError, Link, Rules, Summary, SupervisorLog, TaskWatch, Tracking,
 };
 use coact_joint_task::Task;
-use coact_messages::{Command, FieldFrame, NONE, Percept, Pulse, SensorSample, Speech, Truth};
+use coact_messages::{Command, FieldFrame, NONE, Pulse, SensorSample, Speech, Truth};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -161,11 +161,6 @@ impl Monitor {
     /// What the sensors said.
     pub fn sample(&mut self, sample: &SensorSample) {
         self.album.sample(sample);
-    }
-
-    /// What perception made of it.
-    pub fn percept(&mut self, percept: &Percept) {
-        self.album.percept(percept);
     }
 
     /// What the arm was told to do.

@@ -3,7 +3,7 @@
 
 mod support;
 
-use coact_messages::{KeypointName, NONE, PERSON, Percept, ROBOT, SensorSample, Sighting, Truth};
+use coact_messages::{KeypointName, NONE, PERSON, ROBOT, SensorSample, Sighting, Truth};
 use coact_monitor::{Album, Moment};
 use std::path::Path;
 use support::*;
@@ -15,7 +15,6 @@ const PLATE: usize = 0;
 struct Watching {
     album: Album,
     sample: Box<SensorSample>,
-    percept: Box<Percept>,
     truth: Truth,
 }
 
@@ -23,12 +22,12 @@ impl Watching {
     fn open(report: &Path) -> Self {
         let mut truth: Truth = bytemuck::Zeroable::zeroed();
         truth.chain = NONE;
-        let (mut sample, percept) = (bytemuck::zeroed_box::<SensorSample>(), bytemuck::zeroed_box());
+        let mut sample: Box<SensorSample> = bytemuck::zeroed_box();
         sample.scene.sightings = 2;
         for (sighting, x) in sample.scene.sighting.iter_mut().zip([0.1, 0.2]) {
             *sighting = Sighting { kind: PLATE as u32, position: [x, 0.0, 0.0], ..Sighting::default() };
         }
-        Self { album: Album::open(report, &task()).unwrap(), sample, percept, truth }
+        Self { album: Album::open(report, &task()).unwrap(), sample, truth }
     }
 
     /// Lets time pass, with a look every 5 ms and a camera frame every 30.
@@ -38,7 +37,6 @@ impl Watching {
             let cycle = self.sample.header.cycle;
             self.sample.scene.captured_cycle = cycle / 30 * 30;
             self.album.sample(&self.sample);
-            self.album.percept(&self.percept);
             self.album.truth(&self.truth);
             if cycle.is_multiple_of(5) {
                 self.album.look().unwrap();
@@ -46,9 +44,9 @@ impl Watching {
         }
     }
 
-    fn holds(&mut self, who: usize, evidence: f64) {
-        let holds = if who == ROBOT { &mut self.percept.robot_holds } else { &mut self.percept.person_holds };
-        holds[PLATE] = evidence;
+    /// The hand of `who` has these parts, bit for bit.
+    fn holds(&mut self, who: usize, parts: u32) {
+        self.truth.held[who] = parts;
         self.pass(50);
     }
 
@@ -90,45 +88,48 @@ fn a_run_that_ends_before_it_was_seen_has_no_moment() {
 #[test]
 fn a_part_is_followed_from_hand_to_hand_into_its_place() {
     let told = told_of(|run| {
-        run.holds(PERSON, 1.0);
-        run.holds(ROBOT, 1.0);
-        run.holds(PERSON, 0.0);
+        run.holds(PERSON, 0b01);
+        run.truth.held[PERSON] = 0;
+        run.holds(ROBOT, 0b01);
+        run.truth.held[ROBOT] = 0;
         run.achieve(0b01);
-        run.holds(ROBOT, 0.0);
     });
     assert_eq!(told, ["person takes plate", "robot takes plate from the person", "in place: lid"]);
 }
 
 #[test]
-fn a_part_that_is_let_go_elsewhere_is_told() {
+fn a_part_that_two_hands_hold_is_told_once_for_each() {
     let told = told_of(|run| {
-        run.holds(ROBOT, 1.0);
-        run.achieve(0b01);
-        run.holds(ROBOT, 0.0);
-        run.holds(ROBOT, 1.0);
-        run.holds(ROBOT, 0.0);
+        run.holds(ROBOT, 0b01);
+        run.holds(PERSON, 0b01);
+        run.holds(ROBOT, 0);
     });
-    assert_eq!(told, ["robot takes plate", "in place: lid", "robot takes plate", "robot lets go of plate"]);
+    assert_eq!(told, ["robot takes plate", "person takes plate from the robot"]);
 }
 
 #[test]
-fn evidence_that_wavers_makes_no_moment() {
+fn a_part_that_comes_out_of_a_hand_is_told_unless_it_is_in_its_place() {
     let told = told_of(|run| {
-        for evidence in [0.7, 0.2, 0.8, 0.3, 1.0, 0.4, 1.0] {
-            run.holds(ROBOT, evidence);
-        }
+        run.holds(ROBOT, 0b10);
+        run.holds(ROBOT, 0);
+        run.holds(PERSON, 0b10);
+        run.truth.held[PERSON] = 0;
+        run.achieve(0b10);
     });
-    assert_eq!(told, ["robot takes plate"]);
+    let expected =
+        ["robot takes plate", "plate leaves the robot's hand", "person takes plate", "in place: hinge"];
+    assert_eq!(told, expected);
 }
 
 #[test]
 fn changes_between_two_looks_are_one_moment() {
     let told = told_of(|run| {
-        run.percept.person_holds[PLATE] = 1.0;
+        run.truth.held = [0b01, 0b10];
         run.achieve(0b11);
         run.achieve(0);
     });
-    assert_eq!(told, ["person takes plate; in place: lid; in place: hinge", "the parts are laid out again"]);
+    let all = "robot takes plate; person takes plate; in place: lid; in place: hinge";
+    assert_eq!(told, [all, "the parts are laid out again"]);
 }
 
 #[test]
@@ -138,9 +139,9 @@ fn a_part_that_the_recogniser_misses_for_a_moment_is_shown_and_one_that_stays_aw
     run.pass(300);
     run.sample.scene.sightings = 1;
     run.pass(60);
-    run.holds(ROBOT, 1.0);
+    run.holds(ROBOT, 1);
     run.pass(300);
-    run.holds(ROBOT, 0.0);
+    run.holds(ROBOT, 0);
     let parts = |moment: &Moment| moment.parts.len();
     assert_eq!(Album::read(folder.path()).unwrap().iter().map(parts).collect::<Vec<_>>(), [2, 2, 1]);
 }
@@ -151,13 +152,10 @@ fn a_restarted_monitor_goes_on_with_the_album() {
     let mut run = Watching::open(folder.path());
     run.pass(300);
     run.achieve(0b01);
-    run.holds(PERSON, 1.0);
     run.album = Album::open(folder.path(), &task()).unwrap();
     run.pass(300);
-    run.holds(ROBOT, 1.0);
-    let expected =
-        ["the beginning", "in place: lid", "person takes plate", "robot takes plate from the person"];
-    assert_eq!(told(folder.path()), expected);
+    run.holds(ROBOT, 1);
+    assert_eq!(told(folder.path()), ["the beginning", "in place: lid", "robot takes plate"]);
 }
 
 #[test]
@@ -173,7 +171,7 @@ fn a_moment_tells_who_does_what_and_where_everything_is() {
     run.album.command(&command);
     run.pass(300);
     run.truth.achieved = 0b01;
-    run.holds(PERSON, 1.0);
+    run.holds(PERSON, 1);
     let text = std::fs::read_to_string(folder.path().join(Album::FILE)).unwrap();
     insta::assert_snapshot!(text.lines().last().unwrap());
 }

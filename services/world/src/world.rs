@@ -1,7 +1,7 @@
 use crate::body::{Body, FingerStop, Influence, Joints, Kinematic, Physics};
 use crate::memory::Memory;
 use crate::noise::Noise;
-use crate::parts::Parts;
+use crate::parts::{Holder, Parts};
 use crate::person::{HandModel, Person, Plan, Surroundings};
 use crate::robot_hand::{Palm, RobotHand};
 use crate::sensors::{Capture, read_joints, recognise, track};
@@ -227,6 +227,7 @@ impl World {
         truth.onset_cycle = person.onset;
         truth.grasp_cycle = person.grasped;
         truth.achieved = self.parts.achieved();
+        truth.held = [Holder::Robot, Holder::Person].map(|holder| self.parts.held_by(holder));
         truth.assemblies = self.memory.assemblies;
         truth.error = if phase == PartnerPhase::Idle { 0 } else { person.error as u32 };
         truth.waiting = u32::from(person.waits());

@@ -61,7 +61,6 @@ pub fn run(
             continue;
         }
         monitor.sample(&stages.sample);
-        monitor.percept(&stages.percept);
         monitor.frame(&stages.frame, &mut events);
         monitor.command(&stages.command);
         let sentence = voice.observe(&stages.frame);

@@ -148,7 +148,8 @@ impl ContactSheet<'_> {
 /// All of them, or as many as fit on a sheet: the first, the last, and as evenly as may be between.
 fn evenly(moments: &[Moment]) -> impl Iterator<Item = &Moment> {
     let (all, shown) = (moments.len(), moments.len().min(MOST));
-    (0..shown).map(move |index| &moments[index * (all - 1) / (shown - 1).max(1)])
+    let steps = shown.saturating_sub(1).max(1);
+    (0..shown).map(move |index| &moments[(index * (all - 1) + steps / 2) / steps])
 }
 
 /// When, what had happened, and what the two were at.
