@@ -52,7 +52,8 @@ pub fn sheet(report: &Path) -> PathBuf {
 /// As [`run`].
 pub fn draw(report: &Path, task: &Path, robot: &Path) -> Result<PathBuf> {
     let (task, robot) = (Task::load(task)?, Robot::load(robot)?);
-    let moments = Album::read(report)?;
+    let moments = Album::read(report)
+        .with_context(|| format!("{}: expected the report directory of a run", report.display()))?;
     let letters = Lettering::new()?;
     let picture =
         ContactSheet { moments: &moments, task: &task, robot: &robot }.draw(&letters)?.png(&letters)?;
