@@ -2,14 +2,16 @@
 //!
 //! Pure parts see messages and give [`Event`]s: [`Anticipation`] (did the right decision stand before the grasp
 //! was complete?), [`TaskWatch`] (subgoals, decisions, utterances), [`Faults`] (detection, recovery, survivors'
-//! misses). [`Latencies`] keeps histograms and accounts, [`Journal`] keeps events; both are on disk within a
-//! second, and a restarted monitor goes on from there. [`Summary`] draws the conclusions; [`plots`] shows them.
+//! misses). [`Latencies`] keeps histograms and accounts, a [`Journal`] keeps events, [`Album`] the moments in which
+//! parts changed hands; all are on disk within a second, and a restarted monitor goes on from there. [`Summary`] draws
+//! the conclusions; [`plots`] shows them.
 //!
-//! The report directory then holds `summary.json`, `events.jsonl`, `latency/*.hlog` with `latency/accounts.json`,
+//! The report directory then holds `summary.json`, `events.jsonl`, `album.jsonl`, `latency/*.hlog` with `latency/accounts.json`,
 //! and `plots/*.svg`. What a run must reach is in `rt-config/verdict.toml` ([`Rules`]).
 
 mod account;
 mod action_event;
+mod album;
 mod anticipation;
 mod environment;
 mod event;
@@ -17,15 +19,18 @@ mod expectation;
 mod fault_event;
 mod faults;
 pub mod figures;
+mod holdings;
 mod intentions;
 mod interval_log;
 mod journal;
 mod latencies;
 mod links;
+mod moment;
 mod monitor;
 pub mod plots;
 mod recorder;
 mod rules;
+mod sightings;
 mod summary;
 mod supervisor_log;
 mod task_report;
@@ -35,6 +40,7 @@ mod verdict;
 
 pub use account::{Account, Lapse};
 pub use action_event::ActionEvent;
+pub use album::Album;
 pub use anticipation::Anticipation;
 pub use environment::{Environment, MachineReport};
 pub use event::Event;
@@ -46,6 +52,7 @@ pub use interval_log::{IntervalLog, IntervalLogError, LogContents};
 pub use journal::{Journal, JournalError};
 pub use latencies::{Latencies, LatencyError};
 pub use links::links;
+pub use moment::{Moment, SeenPart};
 pub use monitor::{Monitor, MonitorError, Watched, write_summary};
 pub use recorder::{INTERVAL_NS, Recorder, histogram};
 pub use rules::{Rules, RulesError};

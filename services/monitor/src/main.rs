@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use coact_joint_task::NetworkPlan;
-use coact_messages::{Command, FieldFrame, Pulse, Speech, Truth, topic};
+use coact_messages::{Command, FieldFrame, Pulse, SensorSample, Speech, Truth, topic};
 use coact_monitor::{Environment, Intentions, Monitor, MonitorError, Rules, Watched, links};
 use coact_realtime::{Bus, Input, PortError, Process, Schedule, Witness, now};
 use std::time::{Duration, Instant, SystemTime};
@@ -74,6 +74,7 @@ fn warn_once(result: Result<(), MonitorError>, refused: &mut Option<MonitorError
 struct Topics {
     pulses: Vec<(String, Input<Pulse>)>,
     truth: Input<Truth>,
+    sensors: Input<SensorSample>,
     fields: Input<FieldFrame>,
     command: Input<Command>,
     speech: Input<Speech>,
@@ -90,6 +91,7 @@ impl Topics {
         Ok(Self {
             pulses,
             truth,
+            sensors: bus.input(topic::SENSORS)?,
             fields,
             command: bus.input(topic::COMMAND)?,
             speech: bus.input(topic::SPEECH)?,
@@ -97,12 +99,13 @@ impl Topics {
     }
 
     fn drain(&mut self, monitor: &mut Monitor, refused: &mut Option<MonitorError>) -> Result<(), PortError> {
-        let Self { pulses, truth, fields, command, speech } = self;
+        let Self { pulses, truth, sensors, fields, command, speech } = self;
         let mut events = Vec::new();
         for (process, input) in pulses {
             input.each(|pulse| monitor.pulse(process, pulse))?;
         }
         truth.each(|truth| monitor.truth(truth, &mut events))?;
+        sensors.each(|sample| monitor.sample(sample))?;
         fields.each(|frame| monitor.frame(frame, &mut events))?;
         command.each(|command| monitor.command(command))?;
         speech.each(|speech| monitor.speech(speech, &mut events))?;

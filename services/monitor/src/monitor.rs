@@ -1,14 +1,16 @@
 use crate::plots::{PlotError, anticipation_timeline, percentile_curve};
 use crate::{
-    Anticipation, Environment, Event, Faults, Findings, Intentions, Journal, JournalError, Latencies,
+    Album, Anticipation, Environment, Event, Faults, Findings, Intentions, Journal, JournalError, Latencies,
     LatencyError, Link, Rules, Summary, SupervisorLog, TaskWatch, Tracking,
 };
 use coact_joint_task::Task;
-use coact_messages::{Command, FieldFrame, NONE, Pulse, Speech, Truth};
+use coact_messages::{Command, FieldFrame, NONE, Pulse, SensorSample, Speech, Truth};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+/// Name of the journal of events in the report directory.
+const EVENTS: &str = "events.jsonl";
 /// After as many cycles a frame is no longer waited for: the fields are dead or far behind.
 const OVERDUE: u64 = 1000;
 
@@ -22,11 +24,12 @@ pub struct Monitor {
     rules: Rules,
     start_ns: u64,
     latencies: Latencies,
-    journal: Journal,
+    journal: Journal<Event>,
     anticipation: Anticipation,
     watch: TaskWatch,
     faults: Faults,
     tracking: Tracking,
+    album: Album,
     supervisor: SupervisorLog,
     /// Truths that are younger than the newest frame.
     waiting: VecDeque<Truth>,
@@ -58,7 +61,7 @@ pub enum MonitorError {
     /// Histograms and accounts.
     #[error(transparent)]
     Latency(#[from] LatencyError),
-    /// Events.
+    /// Events and moments.
     #[error(transparent)]
     Journal(#[from] JournalError),
     /// Pictures.
@@ -83,14 +86,14 @@ impl Monitor {
         let Watched { report, task, intentions, links, rules, start_ns, started } = watched;
         let pulsing = links.iter().map(|link| link.process.clone()).collect();
         let latencies = Latencies::open(&report.join("latency"), links, started)?;
-        let journal = Journal::open(&report)?;
+        let journal = Journal::open(&report.join(EVENTS))?;
         let (mut anticipation, mut watch, mut faults) =
             (Anticipation::new(&task, intentions), TaskWatch::new(&task), Faults::new(pulsing));
-        let actions = journal.events().iter().filter_map(Event::as_action);
+        let actions = journal.entries().iter().filter_map(Event::as_action);
         anticipation.resume(actions.map(|action| action.action).max().unwrap_or(0));
-        watch.resume(journal.events());
-        faults.resume(journal.events());
-        let supervisor = SupervisorLog::new(&report);
+        watch.resume(journal.entries());
+        faults.resume(journal.entries());
+        let (supervisor, album) = (SupervisorLog::new(&report), Album::open(&report, &task)?);
         let (waiting, truth) = (VecDeque::new(), nothing_true_yet());
         Ok(Self {
             report,
@@ -103,6 +106,7 @@ impl Monitor {
             watch,
             faults,
             tracking: Tracking::new(),
+            album,
             supervisor,
             waiting,
             truth,
@@ -114,8 +118,8 @@ impl Monitor {
     /// # Errors
     /// A file cannot be removed.
     pub fn clear(report: &Path) -> Result<(), MonitorError> {
-        let files = [Journal::FILE, "summary.json"].map(|name| report.join(name)).into_iter();
-        let folders = [("latency", "hlog"), ("latency", "json"), ("plots", "svg")];
+        let files = [EVENTS, Album::FILE, "summary.json"].map(|name| report.join(name)).into_iter();
+        let folders = [("latency", "hlog"), ("latency", "json"), ("plots", "svg"), ("plots", "png")];
         let inside = folders.into_iter().flat_map(|(folder, extension)| {
             let entries = std::fs::read_dir(report.join(folder)).into_iter().flatten();
             let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -140,6 +144,7 @@ impl Monitor {
 
     /// What really happens; it is judged once the fields' frame of the same cycle has come, or is overdue.
     pub fn truth(&mut self, truth: &Truth, events: &mut Vec<Event>) {
+        self.album.truth(truth);
         self.waiting.push_back(*truth);
         self.catch_up(truth.header.cycle.saturating_sub(OVERDUE), events);
     }
@@ -153,8 +158,14 @@ impl Monitor {
         }
     }
 
+    /// What the sensors said.
+    pub fn sample(&mut self, sample: &SensorSample) {
+        self.album.sample(sample);
+    }
+
     /// What the arm was told to do.
     pub fn command(&mut self, command: &Command) {
+        self.album.command(command);
         self.tracking.command(command);
     }
 
@@ -163,7 +174,7 @@ impl Monitor {
         self.watch.speech(speech, events);
     }
 
-    /// Reads what the supervisor wrote, settles faults, and keeps the events; after each look at the topics.
+    /// Reads what the supervisor wrote, settles faults, and keeps events and moments; after each look at the topics.
     ///
     /// # Errors
     /// A file of the report cannot be read or written.
@@ -172,10 +183,11 @@ impl Monitor {
             self.faults.supervisor(&event);
         }
         self.faults.settle(now_ns, &mut events);
+        self.album.look().map_err(|cause| self.error(Album::FILE, cause))?;
         if events.is_empty() {
             return Ok(());
         }
-        self.journal.append(events).map_err(|cause| self.error(Journal::FILE, cause))
+        self.journal.append(events).map_err(|cause| self.error(EVENTS, cause))
     }
 
     /// Writes intervals and accounts; once a second.
@@ -198,11 +210,12 @@ impl Monitor {
         let mut open_faults = Vec::new();
         self.faults.finish(&mut open_faults);
         self.keep(now_ns, open_faults)?;
+        self.album.finish().map_err(|cause| self.error(Album::FILE, cause))?;
         self.write()?;
         let summary = Summary::new(Findings {
             task: &self.task,
             environment,
-            events: self.journal.events(),
+            events: self.journal.entries(),
             figures: Some(self.latencies.figures()),
             tracking: self.tracking.report(),
             start_ns: self.start_ns,

@@ -183,8 +183,9 @@ fn frames_of_another_task_are_not_judged() {
 fn a_foreign_journal_is_refused_with_its_place() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("events.jsonl"), "{\"event\":\"dance\"}\n").unwrap();
-    let error = coact_monitor::Journal::open(folder.path()).unwrap_err().to_string();
-    assert!(error.contains("events.jsonl:1: not an event"), "{error}");
+    let error =
+        coact_monitor::Journal::<Event>::open(&folder.path().join("events.jsonl")).unwrap_err().to_string();
+    assert!(error.contains("events.jsonl:1: not an entry"), "{error}");
 }
 
 #[test]

@@ -119,6 +119,11 @@ impl Parts {
         mounted.fold(0, |mask, part| mask | (1 << part.subgoal))
     }
 
+    /// Bit i is set when part i is with `holder`.
+    pub fn held_by(&self, holder: Holder) -> u32 {
+        (0..self.count).filter(|&part| self.is(part, holder)).fold(0, |mask, part| mask | 1 << part)
+    }
+
     /// Whether a subgoal is not achieved yet, but everything that must come before it is.
     pub fn is_available(&self, subgoal: usize, task: &Task) -> bool {
         let achieved = self.achieved();

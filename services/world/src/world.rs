@@ -235,6 +235,7 @@ impl World {
         truth.onset_cycle = person.onset;
         truth.grasp_cycle = person.grasped;
         truth.achieved = self.parts.achieved();
+        truth.held = [Holder::Robot, Holder::Person].map(|holder| self.parts.held_by(holder));
         truth.assemblies = self.memory.assemblies;
         truth.error = if phase == PartnerPhase::Idle { 0 } else { person.error as u32 };
         truth.waiting = u32::from(person.waits());

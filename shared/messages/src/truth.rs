@@ -1,4 +1,4 @@
-use crate::Header;
+use crate::{Header, WORKSPACES};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -35,6 +35,8 @@ pub struct Truth {
     pub hidden: u32,
     /// Reserved, zero.
     pub reserved: u32,
+    /// Bit i set: part i of `Task::parts` is in the hand of [`ROBOT`](crate::ROBOT), of [`PERSON`](crate::PERSON).
+    pub held: [u32; WORKSPACES],
 }
 
 /// What is wrong with one of the person's actions.

@@ -1,5 +1,7 @@
 use crate::{Body, links};
-use coact_robot::{Arm, HandGoal, JointLimits, Posture, Robot, RobotError, Srs, Urdf, grip};
+use coact_robot::{
+    Arm, HAND_JOINTS, Hand, HandGoal, JointLimits, Posture, Robot, RobotError, Srs, Urdf, grip,
+};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 /// Most joints of an arm that is planned for.
@@ -123,6 +125,17 @@ impl Mechanism {
         let mut bones = links::arm_bones(self)?;
         bones.extend(links::hand_bones(self, fingers)?);
         Ok(Body::new(self, bones))
+    }
+
+    /// The same with the joints of a hand of ours at these angles, rad, in message order.
+    ///
+    /// # Errors
+    /// As [`body`](Self::body).
+    pub fn with_fingers(&self, hand: &Hand, angles: &[f64; HAND_JOINTS]) -> Result<Body, RobotError> {
+        self.body(&|name| {
+            let index = hand.joints.iter().position(|joint| joint.name == name);
+            index.map_or(0.0, |index| angles[index])
+        })
     }
 
     /// The grasp point in the palm frame.

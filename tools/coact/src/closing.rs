@@ -1,5 +1,6 @@
 //! The closing report: what `summary.json` says, for a person.
 
+use crate::album;
 use anyhow::{Context, Result};
 use owo_colors::{OwoColorize, Stream};
 use serde_json::Value;
@@ -47,6 +48,10 @@ fn render(summary: &Value, report: &Path) -> String {
     }
     lines.extend(list(&summary["faults"]).map(fault));
     lines.push(format!("report        {}", report.display()));
+    let sheet = album::sheet(report);
+    if sheet.is_file() {
+        lines.push(format!("album         {}", sheet.display()));
+    }
     lines.join("\n") + "\n"
 }
 

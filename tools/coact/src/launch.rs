@@ -1,6 +1,6 @@
 use crate::folder_name::unused_report_folder;
 use crate::installation::Installation;
-use crate::{closed_pipe, closing, lockstep, partner};
+use crate::{album, closed_pipe, closing, lockstep, partner};
 use anyhow::{Context, Result};
 use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
@@ -69,14 +69,15 @@ fn seconds(text: &str) -> Result<Duration, String> {
 pub fn run(args: Args) -> Result<ExitCode> {
     let (json, in_lockstep) = (args.json, args.lockstep);
     let launch = prepare(args)?;
-    let report = launch.settings.report.clone();
+    let settings = launch.settings.clone();
     if in_lockstep {
         lockstep::run(&launch)?;
     } else if let Err(error) = launch.run() {
-        return gave_up(error, &report, json);
+        return gave_up(error, &settings, json);
     }
+    draw_album(&settings);
     closed_pipe::ends_the_program();
-    closing::show(&report, json)
+    closing::show(&settings.report, json)
 }
 
 /// Reads and checks every file before anything is started.
@@ -111,12 +112,20 @@ fn prepare(args: Args) -> Result<Launch> {
     })
 }
 
+/// The run has its verdict without it: an album that cannot be drawn is warned of.
+fn draw_album(settings: &RunSettings) {
+    if let Err(error) = album::draw(&settings.report, &settings.task, &settings.robot) {
+        closing::alarm(&format!("the album was not drawn: {error:#}"));
+    }
+}
+
 /// A set that was given up has a report as far as it came, and counts as failed; all else was refused.
-fn gave_up(error: LaunchError, report: &Path, json: bool) -> Result<ExitCode> {
+fn gave_up(error: LaunchError, settings: &RunSettings, json: bool) -> Result<ExitCode> {
     if error.is_configuration() {
         return Err(error.into());
     }
-    closing::show(report, json).with_context(|| error.to_string()).ok();
+    draw_album(settings);
+    closing::show(&settings.report, json).with_context(|| error.to_string()).ok();
     closing::alarm(&error.to_string());
     Ok(ExitCode::FAILURE)
 }

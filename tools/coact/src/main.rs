@@ -1,5 +1,6 @@
 //! The operator's command line.
 
+mod album;
 mod closed_pipe;
 mod closing;
 mod evaluate;
@@ -40,6 +41,8 @@ enum Command {
     Say(say::Args),
     /// Show how regular and how fast a run was, or is
     Latency(latency::Args),
+    /// Draw a run's album: pictures of who took what
+    Album(album::Args),
     /// Show what is made of a task file
     Task(task::Args),
     /// Learn connections of the network: a task's plan from demonstrations
@@ -61,8 +64,8 @@ const REFUSED: u8 = 2;
 
 /// Whether a command neither starts processes nor speaks with running ones.
 fn works_on_files_alone(command: &Command) -> bool {
-    use Command::{Evaluate, Figures, Learn, Motion, Task, Train};
-    matches!(command, Task(_) | Learn(_) | Evaluate(_) | Figures(_) | Motion(_) | Train(_))
+    use Command::{Album, Evaluate, Figures, Learn, Motion, Task, Train};
+    matches!(command, Album(_) | Task(_) | Learn(_) | Evaluate(_) | Figures(_) | Motion(_) | Train(_))
 }
 
 fn main() -> ExitCode {
@@ -85,6 +88,7 @@ fn main() -> ExitCode {
         Command::Inject(args) => inject::run(args),
         Command::Say(args) => say::run(args),
         Command::Latency(args) => latency::run(args),
+        Command::Album(args) => album::run(args),
         Command::Task(args) => task::run(args),
         Command::Learn(args) => learn::run(args),
         Command::Reaches(args) => reaches::run(args),

@@ -17,8 +17,16 @@ const DIVERGING: [[u8; 3]; 11] = [
 
 /// Lines and letters that are there to help the eye.
 pub const FAINT: RGBColor = RGBColor(150, 150, 150);
-/// Three colours that everybody tells apart (Okabe and Ito).
-pub const TELLING: [RGBColor; 3] = [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115)];
+/// Colours that everybody tells apart (Okabe and Ito), then black.
+pub const TELLING: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(40, 40, 40),
+];
 
 /// The colour of a value from -1 (blue) over 0 (white) to 1 (red); beyond, that of the end.
 pub fn diverging(value: f32) -> RGBColor {

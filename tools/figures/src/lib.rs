@@ -22,6 +22,7 @@ mod single_field;
 mod surface;
 mod table_view;
 
+pub use colours::TELLING;
 pub use figure::Figure;
 pub use figure_error::FigureError;
 pub use gallery::{Gallery, Step};

@@ -23,6 +23,8 @@ pub enum Mark {
     Block(Place, Place, RGBColor),
     /// A line through places, and how wide it is.
     Path(Vec<Place>, RGBColor, u32),
+    /// A filled area within places.
+    Area(Vec<Place>, RGBColor),
     /// A disc of a radius.
     Disc(Place, u32, RGBColor),
     /// A line of text.
@@ -65,6 +67,11 @@ impl Sheet {
     /// Puts a line on it.
     pub fn path(&mut self, places: impl Into<Vec<Place>>, colour: RGBColor, width: u32) {
         self.marks.push(Mark::Path(places.into(), colour, width));
+    }
+
+    /// Puts a filled area on it.
+    pub fn area(&mut self, places: impl Into<Vec<Place>>, colour: RGBColor) {
+        self.marks.push(Mark::Area(places.into(), colour));
     }
 
     /// Puts the outline of a rectangle on it.
@@ -136,6 +143,7 @@ impl Sheet {
                 Mark::Path(places, colour, width) => {
                     canvas.draw_path(places.iter().map(pair), &colour.stroke_width(*width))
                 }
+                Mark::Area(places, colour) => canvas.fill_polygon(places.iter().map(pair), colour),
                 Mark::Disc(centre, radius, colour) => canvas.draw_circle(pair(centre), *radius, colour, true),
                 Mark::Text(text) => {
                     write(canvas, text)?;

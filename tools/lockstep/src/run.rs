@@ -60,6 +60,7 @@ pub fn run(
         if stages.ticks() % LOOK_EVERY != 0 {
             continue;
         }
+        monitor.sample(&stages.sample);
         monitor.frame(&stages.frame, &mut events);
         monitor.command(&stages.command);
         let sentence = voice.observe(&stages.frame);

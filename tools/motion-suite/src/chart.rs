@@ -1,4 +1,4 @@
-use coact_figures::{Anchor, Sheet};
+use coact_figures::{Anchor, Sheet, TELLING};
 use plotters::prelude::{BLACK, RGBColor};
 
 /// Curves over time.
@@ -13,16 +13,6 @@ pub(crate) struct Chart<'a> {
     pub marks: Vec<f64>,
 }
 
-/// Colours that everybody tells apart (Okabe and Ito), then black.
-pub(crate) const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(40, 40, 40),
-];
 const FAINT: RGBColor = RGBColor(170, 170, 170);
 
 impl Chart<'_> {
@@ -51,7 +41,7 @@ impl Chart<'_> {
             sheet.text(format!("{} s", number(t)), [x(t), bottom + 16], 14, Anchor::Middle);
         }
         for (index, (name, values)) in self.curves.iter().enumerate() {
-            let colour = COLOURS[index % COLOURS.len()];
+            let colour = TELLING[index % TELLING.len()];
             let last = (values.len() - 1).max(1) as f64;
             let points = values.iter().enumerate();
             let places: Vec<_> =

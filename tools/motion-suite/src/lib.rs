@@ -8,7 +8,6 @@ mod movement_page;
 mod quality;
 mod scenario;
 mod setting;
-mod view;
 
 pub use case::Case;
 pub use measurement::{Measurement, Outcome, measure};

@@ -1,8 +1,9 @@
-use crate::chart::{COLOURS, Chart};
-use crate::view::{View, paint};
+use crate::chart::Chart;
 use crate::{FAR, Quality, path};
-use coact_figures::{Anchor, Sheet};
+use coact_figures::{Anchor, Sheet, TELLING};
 use coact_motion::{Capsule, Clearance, Plan, Problem};
+use coact_pictures::{ARM, HAND, THINGS, View, paint};
+use nalgebra::Vector3;
 use plotters::prelude::RGBColor;
 
 /// A planned movement on one page: pictures of it, and curves of joints, hand and clearance.
@@ -20,9 +21,8 @@ const PICTURE: [i32; 2] = [480, 400];
 const CHART: i32 = 300;
 /// Points of each curve.
 const POINTS: usize = 300;
-const ARM: RGBColor = RGBColor(120, 140, 165);
-const HAND: RGBColor = RGBColor(60, 80, 110);
-const THINGS: RGBColor = RGBColor(190, 150, 90);
+/// From the person's side of the table, to the left and above.
+const TOWARDS: Vector3<f64> = Vector3::new(-0.75, 0.45, 0.5);
 
 impl MovementPage<'_> {
     /// Draws the page.
@@ -66,9 +66,9 @@ impl MovementPage<'_> {
             let mut strokes: Vec<_> =
                 bones.map(|(bone, hull)| view.capsule(hull, if bone.hand { HAND } else { ARM })).collect();
             let things = &self.problem.scene.obstacles;
-            strokes.extend(things.iter().flat_map(|thing| view.obstacle(thing, THINGS)));
+            strokes.extend(things.iter().flat_map(|thing| view.edges(thing, THINGS)));
             paint(sheet, strokes);
-            sheet.path(hand.places.iter().map(|place| view.place(place)).collect::<Vec<_>>(), COLOURS[1], 2);
+            sheet.path(hand.places.iter().map(|place| view.place(place)).collect::<Vec<_>>(), TELLING[1], 2);
             sheet.frame(
                 corner,
                 [corner[0] + PICTURE[0], corner[1] + PICTURE[1] - 6],
@@ -86,7 +86,7 @@ impl MovementPage<'_> {
         });
         let things = self.problem.scene.obstacles.iter().map(|thing| thing.hull);
         let capsules: Vec<Capsule> = capsules.chain(things).collect();
-        View::of(&capsules, PICTURE)
+        View::of(&capsules, TOWARDS, PICTURE)
     }
 
     fn charts(&self) -> [Chart<'_>; 4] {

@@ -1,6 +1,6 @@
 use coact_joint_task::Task;
 use coact_motion::{Body, Mechanism};
-use coact_robot::{HAND_JOINTS, Hand, Robot, RobotError};
+use coact_robot::{Hand, Robot, RobotError};
 
 /// Who moves, and at which task.
 #[derive(Debug, Clone)]
@@ -26,7 +26,7 @@ impl Setting {
     pub fn of(robot: &Robot, task: Task) -> Result<Self, RobotError> {
         let mechanism = Mechanism::of(robot)?;
         let hand = robot.hand.clone();
-        let open = with_fingers(&mechanism, &hand, &hand.posture(hand.base_for_width(OPEN)))?;
+        let open = mechanism.with_fingers(&hand, &hand.posture(hand.base_for_width(OPEN)))?;
         Ok(Self { mechanism, hand: Some(hand), task: Some(task), open })
     }
 
@@ -42,14 +42,6 @@ impl Setting {
     /// The hand around a part `width` m wide, with `gap` m between it and each finger. None without a hand of ours.
     pub(crate) fn hand_around(&self, width: f64, gap: f64) -> Option<Body> {
         let hand = self.hand.as_ref()?;
-        with_fingers(&self.mechanism, hand, &hand.grasp(width, gap).angles).ok()
+        self.mechanism.with_fingers(hand, &hand.grasp(width, gap).angles).ok()
     }
-}
-
-/// The body with these angles of the hand's joints.
-fn with_fingers(mechanism: &Mechanism, hand: &Hand, angles: &[f64; HAND_JOINTS]) -> Result<Body, RobotError> {
-    mechanism.body(&|name| {
-        let index = hand.joints.iter().position(|joint| joint.name == name);
-        index.map_or(0.0, |index| angles[index])
-    })
 }

@@ -1,7 +1,7 @@
 //! A small task of its own, and hand-made messages for it.
 #![allow(dead_code, reason = "each test file uses some of it")]
 
-use coact_joint_task::{Act, Action, Agent, Chain, Grip, Kind, Motion, Scene, Shape, Subgoal, Task};
+use coact_joint_task::{Act, Action, Agent, Chain, Grip, Kind, Motion, Part, Scene, Shape, Subgoal, Task};
 use coact_messages::{FieldFrame, LayerKind, NONE, PartnerPhase, Pulse, Truth};
 use coact_monitor::Intentions;
 
@@ -44,7 +44,7 @@ pub fn task() -> Task {
             shape: Shape::Box { size: [0.05; 3] },
             mass: 0.1,
         }],
-        parts: Vec::new(),
+        parts: vec![Part { kind: 0, workspace: Agent::Person, at: [0.0; 2] }; 2],
         subgoals: vec![subgoal("lid", true, vec![]), subgoal("hinge", false, vec![0])],
         grips: vec![Grip { name: "top".into(), pitch: -1.5 }],
         gestures: Vec::new(),

@@ -46,6 +46,21 @@ fn person_begins_only_actions_that_the_plan_allows() {
 }
 
 #[test]
+fn who_holds_which_part_is_told() {
+    let mut moved_on = [0_u32; 2];
+    run(7, 60, |tick, _, out, before| {
+        for (who, held) in out.truth.held.into_iter().enumerate() {
+            let parts = out.state.part[..out.state.parts as usize].iter().enumerate();
+            let own = parts.filter(|(_, part)| part.state == who as u32 + 1);
+            assert_eq!(held, own.fold(0, |mask, (part, _)| mask | 1 << part), "tick {tick}");
+            assert!(held.count_ones() <= 1, "tick {tick}: a hand holds one part");
+            moved_on[who] += u32::from(held != before.held[who]);
+        }
+    });
+    assert!(moved_on.iter().all(|changes| *changes >= 6), "{moved_on:?}");
+}
+
+#[test]
 fn every_kind_of_action_occurs() {
     let mut kinds = std::collections::BTreeSet::new();
     for seed in 40..44 {

@@ -1,0 +1,187 @@
+use crate::person::arm_and_hand;
+use crate::view::{ARM, HAND, Stroke, THINGS, View, paint};
+use coact_figures::{Anchor, Lettering, Mark, Place, Sheet, TELLING};
+use coact_joint_task::{Fixture, Kind, Task};
+use coact_messages::ARM_JOINTS;
+use coact_monitor::{Moment, SeenPart};
+use coact_motion::{Body, Capsule, Mechanism, workplace};
+use coact_robot::{HAND_JOINTS, Robot, RobotError};
+use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion, Vector3};
+use plotters::prelude::RGBColor;
+
+/// A run's album on one sheet: a picture of each moment, with what had happened.
+pub struct ContactSheet<'a> {
+    /// The moments, in order of time.
+    pub moments: &'a [Moment],
+    /// The task that was worked at.
+    pub task: &'a Task,
+    /// The robot that worked.
+    pub robot: &'a Robot,
+}
+
+/// Why an album could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum AlbumError {
+    /// It holds nothing.
+    #[error("the album holds no moment: the run was too short")]
+    Empty,
+    /// It is of another task.
+    #[error("the album shows a part \"{0}\", which the task \"{1}\" does not have; name the task of the run")]
+    Part(String, String),
+    /// What is wrong with the robot's forms.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+}
+
+/// Pictures on a sheet at most, and how many stand side by side.
+const MOST: usize = 24;
+const COLUMNS: usize = 4;
+const PICTURE: [i32; 2] = [420, 330];
+/// Height of the lines under each picture, and of those above all of them.
+const CAPTION: i32 = 74;
+const HEAD: i32 = 84;
+const GAP: i32 = 16;
+/// Between the two, on the side where parts change hands, and above: the person is on the left, the robot on the right.
+const TOWARDS: Vector3<f64> = Vector3::new(-0.12, -0.8, 0.55);
+const TABLE: RGBColor = RGBColor(232, 224, 210);
+const PERSON: RGBColor = RGBColor(225, 165, 130);
+const FRAME: RGBColor = RGBColor(200, 200, 200);
+
+/// A moment, and the robot as it stood then.
+struct Picture<'a> {
+    moment: &'a Moment,
+    body: Body,
+    hulls: Vec<Capsule>,
+}
+
+impl ContactSheet<'_> {
+    /// Draws the sheet: all moments, or 24 of them, evenly chosen.
+    ///
+    /// # Errors
+    /// [`AlbumError`].
+    pub fn draw(&self, letters: &Lettering) -> Result<Sheet, AlbumError> {
+        let mechanism = Mechanism::of(self.robot)?;
+        let chosen = evenly(self.moments).map(|moment| self.picture(moment, &mechanism));
+        let pictures = chosen.collect::<Result<Vec<_>, _>>()?;
+        if pictures.is_empty() {
+            return Err(AlbumError::Empty);
+        }
+        let columns = COLUMNS.min(pictures.len()) as i32;
+        let mut sheet = Sheet::new((GAP + columns.max(3) * (PICTURE[0] + GAP)) as u32);
+        self.head(&mut sheet, pictures.len(), letters);
+        let view = self.view(&pictures);
+        for (index, picture) in pictures.iter().enumerate() {
+            let (column, row) = ((index % COLUMNS) as i32, (index / COLUMNS) as i32);
+            let corner = [GAP + column * (PICTURE[0] + GAP), HEAD + row * (PICTURE[1] + CAPTION)];
+            let middle = [corner[0] + PICTURE[0] / 2, corner[1] + PICTURE[1] / 2];
+            self.paint(&mut sheet, picture, &view.moved_to(middle))?;
+            sheet.frame(corner, [corner[0] + PICTURE[0], corner[1] + PICTURE[1]], FRAME);
+            caption(&mut sheet, picture.moment, [corner[0] + 4, corner[1] + PICTURE[1]], letters);
+        }
+        let rows = pictures.len().div_ceil(COLUMNS) as i32;
+        sheet.height = (HEAD + rows * (PICTURE[1] + CAPTION)) as u32;
+        Ok(sheet)
+    }
+
+    fn picture<'a>(&self, moment: &'a Moment, mechanism: &Mechanism) -> Result<Picture<'a>, RobotError> {
+        let (arm, hand) = moment.joints.split_at(ARM_JOINTS);
+        let fingers: [f64; HAND_JOINTS] = std::array::from_fn(|joint| hand[joint]);
+        let body = mechanism.with_fingers(&self.robot.hand, &fingers)?;
+        let hulls = body.hulls(mechanism, &std::array::from_fn(|joint| arm[joint]));
+        Ok(Picture { moment, body, hulls })
+    }
+
+    /// What is shown, and the colour of each kind of part.
+    fn head(&self, sheet: &mut Sheet, shown: usize, letters: &Lettering) {
+        let all = self.moments.len();
+        let title = format!("{}: {shown} of {all} moments of the run", self.task.name);
+        sheet.text(title, [GAP, 26], 22, Anchor::Start);
+        let mut x = GAP;
+        for (index, kind) in self.task.kinds.iter().enumerate() {
+            sheet.marks.push(Mark::Disc([x + 8, 58], 8, colour(index)));
+            sheet.text(kind.name.as_str(), [x + 22, 58], 16, Anchor::Start);
+            x += 46 + letters.width(&kind.name, 16);
+        }
+    }
+
+    /// One look for all pictures: at the table, and at all that robot and person come by.
+    fn view(&self, pictures: &[Picture]) -> View {
+        let point = |at: [f64; 3]| Capsule { start: at.into(), end: at.into(), radius: 0.0 };
+        let scene = &self.task.scene;
+        let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, -0.5), (0.5, 0.5)].map(|(across, along)| {
+            let ([depth, width], [x, y]) = (scene.table_size, scene.table_centre);
+            point([x + across * depth, y + along * width, scene.table_height])
+        });
+        let people = pictures.iter().flat_map(|picture| arm_and_hand(&picture.moment.keypoints));
+        let hulls = pictures.iter().flat_map(|picture| picture.hulls.iter().copied());
+        let all: Vec<Capsule> = corners.into_iter().chain(hulls).chain(people).collect();
+        View::of(&all, TOWARDS, PICTURE)
+    }
+
+    fn paint(&self, sheet: &mut Sheet, picture: &Picture, view: &View) -> Result<(), AlbumError> {
+        // What stands still is below all that moves; foot and axles are below the base.
+        let (tables, others): (Vec<_>, Vec<_>) =
+            workplace::fixtures(self.task).into_iter().partition(|fixture| fixture.name == Fixture::TABLE);
+        tables.iter().for_each(|table| paint(sheet, view.solid(table, TABLE)));
+        others.iter().rev().for_each(|other| paint(sheet, view.solid(other, THINGS)));
+        let bones = picture.body.bones().iter().zip(&picture.hulls);
+        let mut strokes: Vec<Stroke> =
+            bones.map(|(bone, hull)| view.capsule(hull, if bone.hand { HAND } else { ARM })).collect();
+        strokes.extend(arm_and_hand(&picture.moment.keypoints).map(|bone| view.capsule(&bone, PERSON)));
+        for part in &picture.moment.parts {
+            let (index, kind) = self.kind(part)?;
+            let thing = workplace::upright(&kind.name, kind.shape, &frame(part));
+            strokes.extend(view.solid(&thing, colour(index)));
+        }
+        paint(sheet, strokes);
+        Ok(())
+    }
+
+    fn kind(&self, part: &SeenPart) -> Result<(usize, &Kind), AlbumError> {
+        let mut kinds = self.task.kinds.iter().enumerate();
+        kinds
+            .find(|(_, kind)| kind.name == part.kind)
+            .ok_or_else(|| AlbumError::Part(part.kind.clone(), self.task.name.clone()))
+    }
+}
+
+/// All of them, or as many as fit on a sheet: the first, the last, and as evenly as may be between.
+fn evenly(moments: &[Moment]) -> impl Iterator<Item = &Moment> {
+    let (all, shown) = (moments.len(), moments.len().min(MOST));
+    let steps = shown.saturating_sub(1).max(1);
+    (0..shown).map(move |index| &moments[(index * (all - 1) + steps / 2) / steps])
+}
+
+/// When, what had happened, and what the two were at.
+fn caption(sheet: &mut Sheet, moment: &Moment, [x, y]: Place, letters: &Lettering) {
+    let at_s = moment.at_ms as f64 / 1e3;
+    let nothing = || "\u{2013}".to_owned();
+    let lines = [
+        (format!("{at_s:.1} s   {}", moment.what), 17, 15),
+        (format!("robot   {}", moment.robot_does.clone().unwrap_or_else(nothing)), 14, 35),
+        (format!("person  {}", moment.person_does.clone().unwrap_or_else(nothing)), 14, 53),
+    ];
+    for (line, size, below) in lines {
+        sheet.text(fitting(line, size, letters), [x, y + below], size, Anchor::Start);
+    }
+}
+
+/// A line that fits below a picture; what is too much of it gives way to an ellipsis.
+fn fitting(line: String, size: u32, letters: &Lettering) -> String {
+    let fits = |line: &str| letters.width(line, size) <= PICTURE[0] - 8;
+    if fits(&line) {
+        return line;
+    }
+    let shortened = line.char_indices().rev().map(|(end, _)| format!("{}\u{2026}", line[..end].trim_end()));
+    shortened.into_iter().find(|line| fits(line)).unwrap_or_default()
+}
+
+fn frame(part: &SeenPart) -> Isometry3<f64> {
+    let [x, y, z, w] = part.orientation;
+    let turn = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+    Isometry3::from_parts(Point3::from(part.position).into(), turn)
+}
+
+fn colour(kind: usize) -> RGBColor {
+    TELLING[kind % TELLING.len()]
+}
