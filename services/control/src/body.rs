@@ -65,7 +65,13 @@ impl Body {
     }
 
     /// What the fingers do on the way to an errand's goal.
-    pub fn on_the_way(&self, errand: Errand, kind: Option<usize>, held: Option<usize>, places: &Places) -> Fingers {
+    pub fn on_the_way(
+        &self,
+        errand: Errand,
+        kind: Option<usize>,
+        held: Option<usize>,
+        places: &Places,
+    ) -> Fingers {
         let width = |kind: usize| places.width(kind);
         match (errand, held, kind) {
             (_, Some(held), _) => Fingers::On(width(held)),

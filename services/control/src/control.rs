@@ -186,6 +186,8 @@ impl Control {
         out.action = if idle { NONE } else { u32::try_from(self.memory.action).unwrap_or(NONE) };
         let phase = if senses.blind() { MotionPhase::Brake } else { self.phase() };
         out.phase = phase as u32;
+        out.begun = self.memory.begun as u32;
+        out.reaction = u32::try_from(self.memory.reaction).unwrap_or(u32::MAX);
         self.memory.store(out);
     }
 

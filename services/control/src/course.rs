@@ -26,9 +26,8 @@ impl Course {
     pub fn of(plan: &Plan) -> Option<Self> {
         let mut course = Self { count: plan.knots.len() as u64, ..Self::zeroed() };
         course.knots.get_mut(..plan.knots.len())?.copy_from_slice(&plan.knots);
-        let end_of = |kind: StageKind| {
-            plan.stages.iter().rev().find(|(stage, _)| *stage == kind).map(|(_, end)| *end)
-        };
+        let end_of =
+            |kind: StageKind| plan.stages.iter().rev().find(|(stage, _)| *stage == kind).map(|(_, end)| *end);
         course.left = end_of(StageKind::Leave).unwrap_or(0.0);
         course.approaches = match end_of(StageKind::Approach) {
             Some(_) => end_of(StageKind::Reach).unwrap_or(course.left),
@@ -39,7 +38,9 @@ impl Course {
 
     /// Whether the words are a movement.
     pub fn is_sound(&self) -> bool {
-        let finite = |knot: &Knot| bytemuck::cast_slice::<Knot, f64>(std::slice::from_ref(knot)).iter().all(|v| v.is_finite());
+        let finite = |knot: &Knot| {
+            bytemuck::cast_slice::<Knot, f64>(std::slice::from_ref(knot)).iter().all(|v| v.is_finite())
+        };
         (1..=Plan::KNOTS as u64).contains(&self.count) && self.knots().iter().all(finite)
     }
 

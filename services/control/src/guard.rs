@@ -31,7 +31,14 @@ impl Guard {
 
     /// Share of its own speed at which the movement may go on, 0 to 1. `meets`: hand and person shall touch each other
     /// now, so that only the rest of the arm is watched.
-    pub fn pace(&mut self, course: &Course, t: f64, held: Option<usize>, person: &PersonArm, meets: bool) -> f64 {
+    pub fn pace(
+        &mut self,
+        course: &Course,
+        t: f64,
+        held: Option<usize>,
+        person: &PersonArm,
+        meets: bool,
+    ) -> f64 {
         let (horizon, steps) = AHEAD;
         let step = horizon / f64::from(steps);
         let now = self.distance(&course.posture(t), held, &person.after(0.0), meets);
@@ -47,10 +54,20 @@ impl Guard {
     }
 
     /// Distance of the robot from the person, m.
-    fn distance(&mut self, posture: &Posture, held: Option<usize>, person: &[Capsule; 3], meets: bool) -> f64 {
+    fn distance(
+        &mut self,
+        posture: &Posture,
+        held: Option<usize>,
+        person: &[Capsule; 3],
+        meets: bool,
+    ) -> f64 {
         let body = &self.bodies[held.map_or(0, |kind| kind + 1).min(self.bodies.len() - 1)];
         body.hulls_into(&self.mechanism, posture, &mut self.hulls);
-        let watched = body.bones().iter().zip(&self.hulls).filter(|(bone, _)| bone.carriers > 0 && !(meets && bone.hand));
+        let watched = body
+            .bones()
+            .iter()
+            .zip(&self.hulls)
+            .filter(|(bone, _)| bone.carriers > 0 && !(meets && bone.hand));
         let gaps = watched.flat_map(|(_, hull)| person.iter().map(|capsule| hull.distance(capsule)));
         gaps.fold(f64::INFINITY, f64::min)
     }

@@ -129,7 +129,8 @@ impl Memory {
             return None;
         }
         let known = Errand::from_word(memory.errand).is_some() && Leg::from_word(memory.leg).is_some();
-        let fingers = memory.finger_duration > 0.0 && memory.finger_target.iter().all(|angle| angle.is_finite());
+        let fingers =
+            memory.finger_duration > 0.0 && memory.finger_target.iter().all(|angle| angle.is_finite());
         let pace = (0.0..=1.0).contains(&memory.pace) && memory.pace_change.is_finite();
         let courses = memory.course.is_sound() && memory.next.is_sound() && memory.elapsed >= 0.0;
         (known && fingers && pace && courses).then_some(memory)

@@ -38,7 +38,8 @@ impl PersonArm {
         let along = (wrist - elbow).try_normalize(1e-6).unwrap_or_else(Vector3::zeros);
         let tip = seen(KeypointName::MiddleTip).map_or(wrist + HAND * along, |tip| tip + shift);
         let joints = [shoulder, elbow, wrist, tip];
-        let capsule = |index: usize| Capsule { start: joints[index], end: joints[index + 1], radius: RADII[index] };
+        let capsule =
+            |index: usize| Capsule { start: joints[index], end: joints[index + 1], radius: RADII[index] };
         Some(Self { capsules: std::array::from_fn(capsule), velocity })
     }
 

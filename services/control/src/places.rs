@@ -73,9 +73,20 @@ impl Places {
 
     /// The goals with which the held part comes to `place`, as it is held: a round one turned about its own axis at
     /// will, one with flat sides so that it fits.
-    fn puts(&self, (kind, in_palm): (usize, Isometry3<f64>), place: &Isometry3<f64>, errand: Errand) -> Vec<HandGoal> {
+    fn puts(
+        &self,
+        (kind, in_palm): (usize, Isometry3<f64>),
+        place: &Isometry3<f64>,
+        errand: Errand,
+    ) -> Vec<HandGoal> {
         let round = self.kinds[kind].rolls == 0;
-        let turns = if round { TURNS[0] } else if errand == Errand::Place { 1 } else { TURNS[1] };
+        let turns = if round {
+            TURNS[0]
+        } else if errand == Errand::Place {
+            1
+        } else {
+            TURNS[1]
+        };
         let goal = |step: u32| {
             let turn = std::f64::consts::TAU * f64::from(step) / f64::from(turns);
             let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);

@@ -46,9 +46,15 @@ impl Planner {
     }
 
     /// Arm and hand with the fingers as they are around, or on, what is held.
-    pub fn figure(&self, fingers: Fingers, held: Option<(usize, Isometry3<f64>)>) -> Result<coact_motion::Body, RobotError> {
+    pub fn figure(
+        &self,
+        fingers: Fingers,
+        held: Option<(usize, Isometry3<f64>)>,
+    ) -> Result<coact_motion::Body, RobotError> {
         let (hand, angles) = (&self.body.robot.hand, self.body.fingers(fingers));
-        let angle = |name: &str| hand.joints.iter().position(|joint| joint.name == name).map_or(0.0, |index| angles[index]);
+        let angle = |name: &str| {
+            hand.joints.iter().position(|joint| joint.name == name).map_or(0.0, |index| angles[index])
+        };
         let figure = self.mechanism.body(&angle)?;
         Ok(match held {
             None => figure,
@@ -75,13 +81,27 @@ impl Planner {
     /// The movement that is asked for, one that only gets the hand free, or none.
     pub fn answer(&mut self, request: &Request) -> Answer {
         let refused = Answer { id: request.id, course: None, withdraws: false };
-        let fingers = self.body.on_the_way(request.errand, request.kind, request.held.map(|held| held.0), &self.places);
+        let fingers =
+            self.body.on_the_way(request.errand, request.kind, request.held.map(|held| held.0), &self.places);
         let Ok(figure) = self.figure(fingers, request.held) else { return refused };
         let goals = self.places.goals(request);
         let scene = self.scene(request, &goals);
         let t0 = std::time::Instant::now();
         let planned = self.plan(request, &figure, &scene, goals);
-        if std::env::var("COACT_DEBUG").is_ok() { eprintln!("{:?} {:?} leave {:?} moving {} -> {} in {:?}", request.errand, request.kind, request.leave, request.start.iter().any(|s| !s.is_at_rest()), match &planned { Ok(p) => format!("{:.2} s {} knots", p.duration(), p.knots.len()), Err(e) => format!("{e}") }, t0.elapsed()); }
+        if std::env::var("COACT_DEBUG").is_ok() {
+            eprintln!(
+                "{:?} {:?} leave {:?} moving {} -> {} in {:?}",
+                request.errand,
+                request.kind,
+                request.leave,
+                request.start.iter().any(|s| !s.is_at_rest()),
+                match &planned {
+                    Ok(p) => format!("{:.2} s {} knots", p.duration(), p.knots.len()),
+                    Err(e) => format!("{e}"),
+                },
+                t0.elapsed()
+            );
+        }
         if let Ok(plan) = planned {
             return Answer { course: Course::of(&plan), ..refused };
         }
@@ -92,8 +112,15 @@ impl Planner {
         Answer { course: withdrawn.as_ref().and_then(Course::of), withdraws: true, ..refused }
     }
 
-    fn plan(&self, request: &Request, figure: &coact_motion::Body, scene: &Scene, goals: Vec<HandGoal>) -> Result<Plan, Refusal> {
-        let aim = if request.errand == Errand::Park { Aim::Posture(self.mechanism.park) } else { Aim::Hand(goals) };
+    fn plan(
+        &self,
+        request: &Request,
+        figure: &coact_motion::Body,
+        scene: &Scene,
+        goals: Vec<HandGoal>,
+    ) -> Result<Plan, Refusal> {
+        let aim =
+            if request.errand == Errand::Park { Aim::Posture(self.mechanism.park) } else { Aim::Hand(goals) };
         let then = request.next.map(|next| next * request.frame.inverse()).into_iter().collect();
         let problem = self.problem(figure, scene, request.start, aim);
         let problem = Problem { leave: request.leave, then, ..problem };
@@ -113,9 +140,24 @@ impl Planner {
         })
     }
 
-    fn problem<'a>(&'a self, body: &'a coact_motion::Body, scene: &'a Scene, start: [MotionState; 7], aim: Aim) -> Problem<'a> {
+    fn problem<'a>(
+        &'a self,
+        body: &'a coact_motion::Body,
+        scene: &'a Scene,
+        start: [MotionState; 7],
+        aim: Aim,
+    ) -> Problem<'a> {
         let mechanism = &self.mechanism;
-        Problem { mechanism, body, scene, start, leave: None, aim, then: Vec::new(), margin: Margin::default() }
+        Problem {
+            mechanism,
+            body,
+            scene,
+            start,
+            leave: None,
+            aim,
+            then: Vec::new(),
+            margin: Margin::default(),
+        }
     }
 
     /// All that the arm keeps clear of now.
@@ -180,7 +222,12 @@ impl Planner {
         }
         let holds = request.held.is_some() && !places.is_empty();
         let works = matches!(request.errand, Errand::Place | Errand::Steady) || request.leave.is_some();
-        names.extend([(Fixture::TABLE, holds), (Fixture::PLATFORM, works)].iter().filter(|(_, may)| *may).map(|(name, _)| (*name).to_owned()));
+        names.extend(
+            [(Fixture::TABLE, holds), (Fixture::PLATFORM, works)]
+                .iter()
+                .filter(|(_, may)| *may)
+                .map(|(name, _)| (*name).to_owned()),
+        );
         let parts = obstacles.iter().filter(|obstacle| obstacle.name.starts_with("part "));
         let near = parts.filter(|part| {
             places.iter().any(|place| part.hull.distance_of_line(place) - part.hull.radius < NEIGHBOURS)

@@ -13,8 +13,10 @@ use nalgebra::Isometry3;
 const FELT: (u64, u64) = (40, 400);
 /// Cycles for which the person's hand must wait at the handover place before the robot takes the part.
 const MET: u64 = 100;
-/// Cycles for which the person must pull at a part before the robot lets go.
-const PULLED: u64 = 300;
+/// Force of the person at which the robot lets a part go, N, and for how many cycles it must last; below the second the
+/// person has let go.
+const PULL: [f64; 2] = [1.5, 0.3];
+const PULLED: u64 = 30;
 /// Cycles after which a handover that does not come about is given up.
 const PATIENCE: u64 = 30_000;
 /// Grasps that may close on nothing, and movements that may be refused, before the action is given up for a while.
@@ -78,8 +80,8 @@ impl Control {
             Leg::Stay => self.stay(senses),
             Leg::Feel => self.feel_part(senses),
             Leg::Close if self.memory.fingers_arrived() => self.memory.enter(Leg::Feel),
-            Leg::Open if self.memory.fingers_arrived() => self.let_go(),
-            Leg::Close | Leg::Open => {}
+            Leg::Open => self.open(senses),
+            Leg::Close => {}
         }
     }
 
@@ -140,8 +142,9 @@ impl Control {
     fn await_part(&mut self, senses: &Senses) {
         let offered = self.memory.kind().is_some_and(|kind| senses.in_person_hand(kind))
             && senses.person_waits_at(&self.places.handover());
+        let pressed = senses.pull().is_some_and(|force| force > PULL[1]);
         self.memory.met = if offered { self.memory.met + 1 } else { 0 };
-        if self.memory.met >= MET {
+        if self.memory.met >= MET || (offered && pressed) {
             self.memory.before = 0;
             self.memory.enter(Leg::Plan);
             self.ask(senses);
@@ -154,7 +157,8 @@ impl Control {
     fn stay(&mut self, senses: &Senses) {
         let offers = self.memory.errand() == Errand::Offer;
         let kind = self.memory.kind().unwrap_or_default();
-        let takes = offers && senses.person_can_take(kind) && senses.pull(&self.places.handover());
+        let takes =
+            offers && senses.person_can_take(kind) && senses.pull().is_some_and(|force| force > PULL[0]);
         self.memory.pulled = if takes { self.memory.pulled + 1 } else { 0 };
         if self.memory.pulled >= PULLED {
             self.grip(Leg::Open);
@@ -169,7 +173,15 @@ impl Control {
             Some(false) => self.memory.touched = 0,
             None => {}
         }
-        if self.memory.touched >= FELT.0 {
+        if self.memory.held().is_some() {
+            // Closed again on what was to be given: it is there still, or lost.
+            if self.memory.touched >= FELT.0 {
+                self.memory.enter(Leg::Stay);
+            } else if self.memory.leg_age > FELT.1 {
+                self.memory.held = NONE.into();
+                self.memory.enter(Leg::Rest);
+            }
+        } else if self.memory.touched >= FELT.0 {
             let palm = self.body.robot.palm(&self.servo.posture());
             let frame = pose(self.memory.place);
             self.memory.in_palm = memory::words(&(palm.inverse() * frame));
@@ -184,6 +196,17 @@ impl Control {
                 self.finish(true);
             }
             self.grip(Leg::Open);
+        }
+    }
+
+    /// Opens the fingers; they close again on a part that the person has let go before they did.
+    fn open(&mut self, senses: &Senses) {
+        let gives = self.memory.errand() == Errand::Offer && self.memory.held().is_some();
+        let alone = senses.pull().is_some_and(|force| force < PULL[1]) && senses.touch() == Some(true);
+        if gives && alone {
+            self.grip(Leg::Close);
+        } else if self.memory.fingers_arrived() {
+            self.let_go();
         }
     }
 

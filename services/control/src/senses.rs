@@ -121,9 +121,10 @@ impl<'a> Senses<'a> {
         PersonArm::of(&self.percept?.hand, &self.sample?.hand)
     }
 
-    /// Whether somebody pulls at what the hand holds; where that is not measured, whether the person's hand is there.
-    pub fn pull(&self, place: &Point3<f64>) -> bool {
-        self.person_waits_at(place)
+    /// Force with which somebody pulls or pushes at the hand and what it holds, N; `None` when it is not measured.
+    pub fn pull(&self) -> Option<f64> {
+        let [x, y, z] = self.sample?.joints.wrist_force;
+        Some((x * x + y * y + z * z).sqrt()).filter(|force| force.is_finite())
     }
 
     /// All parts and screens in sight, into a request.

@@ -110,7 +110,8 @@ impl Servo {
             let mut pace_change = memory.pace_change + share * step;
             let mut pace = memory.pace + PERIOD * pace_change;
             if (pace - wanted).abs() < 1e-4 || !(0.0..=1.0).contains(&pace) {
-                (pace, pace_change) = (if (pace - wanted).abs() < 1e-4 { wanted } else { pace.clamp(0.0, 1.0) }, 0.0);
+                (pace, pace_change) =
+                    (if (pace - wanted).abs() < 1e-4 { wanted } else { pace.clamp(0.0, 1.0) }, 0.0);
             }
             let t = memory.elapsed + PERIOD * pace;
             let accepted = self.take(0, &memory.course.at(t));

@@ -156,13 +156,33 @@ fn a_part_is_given_and_let_go_only_when_the_person_has_it() {
     world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Hold);
     let place = world.parts[part].frame.translation.vector;
     assert!((place - Vector3::from(world.task.scene.handover)).norm() < 0.01, "{place}");
-    world.run(1.5);
-    assert!(world.held().is_some(), "nobody has taken it");
     let [x, y, z] = world.task.scene.handover;
     world.hand_at([x - 0.15, y, z]);
+    world.run(1.5);
+    assert!(world.held().is_some(), "nobody has pulled at it");
+    world.pull([-0.2, 0.0, 0.0]);
+    world.run(0.5);
+    assert!(world.held().is_some(), "that was hardly a touch");
+    world.pull([-3.0, 0.0, 0.0]);
     let time = world.until(2.0, "given", |world| world.parts[part].holder == Holder::Person);
-    assert!((0.3..1.0).contains(&time), "{time} s");
+    assert!((0.03..0.6).contains(&time), "{time} s");
     world.until(5.0, "at rest", |world| world.phase() == MotionPhase::Rest);
+}
+
+#[test]
+fn a_part_that_the_person_lets_go_of_first_is_held_again() {
+    let mut world = KinematicWorld::new();
+    lay_down(&mut world, COLUMN_2);
+    world.decide(Some(world.action(Motion::Give, COLUMN_2)));
+    world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Hold);
+    let [x, y, z] = world.task.scene.handover;
+    world.hand_at([x - 0.15, y, z]);
+    world.pull([-3.0, 0.0, 0.0]);
+    world.until(1.0, "opens", |world| world.phase() == MotionPhase::Release);
+    world.pull([0.0; 3]);
+    world.until(1.0, "holds out again", |world| world.phase() == MotionPhase::Hold);
+    world.run(1.0);
+    assert!(world.held().is_some(), "it has not dropped");
 }
 
 #[test]
@@ -172,6 +192,7 @@ fn a_hand_that_holds_something_else_is_given_nothing() {
     world.decide(Some(world.action(Motion::Give, COLUMN_2)));
     world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Hold);
     hold_out(&mut world);
+    world.pull([-3.0, 0.0, 0.0]);
     world.run(2.0);
     assert!(world.held().is_some(), "the hand at the handover place is full");
 }

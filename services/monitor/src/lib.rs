@@ -28,6 +28,7 @@ mod links;
 mod moment;
 mod monitor;
 pub mod plots;
+mod reaction;
 mod recorder;
 mod rules;
 mod sightings;
@@ -54,6 +55,7 @@ pub use latencies::{Latencies, LatencyError};
 pub use links::links;
 pub use moment::{Moment, SeenPart};
 pub use monitor::{Monitor, MonitorError, Watched, write_summary};
+pub use reaction::{Reaction, ReactionReport};
 pub use recorder::{INTERVAL_NS, Recorder, histogram};
 pub use rules::{Rules, RulesError};
 pub use summary::{

@@ -1,7 +1,7 @@
 use crate::plots::{PlotError, anticipation_timeline, percentile_curve};
 use crate::{
     Album, Anticipation, Environment, Event, Faults, Findings, Intentions, Journal, JournalError, Latencies,
-    LatencyError, Link, Rules, Summary, SupervisorLog, TaskWatch, Tracking,
+    LatencyError, Link, Reaction, Rules, Summary, SupervisorLog, TaskWatch, Tracking,
 };
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, NONE, Pulse, SensorSample, Speech, Truth};
@@ -29,6 +29,7 @@ pub struct Monitor {
     watch: TaskWatch,
     faults: Faults,
     tracking: Tracking,
+    reaction: Reaction,
     album: Album,
     supervisor: SupervisorLog,
     /// Truths that are younger than the newest frame.
@@ -106,6 +107,7 @@ impl Monitor {
             watch,
             faults,
             tracking: Tracking::new(),
+            reaction: Reaction::new(),
             album,
             supervisor,
             waiting,
@@ -167,6 +169,7 @@ impl Monitor {
     pub fn command(&mut self, command: &Command) {
         self.album.command(command);
         self.tracking.command(command);
+        self.reaction.command(command);
     }
 
     /// What the robot said.
@@ -218,6 +221,7 @@ impl Monitor {
             events: self.journal.entries(),
             figures: Some(self.latencies.figures()),
             tracking: self.tracking.report(),
+            reaction: self.reaction.report(),
             start_ns: self.start_ns,
             duration_s: now_ns.saturating_sub(self.start_ns) as f64 / 1e9,
             rules: &self.rules,

@@ -1,6 +1,7 @@
 use crate::figures::{END_TO_END, execution_name, hop_name, wakeup_name};
 use crate::{
-    ActionEvent, Environment, Event, FaultEvent, Figures, Rules, TaskReport, TrackingReport, verdict,
+    ActionEvent, Environment, Event, FaultEvent, Figures, ReactionReport, Rules, TaskReport, TrackingReport,
+    verdict,
 };
 use coact_joint_task::Task;
 use hdrhistogram::Histogram;
@@ -20,6 +21,8 @@ pub struct Summary {
     pub end_to_end_ns: Percentiles,
     /// How well the arm followed its commands.
     pub tracking_error_rad: TrackingReport,
+    /// From a changed decision to the first command that it changes, ms.
+    pub movement_reaction_ms: ReactionReport,
     /// Whether decisions came in time.
     pub anticipation: AnticipationReport,
     /// What was done and said.
@@ -120,6 +123,8 @@ pub struct Findings<'a> {
     pub figures: Option<&'a Figures>,
     /// How well the arm followed its commands.
     pub tracking: TrackingReport,
+    /// From decisions to movements.
+    pub reaction: ReactionReport,
     /// Start of the run, ns of `CLOCK_MONOTONIC`.
     pub start_ns: u64,
     /// How long the run lasted, s.
@@ -131,13 +136,15 @@ pub struct Findings<'a> {
 impl Summary {
     /// Draws the conclusions.
     pub fn new(findings: Findings) -> Self {
-        let Findings { task, environment, events, figures, tracking, start_ns, duration_s, rules } = findings;
+        let Findings { task, environment, events, figures, tracking, reaction, start_ns, duration_s, rules } =
+            findings;
         let mut summary = Self {
             environment,
             processes: figures.map(processes).unwrap_or_default(),
             hops: figures.map(hops).unwrap_or_default(),
             end_to_end_ns: figures.map(|own| percentiles(own, END_TO_END)).unwrap_or_default(),
             tracking_error_rad: tracking,
+            movement_reaction_ms: reaction,
             anticipation: AnticipationReport::new(events),
             task: TaskReport::new(task, events, duration_s),
             faults: faults(events, start_ns),

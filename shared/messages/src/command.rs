@@ -23,6 +23,10 @@ pub struct Command {
     pub action: u32,
     /// [`MotionPhase`] of that action.
     pub phase: u32,
+    /// Movements that changed decisions have begun so far, and how many cycles after its decision the last one began.
+    pub begun: u32,
+    /// See `begun`.
+    pub reaction: u32,
     /// Opaque state words of control; `services/control` says what each holds.
     pub memory: [f64; 2048],
 }

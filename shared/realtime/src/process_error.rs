@@ -34,7 +34,9 @@ pub enum ProcessError {
         found: String,
     },
     /// No thread for work beside the cycle.
-    #[error("the system grants no thread for work beside the cycle: {0}; raise the limit on threads (ulimit -u)")]
+    #[error(
+        "the system grants no thread for work beside the cycle: {0}; raise the limit on threads (ulimit -u)"
+    )]
     Thread(#[source] std::io::Error),
     /// A signal handler cannot be installed.
     #[error("signals cannot be handled: {0}; expected a system that lets a process handle SIGTERM")]

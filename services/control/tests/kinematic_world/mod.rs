@@ -115,6 +115,11 @@ impl KinematicWorld {
         self.percept.hand.velocity = [0.0; 3];
     }
 
+    /// Somebody pulls at the hand and what it holds, N.
+    pub fn pull(&mut self, force: [f64; 3]) {
+        self.sample.joints.wrist_force = force;
+    }
+
     pub fn palm(&self) -> Isometry3<f64> {
         self.robot.palm(&self.command.position)
     }
