@@ -56,7 +56,7 @@ impl Meeting {
             let World { parts, task, .. } = &mut self.world;
             parts.rest_free(task);
             self.world.live(self.tick, &self.palm);
-            self.world.sense(self.tick, None, &mut self.out.sample);
+            self.world.sense(self.tick, &mut self.out.sample);
             self.world.memory.tick = self.tick;
             self.world.memory.started = 1;
         }
