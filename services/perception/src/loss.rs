@@ -24,8 +24,10 @@ pub(crate) struct Loss {
     kind: u64,
     /// How far the fingers were closed on it, rad.
     grip: f64,
-    /// Cycle at which touch was lost though the fingers were not opened; 0: it was not.
+    /// Cycle at which touch was lost though the fingers were not opened, or were opened in mid-air; 0: it was not.
     suspected: u64,
+    /// 1: they were opened. Then the part is lost only if it is seen to have fallen: another hand may have it.
+    opened: u64,
     /// Cycle up to which a loss is told, and the kind that was lost.
     told: u64,
     lost: u64,
@@ -33,7 +35,7 @@ pub(crate) struct Loss {
 
 impl Loss {
     /// One cycle of proprioception.
-    pub fn feel(&mut self, tick: u64, joints: &JointReading, objects: &ObjectsMemory) {
+    pub fn feel(&mut self, tick: u64, joints: &JointReading, objects: &ObjectsMemory, places: &Places) {
         let closing = coact_messages::closing(&joints.position);
         if joints.touch > TOUCH {
             self.suspected = 0;
@@ -45,13 +47,18 @@ impl Loss {
             }
         } else if self.held > 0 && self.suspected == 0 {
             let opened = closing <= self.grip - OPENED || closing.is_nan();
-            (self.held, self.suspected) = if opened { (0, 0) } else { (self.held, tick.max(1)) };
+            let kind = self.kind as usize;
+            let part = objects.track(self.held as usize - 1).filter(|part| part.kind() == Some(kind));
+            let put_down = opened && !part.is_some_and(|part| places.is_airborne(kind, part.position));
+            self.opened = u64::from(opened);
+            (self.held, self.suspected) = if put_down { (0, 0) } else { (self.held, tick.max(1)) };
         } else if self.suspected > 0 && tick > self.suspected + SUSPECTED {
             (self.held, self.suspected) = (0, 0);
         }
     }
 
-    /// One frame of sight: a part that went out of the closed fingers and is seen elsewhere, or nowhere, is lost.
+    /// One frame of sight: a part that went out of the closed fingers and is seen elsewhere, or nowhere, is lost; and so is
+    /// one that fingers let go in mid-air and that is seen to have fallen.
     pub fn look(&mut self, objects: &ObjectsMemory, around: &Surroundings, places: &Places) {
         let Some(track) = self.held.checked_sub(1).filter(|_| self.suspected > 0) else { return };
         let seen = objects.track(track as usize).filter(|part| part.kind() == Some(self.kind as usize));
@@ -61,6 +68,7 @@ impl Loss {
                 (self.held, self.suspected) = (0, 0);
                 return;
             }
+            _ if self.opened == 1 => self.has_fallen(objects, places),
             Some(part) if after(part.seen) => {
                 let body = places.body(self.kind as usize);
                 let away = |point| part.distance_to_axis(body, point) > AWAY;
@@ -72,6 +80,16 @@ impl Loss {
             (self.told, self.lost) = (objects.captured + TOLD, self.kind);
             (self.held, self.suspected) = (0, 0);
         }
+    }
+
+    /// Whether a part of the kind lies where it has not lain since before the suspicion: on the table, in no hand.
+    fn has_fallen(&self, objects: &ObjectsMemory, places: &Places) -> bool {
+        let since = objects.captured.saturating_sub(self.suspected);
+        objects.parts().any(|(kind, part)| {
+            let free = !part.is_held() && !places.is_mounted(kind, part.position);
+            let lies = free && !places.is_airborne(kind, part.position);
+            kind == self.kind as usize && lies && part.seen > self.suspected && u64::from(part.still) < since
+        })
     }
 
     /// Moves the evidence of lost parts one cycle on.

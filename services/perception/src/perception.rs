@@ -98,7 +98,7 @@ impl Perception {
             memory.objects.observe(&sample.scene, &around, &self.places);
             memory.loss.look(&memory.objects, &around, &self.places);
         }
-        memory.loss.feel(tick, &sample.joints, &memory.objects);
+        memory.loss.feel(tick, &sample.joints, &memory.objects, &self.places);
         memory.hiding.watch(tick, sample, &memory.hand, &memory.preshape.reach, &self.places);
         self.words.listen(&sample.heard);
     }

@@ -114,3 +114,31 @@ fn a_touched_part_in_the_air_is_in_the_robots_hand() {
     stage.run(300, |stage, _| stage.sample.joints.touch = 0.0);
     assert!(stage.percept.robot_holds[kind] < 0.1);
 }
+
+/// The robot holds the top floor 0.2 m above the table, and opens its fingers; `then` moves things from there on. Tells
+/// the evidence that the part is lost.
+fn lost_after_opening(then: impl Fn(&mut Stage, usize)) -> f64 {
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("top floor"), stage.kind("top floor"));
+    stage.run(1000, |stage, time| {
+        stage.things[part].position[2] += if time < 400 { 0.0005 } else { 0.0 };
+        stage.sample.joints.touch = 5.0;
+        stage.sample.joints.position[8..11].fill(1.4);
+    });
+    assert!(stage.percept.robot_holds[kind] > 0.9);
+    stage.run(800, |stage, _| {
+        stage.sample.joints.touch = 0.0;
+        stage.sample.joints.position[8..11].fill(1.0);
+        then(stage, part);
+    });
+    stage.percept.lost[kind]
+}
+
+#[test]
+fn a_part_that_falls_when_the_robot_lets_it_go_is_lost_and_one_that_is_taken_is_not() {
+    let table = |stage: &Stage| stage.task.scene.table_height;
+    assert!(lost_after_opening(|stage, part| stage.things[part].position[2] = table(stage)) > 0.9);
+    assert!(lost_after_opening(|_, _| {}) < 0.1, "somebody has it");
+    let taken_away = |stage: &mut Stage, part: usize| stage.things[part].visible = false;
+    assert!(lost_after_opening(taken_away) < 0.1, "a hand hides it");
+}

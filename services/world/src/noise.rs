@@ -12,6 +12,7 @@ pub(crate) enum Stream {
     Encoders = 5,
     Mistake = 6,
     Dropout = 7,
+    Handover = 8,
 }
 
 /// Randomness that depends on the seed, the purpose and the tick alone, so that there is no generator state to

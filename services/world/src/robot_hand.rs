@@ -13,6 +13,8 @@ const REACH: f64 = 0.03;
 const TOUCHING: f64 = 0.002;
 /// They have let go when it exceeds it by this, m.
 const RELEASED: f64 = 0.008;
+/// Fingers that are told to stand this much further open than when they held a part let go of it, rad.
+const OPENED: f64 = 0.01;
 /// Clear width from which a hand without a part looks open, m.
 const LOOKS_OPEN: f64 = 0.06;
 /// Distance of the grasp point from a place within which the hand is seen as being there, m.
@@ -64,6 +66,10 @@ pub(crate) struct RobotHandMemory {
     pub slipped: Slot,
     /// The part in the person's hand that is between the open fingers.
     pub receiving: Slot,
+    /// Mean angle of the finger bases that the servo was last told, rad.
+    pub wanted: f64,
+    /// The largest such angle since the fingers have held a part, rad.
+    tightest: f64,
 }
 
 /// Mean finger angles at which a kind of part is touched, gripped and let go, rad, and all hand joints in the grip.
@@ -123,16 +129,17 @@ impl RobotHand {
         memory.held.get().map(|part| self.angles[parts.kind(part)].hand)
     }
 
-    /// Force on the held part, N, when the servo would close the fingers to `closing` rad.
-    pub fn touch(&self, memory: &RobotHandMemory, parts: &Parts, wanted: f64) -> f64 {
-        let squeeze = |stop: f64| GRIP_FORCE.0 + GRIP_FORCE.1 * (wanted - stop).max(0.0);
+    /// Force on the held part, N, as the servo would close the fingers.
+    pub fn touch(&self, memory: &RobotHandMemory, parts: &Parts) -> f64 {
+        let squeeze = |stop: f64| GRIP_FORCE.0 + GRIP_FORCE.1 * (memory.wanted - stop).max(0.0);
         memory.held.get().map_or(0.0, |part| squeeze(self.angles[parts.kind(part)].grip))
     }
 
     /// Grasps, carries and releases: as the fingers were measured to hold (`grip`), or without that by rules, as the
     /// palm moved and the fingers closed or opened since the last step.
     ///
-    /// A part that the fingers of the person (`person_grip`) are on becomes the person's when the robot lets go.
+    /// A part that the fingers of the person (`person_grip`) are on becomes the person's when the robot lets go. One that
+    /// is lost by fingers that were not told to open has slipped.
     pub fn advance(
         &self,
         palm: &Palm,
@@ -153,6 +160,8 @@ impl RobotHand {
                 if person_grip.get() == Some(part) {
                     parts.give_to(part, Holder::Person);
                 } else {
+                    let opened = grip.is_none() || memory.wanted < memory.tightest - OPENED;
+                    memory.slipped = if opened { Slot::EMPTY } else { Slot::of(part) };
                     parts.let_go(part, task);
                 }
             }
@@ -165,6 +174,8 @@ impl RobotHand {
             (None, _) => {}
         }
         memory.closing = palm.closing;
+        memory.tightest =
+            if memory.held == Slot::EMPTY { memory.wanted } else { memory.tightest.max(memory.wanted) };
         if palm.closing < self.open {
             memory.slipped = Slot::EMPTY;
         }

@@ -89,6 +89,9 @@ impl World {
         truth: &mut Truth,
         state: &mut WorldState,
     ) {
+        if let Some(command) = command {
+            self.memory.robot.wanted = coact_messages::closing(&command.position);
+        }
         let influence = Influence {
             elapsed: self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, 1000)),
             command,
@@ -102,7 +105,7 @@ impl World {
         self.body.advance(&influence, &mut self.joints, &mut self.parts);
         let palm = self.hand.palm(&self.joints.position);
         self.live(tick, &palm);
-        self.sense(tick, command, out);
+        self.sense(tick, out);
         self.memory.tick = tick;
         self.memory.started = 1;
         self.tell(truth);
@@ -192,11 +195,10 @@ impl World {
         }
     }
 
-    fn sense(&mut self, tick: u64, command: Option<&Command>, out: &mut SensorSample) {
+    fn sense(&mut self, tick: u64, out: &mut SensorSample) {
         let last = self.last_tick();
         let Self { task, noise, hand, person, body, joints, parts, memory, staging, .. } = self;
-        let wanted = command.map_or(0.0, |command| coact_messages::closing(&command.position));
-        let ruled = || hand.touch(&memory.robot, parts, wanted);
+        let ruled = || hand.touch(&memory.robot, parts);
         let touch = body.grip().map_or_else(ruled, |grip| grip.force);
         let of_person = DVec3::from(memory.person.force);
         let outside = match (body.outside(), memory.person.grip.get()) {

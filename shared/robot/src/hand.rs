@@ -82,7 +82,11 @@ impl Hand {
         let tip = |base: f64| (base * self.coupling).min(self.joints[4].limits.upper);
         let angles = [self.grasp_spread, side, side, middle, tip(side), tip(side), tip(middle)];
         let ends = self.ends(&angles);
-        Grasp { angles, depth: 0.5 * (ends[0].z + ends[2].z) }
+        // A finger that leans inwards meets it with its inner edge, which is not as deep as the middle of its end.
+        let met = |finger: usize| {
+            ends[finger].z + thickness * (angles[1 + finger] + angles[4 + finger]).cos().min(0.0)
+        };
+        Grasp { angles, depth: 0.5 * (met(0) + met(2)) }
     }
 
     /// Clear width between the fingers, m: twice the way of finger 3's end to the palm's axis. Fingers 1 and 2 are

@@ -88,15 +88,12 @@ impl Person {
         }
     }
 
-    /// Gives the present action up: the gesture ends, or the part goes back to where it lay, unless the robot has a hand
-    /// on it.
-    fn give_up(&self, memory: &mut PersonMemory, around: &Surroundings) {
+    /// Gives the present action up: the gesture ends, the fingers let go of a part that the robot offers, or the part goes
+    /// back to where it lay, unless the robot has a hand on it.
+    fn give_up(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
         match memory.stage() {
             Stage::Show => self.withdraw(memory, around),
-            Stage::AwaitRelease => {
-                memory.grip = Slot::EMPTY;
-                self.withdraw(memory, around);
-            }
+            Stage::AwaitRelease => self.put_down(memory, around),
             Stage::Dwell | Stage::Carry | Stage::AwaitHold | Stage::Mount | Stage::Offer
                 if around.robot.held != memory.grip =>
             {
@@ -121,6 +118,10 @@ impl Person {
             self.intend(*intention, &mut imagined, around);
             imagined.screen().is_some()
         };
+        if self.comes_late(around) {
+            memory.until = around.tick + 1;
+            return;
+        }
         match self.plan.next(&around.view(), memory, &can_hide, &mut rng) {
             Choice::Rest(pause) => memory.until = around.tick + pause.max(1),
             Choice::Begin(intention) => self.take_up(intention, memory, around),
@@ -209,6 +210,9 @@ impl Person {
         memory.grasped = tick;
         memory.grip = Slot::of(part);
         if around.parts.is(part, Holder::Robot) {
+            if memory.gives_up == 0 {
+                memory.gives_up = self.withdraws(tick);
+            }
             return memory.enter(Stage::AwaitRelease, tick + RELEASE_MS);
         }
         around.parts.give_to(part, Holder::Person);
@@ -244,7 +248,12 @@ impl Person {
         let waits = memory.subgoal.get().is_some_and(|subgoal| around.task.subgoals[subgoal].held);
         match (memory.stage(), memory.errand()) {
             (Stage::Return, _) => self.put_down(memory, around),
-            (_, Errand::HandOver | Errand::Request) => memory.enter(Stage::Offer, around.tick + OFFER_MS),
+            (_, Errand::HandOver | Errand::Request) => {
+                if memory.gives_up == 0 {
+                    memory.gives_up = self.withdraws(around.tick);
+                }
+                memory.enter(Stage::Offer, around.tick + OFFER_MS);
+            }
             _ if waits => memory.enter(Stage::AwaitHold, around.tick + HOLD_MS),
             _ => self.begin_mounting(memory, around.tick),
         }

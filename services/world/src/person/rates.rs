@@ -13,9 +13,11 @@ use std::ops::RangeInclusive;
 /// | `words` | share | valid actions that come with a sentence of the task that means the same, said at reach onset |
 /// | `clarity` | range in 0..1 | of a grip: 1 is the grip's own pitch, 0 the middle between it and the nearest other grip's |
 /// | `dropouts` | per second | bursts in which the tracker loses the hand, 50 to 300 ms long; at most 2 |
+/// | `withdraws` | share | of parts that the person has the fingers on together with the robot, or holds out to it, the person lets go again, or takes back, before it should |
+/// | `late` | share | of parts that the robot offers, the person comes for 2 to 6 s late |
 /// | `movement` | range in ms | movement time of a reach, 300 to 3000 |
 ///
-/// A share is from 0 to 1; the six shares, which are of all choices, add up to at most 1. Taking what the robot offers is
+/// A share is from 0 to 1; the six shares of all choices add up to at most 1. Taking what the robot offers is
 /// no choice. A range is written `LOW..HIGH`. What is not named has its default value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rates {
@@ -27,6 +29,8 @@ pub struct Rates {
     pub(crate) words: f64,
     pub(crate) clarity: RangeInclusive<f64>,
     pub(crate) dropouts: f64,
+    pub(crate) withdraws: f64,
+    pub(crate) late: f64,
     pub(crate) movement: RangeInclusive<f64>,
 }
 
@@ -42,12 +46,14 @@ impl Default for Rates {
             words: 0.03,
             clarity: 0.5..=1.0,
             dropouts: 0.05,
+            withdraws: 0.05,
+            late: 0.05,
             movement: 429.0..=895.0,
         }
     }
 }
 
-const KEYS: &str = "idle, goal, ask, means, hidden, words, clarity, dropouts, movement";
+const KEYS: &str = "idle, goal, ask, means, hidden, words, clarity, dropouts, withdraws, late, movement";
 
 impl Rates {
     /// Reads `KEY=VALUE,...`; an empty text leaves all defaults.
@@ -71,6 +77,8 @@ impl Rates {
                 "means" => rates.means = share()?,
                 "hidden" => rates.hidden = share()?,
                 "words" => rates.words = share()?,
+                "withdraws" => rates.withdraws = share()?,
+                "late" => rates.late = share()?,
                 "dropouts" => rates.dropouts = number(2.0, "bursts per second, from 0 to 2")?,
                 "clarity" => {
                     rates.clarity = range(value, 0.0..=1.0).ok_or_else(|| fault("LOW..HIGH within 0..1"))?;

@@ -107,6 +107,9 @@ fn intend(view: &View, chain: usize, manner: Manner) -> Option<Intention> {
         return Some(Intention { errand, chain, subgoal, part: None, manner });
     }
     let own = view.own_part(kind).map(|part| Intention { errand, chain, subgoal, part: Some(part), manner });
-    let offered = || view.take_offered().filter(|taking| taking.chain == chain);
+    let offered = || {
+        let taking = view.take_offered().filter(|taking| taking.chain == chain)?;
+        Some(Intention { manner, ..taking })
+    };
     own.or_else(offered)
 }

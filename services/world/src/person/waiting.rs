@@ -2,11 +2,17 @@
 
 use super::PersonMemory;
 use super::actor::{Person, Surroundings};
+use crate::noise::Stream;
 use crate::parts::Holder;
 use crate::slot::Slot;
+use rand::RngExt;
 
 /// How long it takes to feel that the robot has gripped, or let go, ms.
 const FELT_MS: u64 = 200;
+/// By how much a person who comes late does so, ms.
+const LATE_MS: std::ops::RangeInclusive<u64> = 2000..=6000;
+/// How soon a person who withdraws does so, ms.
+const WITHDRAWS_MS: std::ops::RangeInclusive<u64> = 50..=600;
 
 impl Person {
     /// Holds the part out until the robot has it, or for as long as patience lasts.
@@ -21,7 +27,7 @@ impl Person {
 
     /// Keeps the gesture up until the robot offers what is needed, or for as long as patience lasts.
     pub(super) fn show(&self, memory: &mut PersonMemory, around: &mut Surroundings) {
-        if let Some(taking) = around.view().take_offered() {
+        if let Some(taking) = around.view().take_offered().filter(|_| !self.comes_late(around)) {
             self.take_up(taking, memory, around);
         } else if around.tick >= memory.until {
             self.withdraw(memory, around);
@@ -36,11 +42,27 @@ impl Person {
             memory.home = around.parts.position(part).into();
         }
         if self.felt(released, memory, around.tick) {
+            memory.gives_up = 0;
             self.lift(memory, around);
         } else if !released && around.tick >= memory.until {
             memory.grip = Slot::EMPTY;
             self.withdraw(memory, around);
         }
+    }
+
+    /// Whether the person has not come yet for what the robot offers, for being late this time.
+    pub(super) fn comes_late(&self, around: &Surroundings) -> bool {
+        let (Some(rates), since) = (self.plan.rates(), around.robot.offering_since) else { return false };
+        let mut rng = self.noise.at(Stream::Handover, since);
+        let late = since > 0 && rng.random_bool(rates.late);
+        late && around.tick < since + rng.random_range(LATE_MS)
+    }
+
+    /// When the person will let go of a part that the robot has as well, or take one back that is held out; 0: will not.
+    pub(super) fn withdraws(&self, tick: u64) -> u64 {
+        let mut rng = self.noise.at(Stream::Handover, tick);
+        let share = self.plan.rates().map_or(0.0, |rates| rates.withdraws);
+        if rng.random_bool(share) { tick + rng.random_range(WITHDRAWS_MS) } else { 0 }
     }
 
     /// Whether `happening` has gone on long enough to be felt.

@@ -1,10 +1,12 @@
 #![allow(clippy::unwrap_used)]
 
+mod carrying;
 mod erring;
 mod fake_robot;
 mod grasping;
 mod handover;
 mod hidden;
+mod inserting;
 mod manipulator;
 mod partner;
 mod physics;

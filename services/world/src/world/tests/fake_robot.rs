@@ -41,7 +41,7 @@ impl FakeRobot {
         let World { parts, task, .. } = world;
         parts.rest_free(task);
         world.live(tick, &palm);
-        world.sense(tick, None, &mut out.sample);
+        world.sense(tick, &mut out.sample);
         world.memory.tick = tick;
         world.memory.started = 1;
         world.tell(&mut out.truth);

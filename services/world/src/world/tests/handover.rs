@@ -3,7 +3,7 @@
 use super::manipulator::{Fingers, Manipulator};
 use super::{Out, robot, task};
 use crate::parts::Holder;
-use crate::person::{Script, Stage};
+use crate::person::{Plan, Rates, Script, Stage};
 use crate::robot_hand::Palm;
 use crate::slot::Slot;
 use crate::{BodyKind, Partner, Settings, World};
@@ -56,7 +56,7 @@ impl Meeting {
             let World { parts, task, .. } = &mut self.world;
             parts.rest_free(task);
             self.world.live(self.tick, &self.palm);
-            self.world.sense(self.tick, None, &mut self.out.sample);
+            self.world.sense(self.tick, &mut self.out.sample);
             self.world.memory.tick = self.tick;
             self.world.memory.started = 1;
         }
@@ -111,6 +111,93 @@ fn pull_ends_when_the_person_lets_go_again() {
     meeting.until(Stage::Withdraw);
     assert_eq!(meeting.force(), DVec3::ZERO);
     assert!(meeting.world.parts.is(nut, Holder::Robot), "the robot has kept it");
+}
+
+#[test]
+fn person_who_withdraws_leaves_the_part_to_the_robot() {
+    let mut meeting = Meeting::giving(&format!("{TAKES}\ngives_up = 0.3"));
+    let nut = meeting.nut();
+    meeting.until(Stage::AwaitRelease);
+    let grasped = meeting.tick;
+    meeting.live(250);
+    assert!(meeting.towards_person() > 2.0);
+    meeting.until(Stage::Withdraw);
+    assert_eq!(meeting.tick, grasped + 300);
+    assert_eq!(meeting.force(), DVec3::ZERO);
+    meeting.palm.closing = 0.0;
+    meeting.live(5);
+    assert!(meeting.world.parts.is(nut, Holder::Nobody), "the robot lets go too late");
+    assert_eq!(meeting.world.parts.position(nut).z, meeting.world.task.scene.table_height);
+}
+
+#[test]
+fn part_that_both_let_go_falls_and_belongs_to_nobody() {
+    let mut meeting = Meeting::giving(&format!("{TAKES}\ngives_up = 0.3"));
+    let nut = meeting.nut();
+    meeting.until(Stage::AwaitRelease);
+    meeting.live(200);
+    meeting.palm.closing = 0.0;
+    meeting.live(50);
+    assert!(meeting.world.parts.is(nut, Holder::Person));
+    meeting.live(100);
+    assert!(meeting.world.parts.is(nut, Holder::Nobody));
+    assert_eq!(meeting.world.parts.position(nut).z, meeting.world.task.scene.table_height);
+    meeting.live(3100);
+    let home = meeting.world.task.parts[nut].at;
+    assert_eq!(meeting.world.parts.position(nut).truncate(), home.into(), "lies where it can be taken again");
+}
+
+#[test]
+fn part_that_nobody_takes_hold_of_in_time_falls_to_the_table_by_physics() {
+    let mut robot = Manipulator::holding("column 3", 8);
+    let (before, _) = robot.reach(robot.world.task.scene.handover.into(), DVec3::Z);
+    robot.go(&before, Fingers::Closed);
+    let person = &mut robot.world.memory.person;
+    person.enter(Stage::AwaitRelease, u64::MAX);
+    person.grip = Slot::of(0);
+    person.gives_up = u64::MAX;
+    robot.stay(300);
+    robot.world.memory.person.gives_up = 1;
+    robot.go(&before, Fingers::Open);
+    robot.stay(1000);
+    let lies = robot.world.parts.position(0).z - robot.world.task.scene.table_height;
+    assert!(
+        robot.world.parts.is(0, Holder::Nobody) && !robot.holds() && lies < 0.1,
+        "{lies} m above the table"
+    );
+    assert_eq!(robot.out.sample.joints.touch, 0.0);
+}
+
+#[test]
+fn person_who_takes_a_part_back_has_not_dropped_it() {
+    let action = "chain = \"hand over\"\nkind = \"wheel\"\ngives_up = 4.0";
+    let mut meeting = Meeting::new(&format!("[[action]]\n{action}\n"));
+    meeting.until(Stage::Offer);
+    let wheel = meeting.world.memory.person.grip.get().unwrap();
+    meeting.until(Stage::Withdraw);
+    let home = meeting.world.task.parts[wheel].at;
+    assert!(meeting.world.parts.is(wheel, Holder::Nobody));
+    assert!(meeting.world.parts.position(wheel).truncate().distance(home.into()) < 0.01);
+}
+
+/// Seconds from an offer to the person's setting out for it.
+fn answered_after(rates: &str) -> f64 {
+    let mut meeting = Meeting::giving(TAKES);
+    meeting.world.person.plan = Plan::Erring(Rates::parse(rates).unwrap());
+    meeting.world.memory.person.enter(Stage::Rest, 0);
+    while meeting.world.memory.robot.offering_since == 0 {
+        meeting.live(1);
+    }
+    let offered = meeting.tick;
+    meeting.until(Stage::AwaitRelease);
+    1e-3 * (meeting.tick - offered) as f64
+}
+
+#[test]
+fn person_may_come_late() {
+    let late = answered_after("late=1,withdraws=0");
+    assert!((2.3..8.0).contains(&late), "{late} s");
+    assert!(answered_after("late=0,withdraws=0") < 2.0);
 }
 
 #[test]

@@ -1,8 +1,9 @@
 use super::{Out, config};
 use crate::body::Body;
-use crate::{BodyKind, Partner, Settings, World};
+use crate::staging::Staging;
+use crate::{BodyKind, Partner, Script, Settings, World};
 use bytemuck::zeroed_box;
-use coact_joint_task::{Agent, Task};
+use coact_joint_task::{Agent, Part, Subgoal, Task};
 use coact_messages::{ARM_JOINTS, Command};
 use coact_robot::{
     HandGoal, JointLimits, MotionState, Movement, Posture, PostureSearch, ROBOT_JOINTS, Robot,
@@ -12,10 +13,16 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+/// How far before it grips or places something the hand is, m.
+const BACK: f64 = 0.15;
+/// Where it passes on its way there, m: joints that move together make no straight line.
+const NEARER: [f64; 3] = [0.06, 0.03, 0.012];
+
 /// A robot in the physics world with one part on the table, moved posture by posture.
 pub(super) struct Manipulator {
     pub world: World,
     pub out: Out,
+    script: Script,
     robot: Robot,
     limits: [JointLimits; ROBOT_JOINTS],
     at: [f64; ROBOT_JOINTS],
@@ -53,17 +60,38 @@ impl Manipulator {
 
     /// The same with another robot.
     pub fn with(robot: Robot, kind: &str, at: [f64; 2]) -> Self {
+        Self::among(robot, kind, at, |_| Vec::new())
+    }
+
+    /// The same with the parts in place on which that one is mounted on the robot's side.
+    pub fn assembling(kind: &str, at: [f64; 2]) -> Self {
+        Self::among(super::robot(), kind, at, |task| {
+            let own = |goal: &Subgoal| goal.side == Agent::Robot && task.kinds[goal.kind].name == kind;
+            let mut before = vec![task.subgoals.iter().position(own).unwrap()];
+            for next in 0.. {
+                let Some(&goal) = before.get(next) else { break };
+                let new = task.subgoals[goal].after.iter().filter(|goal| !before.contains(goal));
+                before.extend(new.copied().collect::<Vec<_>>());
+            }
+            before.split_off(1)
+        })
+    }
+
+    /// A part of `kind`, and those of the subgoals that are achieved.
+    fn among(robot: Robot, kind: &str, at: [f64; 2], achieved: impl Fn(&Task) -> Vec<usize>) -> Self {
         let mut task = Task::load(&config("tasks/toy-vehicle.toml")).unwrap();
+        let staging = Staging { achieved: achieved(&task), ..Staging::default() };
         let index = task.kinds.iter().position(|known| known.name == kind).unwrap();
-        task.parts.retain(|part| part.kind == index);
-        task.parts.truncate(1);
-        (task.parts[0].at, task.parts[0].workspace) = (at, Agent::Robot);
-        let settings = Settings { seed: 1, partner: Partner::Synthetic, body: BodyKind::Physics };
-        let world = World::new(&task, &robot, settings).unwrap();
+        let first = task.parts.iter().position(|part| part.kind == index).unwrap();
+        let own = Part { at, workspace: Agent::Robot, ..task.parts[first] };
+        let mounted = staging.mounted(&task).into_iter().map(|(_, part)| task.parts[part].clone());
+        task.parts = std::iter::once(own).chain(mounted).collect();
+        let script = Script { entries: Vec::new(), staging };
+        let world = World::new(&task, &robot, settings(&script)).unwrap();
         let mut at = [0.0; ROBOT_JOINTS];
         at[..ARM_JOINTS].copy_from_slice(&robot.park);
         let limits = robot.limits();
-        Self { world, out: Out::new(), robot, limits, at, tick: 0, deviation: 0.0 }
+        Self { world, out: Out::new(), script, robot, limits, at, tick: 0, deviation: 0.0 }
     }
 
     /// One that has taken a part of `kind` and holds it above the table; it took the part for lying up to 3 mm beside.
@@ -74,7 +102,7 @@ impl Manipulator {
         let mut robot = Self::new(kind, at);
         robot.stay(50);
         let table = robot.world.task.scene.table_height;
-        robot.pick(DVec3::new(at[0] + any(-0.003, 0.003), at[1] + any(-0.003, 0.003), table));
+        robot.pick(DVec3::new(at[0] + any(-0.003, 0.003), at[1] + any(-0.003, 0.003), table), DVec3::Z);
         robot
     }
 
@@ -86,11 +114,15 @@ impl Manipulator {
 
     /// Postures for gripping the part when its frame is at `place` with its axis along `axis`.
     pub fn reach(&self, place: DVec3, axis: DVec3) -> (Posture, Posture) {
+        self.reach_from(BACK, place, axis)
+    }
+
+    fn reach_from(&self, back: f64, place: DVec3, axis: DVec3) -> (Posture, Posture) {
         let turn = DQuat::from_rotation_arc(DVec3::Z, axis);
         let turn = UnitQuaternion::from_quaternion(Quaternion::new(turn.w, turn.x, turn.y, turn.z));
         let frame = Isometry3::from_parts(Translation3::new(place.x, place.y, place.z), turn);
         let (height, width) = self.part();
-        let goal = HandGoal::grip(&frame, height, 0, 0.15, self.world.task.scene.table_height);
+        let goal = HandGoal::grip(&frame, height, 0, back, self.world.task.scene.table_height);
         let deeper = self.robot.hand.grasp_distance - self.robot.hand.grasp(width, 0.0).depth;
         let goal = HandGoal { point: goal.point + goal.approach * deeper, ..goal };
         let from: Posture = self.at[..ARM_JOINTS].try_into().unwrap();
@@ -152,24 +184,48 @@ impl Manipulator {
         }
     }
 
-    /// Takes the part from the table where it is thought to lie, and lifts it.
-    pub fn pick(&mut self, thought: DVec3) {
-        let (before, at) = self.reach(thought, DVec3::Z);
+    /// Takes the part from where it is thought to be, its axis along `axis`, and lifts it. Tells whether it was held
+    /// before it was lifted.
+    pub fn pick(&mut self, thought: DVec3, axis: DVec3) -> bool {
+        let (before, at) = self.reach(thought, axis);
         self.go(&before, Fingers::Open);
         self.go(&at, Fingers::Open);
         self.go(&at, Fingers::Closed);
         self.stay(100);
+        let held = self.holds();
         self.go(&before, Fingers::Closed);
+        held
     }
 
-    /// Brings the held part to `place`, its axis along `axis`, and lets it go there.
-    pub fn put(&mut self, place: DVec3, axis: DVec3) {
+    /// Brings the held part to `place`, its axis along `axis`, and lets it go there. Tells where it was just before.
+    pub fn put(&mut self, place: DVec3, axis: DVec3) -> (DVec3, DQuat) {
         let (before, at) = self.reach(place, axis);
         self.go(&before, Fingers::Closed);
+        for back in NEARER {
+            let (nearer, _) = self.reach_from(back, place, axis);
+            self.go(&nearer, Fingers::Closed);
+        }
         self.go(&at, Fingers::Closed);
+        let brought = (self.world.parts.position(0), self.world.parts.orientation(0));
         self.go(&at, Fingers::Open);
         self.go(&before, Fingers::Open);
         self.stay(300);
+        brought
+    }
+
+    /// The same, but with the held part itself, not the hand that should have it, where it is to be.
+    pub fn put_part(&mut self, place: DVec3, axis: DVec3) -> (DVec3, DQuat) {
+        let (mut hand_place, mut hand_axis) = (place, axis);
+        for _ in 0..3 {
+            let (before, _) = self.reach(hand_place, hand_axis);
+            self.go(&before, Fingers::Closed);
+            self.stay(100);
+            let parts = &self.world.parts;
+            let own = parts.orientation(0) * DVec3::Z;
+            hand_place += place + BACK * hand_axis - parts.position(0);
+            hand_axis = DQuat::from_rotation_arc(own, axis) * hand_axis;
+        }
+        self.put(hand_place, hand_axis)
     }
 
     /// Whether the robot has the part.
@@ -186,8 +242,12 @@ impl Manipulator {
 
     /// Kills the world, and lets another one go on from what it remembered.
     pub fn kill(&mut self) {
-        let settings = Settings { seed: 1, partner: Partner::Synthetic, body: BodyKind::Physics };
-        self.world = World::new(&self.world.task.clone(), &self.robot, settings).unwrap();
+        let task = self.world.task.clone();
+        self.world = World::new(&task, &self.robot, settings(&self.script)).unwrap();
         self.world.resume(&self.out.state);
     }
+}
+
+fn settings(script: &Script) -> Settings {
+    Settings { seed: 1, partner: Partner::Script(script.clone()), body: BodyKind::Physics }
 }
