@@ -1,6 +1,6 @@
 //! Names of all topics. Each run's names live under that run's own iceoryx2 prefix.
 
-/// [`SensorSample`](crate::SensorSample), world to perception and control.
+/// [`SensorSample`](crate::SensorSample), world to perception, control and monitor.
 pub const SENSORS: &str = "coact/sensors";
 /// [`Percept`](crate::Percept), perception to fields and control.
 pub const PERCEPT: &str = "coact/percept";

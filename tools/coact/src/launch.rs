@@ -3,6 +3,7 @@ use crate::installation::Installation;
 use crate::{album, closed_pipe, closing, lockstep, partner};
 use anyhow::{Context, Result};
 use coact_joint_task::NetworkPlan;
+use coact_monitor::Album;
 use coact_perception::PreshapeModel;
 use coact_pipeline::{Pipeline, RunSettings, WorldMode};
 use coact_robot::Robot;
@@ -124,7 +125,9 @@ fn gave_up(error: LaunchError, settings: &RunSettings, json: bool) -> Result<Exi
     if error.is_configuration() {
         return Err(error.into());
     }
-    draw_album(settings);
+    if settings.report.join(Album::FILE).is_file() {
+        draw_album(settings);
+    }
     closing::show(&settings.report, json).with_context(|| error.to_string()).ok();
     closing::alarm(&error.to_string());
     Ok(ExitCode::FAILURE)
