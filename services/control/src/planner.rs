@@ -86,23 +86,7 @@ impl Planner {
         let Ok(figure) = self.figure(fingers, request.held) else { return refused };
         let goals = self.places.goals(request);
         let scene = self.scene(request, &goals);
-        let t0 = std::time::Instant::now();
-        let planned = self.plan(request, &figure, &scene, goals);
-        if std::env::var("COACT_DEBUG").is_ok() {
-            eprintln!(
-                "{:?} {:?} leave {:?} moving {} -> {} in {:?}",
-                request.errand,
-                request.kind,
-                request.leave,
-                request.start.iter().any(|s| !s.is_at_rest()),
-                match &planned {
-                    Ok(p) => format!("{:.2} s {} knots", p.duration(), p.knots.len()),
-                    Err(e) => format!("{e}"),
-                },
-                t0.elapsed()
-            );
-        }
-        if let Ok(plan) = planned {
+        if let Ok(plan) = self.plan(request, &figure, &scene, goals) {
             return Answer { course: Course::of(&plan), ..refused };
         }
         if request.start.iter().any(|state| !state.is_at_rest()) {
