@@ -21,6 +21,8 @@ pub(crate) struct Planner {
     fixtures: Vec<Obstacle>,
 }
 
+/// Distances that are kept: fingers around something low stand hardly higher than what it lies on.
+const MARGIN: Margin = Margin { way: 0.01, goal: 0.001 };
 /// What is nearer than this to where the hand works may be touched by it there, m.
 const NEIGHBOURS: f64 = 0.12;
 /// A part of the same kind this near to where one is meant is that one, m.
@@ -132,16 +134,7 @@ impl Planner {
         aim: Aim,
     ) -> Problem<'a> {
         let mechanism = &self.mechanism;
-        Problem {
-            mechanism,
-            body,
-            scene,
-            start,
-            leave: None,
-            aim,
-            then: Vec::new(),
-            margin: Margin::default(),
-        }
+        Problem { mechanism, body, scene, start, leave: None, aim, then: Vec::new(), margin: MARGIN }
     }
 
     /// All that the arm keeps clear of now.

@@ -95,7 +95,7 @@ impl Control {
         if self.memory.arm_halted == 1 {
             self.memory.enter(Leg::Plan);
         } else if self.memory.arrived() && self.memory.fingers_arrived() {
-            self.arrive();
+            self.arrive(senses);
         } else if self.memory.elapsed < self.memory.course.approaches && self.target_has_moved(senses) {
             self.ask(senses);
         } else if self.memory.blocked > BLOCKED && self.memory.pace == 0.0 {
@@ -127,8 +127,12 @@ impl Control {
         way > MOVED
     }
 
-    fn arrive(&mut self) {
+    fn arrive(&mut self, senses: &Senses) {
         match self.memory.errand() {
+            _ if self.memory.withdraws == 1 => {
+                self.memory.enter(Leg::Plan);
+                self.ask(senses);
+            }
             Errand::Park => self.memory.enter(Leg::Rest),
             Errand::Receive if self.memory.before == 1 => self.memory.enter(Leg::Await),
             Errand::Take | Errand::Receive => self.grip(Leg::Close),

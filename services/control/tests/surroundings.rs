@@ -1,0 +1,116 @@
+//! The arm in motion answers what changes around it: the decision, the part, the person.
+#![allow(clippy::unwrap_used)]
+
+mod kinematic_world;
+
+use coact_joint_task::Motion;
+use coact_messages::{Command, ROBOT};
+use coact_motion::{Capsule, Mechanism};
+use kinematic_world::{Holder, KinematicWorld};
+use nalgebra::Point3;
+
+const NUT: &str = "nut on the robot's side";
+const WHEEL: &str = "wheel on the robot's side";
+
+/// Speed of the arm's joints together, rad/s.
+fn speed(command: &Command) -> f64 {
+    command.velocity[..7].iter().map(|velocity| velocity * velocity).sum::<f64>().sqrt()
+}
+
+/// Reaching for the nut, in the middle of the movement.
+fn reaching() -> KinematicWorld {
+    let mut world = KinematicWorld::new();
+    world.decide(Some(world.action(Motion::Insert, NUT)));
+    world.until(2.0, "under way", |world| speed(&world.command) > 0.5);
+    world
+}
+
+fn nut(world: &KinematicWorld) -> usize {
+    let kind = world.task.subgoals.iter().find(|goal| goal.name == NUT).unwrap().kind;
+    world.parts.iter().rposition(|part| part.kind == kind && part.workspace == ROBOT).unwrap()
+}
+
+/// Distance of arm and hand from a ball around the person's wrist, m, in a posture of all joints.
+fn distance(world: &KinematicWorld, mechanism: &Mechanism, position: &[f64]) -> f64 {
+    let body = mechanism.body(&|_| 0.8).unwrap();
+    let wrist = Point3::from(world.percept.hand.wrist);
+    let hulls = body.hulls(mechanism, &std::array::from_fn(|joint| position[joint]));
+    let moving = body.bones().iter().zip(&hulls).filter(|(bone, _)| bone.carriers > 0);
+    let ball = Capsule { start: wrist, end: wrist, radius: 0.045 };
+    moving.map(|(_, hull)| hull.distance(&ball)).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn another_decision_moves_the_arm_within_60_ms_and_without_a_stop() {
+    let mut world = reaching();
+    let begun = world.command.begun;
+    world.decide(Some(world.action(Motion::Request, WHEEL)));
+    let mut slowest = f64::INFINITY;
+    world.until(0.5, "the other movement", |world| {
+        slowest = slowest.min(speed(&world.command));
+        world.command.begun > begun
+    });
+    assert!(world.command.reaction <= 60, "{} ms", world.command.reaction);
+    assert!(slowest > 0.2, "it stopped: {slowest} rad/s");
+}
+
+#[test]
+fn a_part_that_is_moved_is_followed_in_motion() {
+    let mut world = reaching();
+    let part = nut(&world);
+    world.parts[part].frame.translation.vector.x += 0.06;
+    let mut slowest = f64::INFINITY;
+    let start = world.tick;
+    world.until(3.0, "taken where it lies now", |world| {
+        if world.tick < start + 300 {
+            slowest = slowest.min(speed(&world.command));
+        }
+        world.held().is_some()
+    });
+    assert!(slowest > 0.1, "it stopped: {slowest} rad/s");
+    world.until(8.0, "mounted", |world| matches!(world.parts[part].holder, Holder::Socket(_)));
+}
+
+#[test]
+fn the_arm_keeps_away_from_a_person_who_is_in_the_way_and_goes_on_when_the_way_is_free() {
+    let mut world = reaching();
+    let part = nut(&world);
+    let mechanism = Mechanism::of(&world.robot).unwrap();
+    let [x, y, z]: [f64; 3] = world.parts[part].frame.translation.vector.into();
+    world.hand_at([x, y, z + 0.06]);
+    let mut nearest = f64::INFINITY;
+    for _ in 0..40 {
+        world.run(0.1);
+        nearest = nearest.min(distance(&world, &mechanism, &world.command.position));
+    }
+    assert!(nearest > 0.03, "{nearest} m from the person's hand");
+    assert!(world.held().is_none());
+    world.hand_at(world.task.scene.person_rest);
+    world.until(6.0, "taken", |world| world.held().is_some());
+}
+
+#[test]
+fn a_hand_that_comes_in_from_the_side_slows_the_arm_without_touching_it() {
+    let mut world = reaching();
+    let mechanism = Mechanism::of(&world.robot).unwrap();
+    let goal = world.parts[nut(&world)].frame.translation.vector;
+    let rest = Point3::from(world.task.scene.person_rest);
+    let target = Point3::new(goal.x, goal.y, goal.z + 0.08);
+    // At most 0.5 m/s: nobody can stand still for a hand that is faster than the arm can brake.
+    let line = target - rest;
+    let velocity = line.normalize() * 0.5;
+    let steps = (line.norm() / 0.5 * 1e3) as u32;
+    for step in 0..steps {
+        let at = rest + velocity * (f64::from(step) * 1e-3);
+        world.hand_at(at.coords.into());
+        world.percept.hand.velocity = velocity.into();
+        let before = world.command.position;
+        world.step();
+        let [before, now] = [before, world.command.position].map(|at| distance(&world, &mechanism, &at));
+        assert!(
+            now > 0.02 || now > before - 2e-5,
+            "it moves {} mm towards a hand {now} m away",
+            1e3 * (before - now)
+        );
+    }
+}
