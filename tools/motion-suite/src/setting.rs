@@ -39,10 +39,9 @@ impl Setting {
         Ok(Self { mechanism, hand: None, task: None, open })
     }
 
-    /// The hand around a part `width` m wide, with `gap` m between it and each finger. None without a hand of ours.
-    pub(crate) fn hand_around(&self, width: f64, gap: f64) -> Option<Body> {
-        let hand = self.hand.as_ref()?;
-        with_fingers(&self.mechanism, hand, &hand.grasp(width, gap).angles).ok()
+    /// The arm with these angles of its hand's joints, rad. None without a hand of ours.
+    pub(crate) fn with_fingers(&self, angles: &[f64; HAND_JOINTS]) -> Option<Body> {
+        with_fingers(&self.mechanism, self.hand.as_ref()?, angles).ok()
     }
 }
 
