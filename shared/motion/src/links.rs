@@ -130,7 +130,7 @@ fn mesh(
             &link.name,
             &format!(
                 "needs the mesh \"{filename}\", which is not there; put it beside the URDF, or let capsules stand in \
-                 for missing meshes"
+                 for missing meshes (--missing-meshes capsules)"
             ),
         )),
         (None, Meshes::OrCapsules(radius)) => {

@@ -62,6 +62,12 @@ impl<'a> Search<'a> {
 
     /// Looks for a movement in one unit where there is one in more: other excursions, and ways through several postures.
     fn go_on(&mut self, targets: &[Target]) {
+        for target in targets.iter().take(AT_ONCE) {
+            if self.choice.is_smooth() || self.work.is_done() {
+                return;
+            }
+            self.detour(target);
+        }
         for attempt in TRIES..TRIES + MORE {
             for target in targets {
                 if self.choice.is_smooth() || self.work.is_done() {
@@ -73,12 +79,6 @@ impl<'a> Search<'a> {
                     self.offer(&way, target, &stages, true);
                 }
             }
-        }
-        for target in targets {
-            if self.choice.is_smooth() || self.work.is_done() {
-                return;
-            }
-            self.detour(target);
         }
     }
 

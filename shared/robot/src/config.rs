@@ -49,7 +49,7 @@ pub(crate) struct HandConfig {
 impl Config {
     pub(crate) fn load(path: &Path) -> Result<Self, RobotError> {
         let text = std::fs::read_to_string(path)
-            .map_err(|source| RobotError::File { path: path.to_path_buf(), source })?;
+            .map_err(|reason| RobotError::File { path: path.to_path_buf(), reason })?;
         let config: Self = toml::from_str(&text).map_err(|error| RobotError::Malformed {
             path: path.to_path_buf(),
             line: error.span().map(|span| 1 + text[..span.start].matches('\n').count()),

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 pub enum RobotError {
     /// A file could not be read.
-    #[error("{path}: cannot be read ({source}); expected a robot description", path = .path.display())]
+    #[error("{path}: cannot be read ({reason}); expected a robot description", path = .path.display())]
     File {
         /// The file.
         path: PathBuf,
         /// What the system said.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
     /// A URDF or TOML file could not be understood.
     #[error("{path}{at}: {message}", path = .path.display(), at = line_suffix(*.line))]

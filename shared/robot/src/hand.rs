@@ -19,6 +19,10 @@ pub struct Hand {
     pub pad: [f64; 2],
     /// Distance of the grasp point from the palm frame's origin, along the palm's z axis, m.
     pub grasp_distance: f64,
+    /// How far the palm reaches out of its frame's origin, along its z axis, m.
+    pub palm_face: f64,
+    /// Half the hand's extent across approach and closing axis, m.
+    pub half_breadth: f64,
 }
 
 /// How the hand stands around something.
@@ -59,6 +63,20 @@ impl Hand {
                 joints.iter().zip(own).fold(Isometry3::identity(), |pose, (j, &a)| pose * j.transform(a));
             Point3::from((pose * end).translation.vector)
         })
+    }
+
+    /// Base, tip joint and end of finger 3 at a base angle, rad: for each its distance from the palm's axis and that along
+    /// it, m. Fingers 1 and 2 are its like on the other side.
+    pub(crate) fn finger(&self, base: f64) -> [[f64; 2]; 3] {
+        let Finger { joints, end } = &self.fingers[2];
+        let knuckle = joints[0].transform(base);
+        let middle = knuckle * joints[1].transform(self.posture(base)[6]);
+        [knuckle, middle, middle * end].map(|pose| [-pose.translation.x, pose.translation.z])
+    }
+
+    /// How far fingers 1 and 2 reach from the palm's axis, across the closing axis, m.
+    pub(crate) fn reach_aside(&self) -> f64 {
+        self.fingers[0].joints[0].origin.translation.y.abs() + self.pad[0]
     }
 
     /// The hand around something round on the palm's axis, `width` m wide, with `gap` m between it and each finger;

@@ -12,6 +12,10 @@
 //! A part's frame is at the centre of its underside, z up. It is gripped [`grip::grip_height`] above its underside,
 //! so a part is between the fingers when the grasp point lies near `frame * (0, 0, grip_height(height))`.
 //!
+//! # Grips
+//! [`Grips`] lists the ways in which the hand can take a [`Form`]: by the finger ends or with the whole hand, from above
+//! or from the side, as far as the hand's kinematics allow them and what is done next with it.
+//!
 //! # Fingers
 //! Base angle 0 is a flat open hand; tips follow by [`Hand::coupling`] (1/3). [`Hand::base_for_width`] is the base
 //! angle at which the finger ends touch something of that width (25 mm: 1.59 rad; 55 mm: 1.48; 75 mm: 1.40);
@@ -29,7 +33,9 @@ mod arm;
 mod arm_end;
 mod config;
 mod error;
+mod form;
 pub mod grip;
+mod grips;
 mod hand;
 mod joint;
 mod limiter;
@@ -45,6 +51,8 @@ mod xml_line;
 pub use arm::Arm;
 pub use arm_end::ArmEnd;
 pub use error::RobotError;
+pub use form::{Flat, Form};
+pub use grips::{Grip, GripKind, GripSide, Grips, Next};
 pub use hand::{Finger, Grasp, HAND_JOINTS, Hand};
 pub use joint::{Joint, JointLimits};
 pub use limiter::Limiter;

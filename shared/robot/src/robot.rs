@@ -1,6 +1,6 @@
 use crate::config::{Config, HandConfig};
 use crate::{Arm, Finger, HAND_JOINTS, Hand, Joint, JointLimits, Posture, RobotError, Srs, Urdf};
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Isometry3, Point3, Vector3};
 use std::path::Path;
 
 /// Joints of arm and hand in message order: seven arm joints, then spread, three finger bases, three finger tips.
@@ -113,7 +113,37 @@ fn hand(path: &Path, config: &Config, urdf: &Urdf) -> Result<Hand, RobotError> {
     let joints = joints.ok_or_else(|| Config::fault(path, "spread", "is not a joint of any finger"))?;
     let coupling = urdf.mimicked(&config.hand.tips[0]).map_or(0.0, |(_, factor, _)| factor);
     let HandConfig { grasp_spread, pad, grasp_distance, .. } = config.hand;
-    Ok(Hand { joints, fingers, coupling, grasp_spread, pad, grasp_distance })
+    let [_, palm_breadth, palm_face] = extent(urdf, &config.palm);
+    let mut hand = Hand {
+        joints,
+        fingers,
+        coupling,
+        grasp_spread,
+        pad,
+        grasp_distance,
+        palm_face,
+        half_breadth: palm_breadth,
+    };
+    hand.half_breadth = hand.half_breadth.max(hand.reach_aside());
+    Ok(hand)
+}
+
+/// How far the forms of a link reach along its axes, m. (Meshes are not read here.)
+fn extent(urdf: &Urdf, link: &str) -> [f64; 3] {
+    use urdf_rs::Geometry::{Box, Capsule, Cylinder, Mesh, Sphere};
+    let shapes = urdf.links().iter().filter(|known| known.name == link).flat_map(|link| &link.collision);
+    shapes.fold([0.0; 3], |largest, shape| {
+        let half = match &shape.geometry {
+            Box { size } => 0.5 * Vector3::from(size.0),
+            Cylinder { radius, length } => Vector3::new(*radius, *radius, 0.5 * length),
+            Capsule { radius, length } => Vector3::new(*radius, *radius, radius + 0.5 * length),
+            Sphere { radius } => Vector3::repeat(*radius),
+            Mesh { .. } => return largest,
+        };
+        let place = crate::isometry(&shape.origin);
+        let turned = place.rotation.to_rotation_matrix().into_inner().abs() * half;
+        std::array::from_fn(|axis| largest[axis].max(place.translation.vector[axis] + turned[axis]))
+    })
 }
 
 /// A finger's chain below the last arm joint, seen from the palm frame instead.

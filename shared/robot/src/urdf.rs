@@ -26,7 +26,7 @@ impl Urdf {
     /// [`RobotError`] with the file and, where it is known, the line.
     pub fn load(path: &Path) -> Result<Self, RobotError> {
         let text = std::fs::read_to_string(path)
-            .map_err(|source| RobotError::File { path: path.to_path_buf(), source })?;
+            .map_err(|reason| RobotError::File { path: path.to_path_buf(), reason })?;
         Self::parse(path, text)
     }
 

@@ -1,6 +1,6 @@
 use coact_joint_task::Task;
 use coact_motion::{Body, Mechanism};
-use coact_robot::{Hand, Robot, RobotError};
+use coact_robot::{HAND_JOINTS, Hand, Robot, RobotError};
 
 /// Who moves, and at which task.
 #[derive(Debug, Clone)]
@@ -39,9 +39,8 @@ impl Setting {
         Ok(Self { mechanism, hand: None, task: None, open })
     }
 
-    /// The hand around a part `width` m wide, with `gap` m between it and each finger. None without a hand of ours.
-    pub(crate) fn hand_around(&self, width: f64, gap: f64) -> Option<Body> {
-        let hand = self.hand.as_ref()?;
-        self.mechanism.with_fingers(hand, &hand.grasp(width, gap).angles).ok()
+    /// The arm with these angles of its hand's joints, rad. None without a hand of ours.
+    pub(crate) fn with_fingers(&self, angles: &[f64; HAND_JOINTS]) -> Option<Body> {
+        self.mechanism.with_fingers(self.hand.as_ref()?, angles).ok()
     }
 }

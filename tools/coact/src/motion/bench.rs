@@ -53,7 +53,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let scenarios: Vec<Scenario> = Scenario::ALL.into_iter().filter(wanted).filter(able).collect();
     if scenarios.is_empty() {
         bail!(
-            "{} need a robot file (.toml) with its own hand: a URDF does not say how a hand grips",
+            "--only {}: needs a robot file (.toml) with its own hand: a URDF does not say how a hand grips",
             args.only.join(", ")
         );
     }

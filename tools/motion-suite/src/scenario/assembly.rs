@@ -3,46 +3,55 @@
 use crate::{Case, Setting};
 use coact_joint_task::{Agent, Fixture, Shape, Task};
 use coact_motion::{Aim, Scene, workplace};
-use coact_robot::{HandGoal, MotionState, Posture};
+use coact_robot::{Form, Grip, Grips, HandGoal, MotionState, Next, Posture};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// Gap between an open finger and the part that it opens around, m.
-const GAP: f64 = 0.01;
 /// Distance of the pose before a grasp or a socket, and of leaving, m.
 const BEFORE: f64 = 0.15;
 const AWAY: f64 = 0.05;
-/// Sides from which an upright part is gripped, and turns in which a round one is inserted.
-const SIDES: u32 = 12;
+/// Turns in which a round part is inserted.
+const TURNS: u32 = 12;
 
 /// To a part of the robot among others, until the hand is around it.
 pub(super) fn pick(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
-    pick_of(setting, random).map(|(case, _)| case)
+    pick_of(setting, Next::Anything, random).map(|pick| pick.case)
 }
 
-/// A pick, and the index of the part.
-fn pick_of(setting: &Setting, random: &mut Pcg64) -> Option<(Case, usize)> {
+/// A pick, the index of the part, and the grips that are offered, one for each goal.
+struct Pick {
+    case: Case,
+    part: usize,
+    form: Form,
+    grips: Vec<Grip>,
+}
+
+fn pick_of(setting: &Setting, next: Next, random: &mut Pcg64) -> Option<Pick> {
     let task = setting.task.as_ref()?;
     let (scene, places) = table(task, random);
     let own: Vec<usize> =
         (0..task.parts.len()).filter(|part| task.parts[*part].workspace == Agent::Robot).collect();
     let part = own[random.random_range(0..own.len())];
     let kind = &task.kinds[task.parts[part].kind];
-    let hand = setting.hand.as_ref()?;
-    let body = setting.hand_around(kind.width, GAP)?;
-    // So deep in the hand that its fingers meet on the part.
-    let deeper = hand.grasp_distance - hand.grasp(kind.width, 0.0).depth;
+    let form = match kind.shape {
+        Shape::Cylinder { height, .. } => Form::round(kind.width, height),
+        Shape::Box { size } => Form::brick(size, kind.width),
+    };
+    let grips = Grips::of(setting.hand.as_ref()?, form, next);
+    let body = setting.with_fingers(&grips.open)?;
     let start = near_park(setting, random);
-    let aim = Aim::Hand(grips(&places[part], kind.shape.height(), deeper));
-    let case = Case { body, scene, start: start.map(MotionState::at_rest), leave: None, aim };
-    case.starts_clear(&setting.mechanism).then_some((case, part))
+    let offers = grips.goals(&places[part], BEFORE, f64::NEG_INFINITY);
+    let (grips, goals) = offers.into_iter().map(|(index, goal)| (grips.all[index], goal)).unzip();
+    let case =
+        Case { body, scene, start: start.map(MotionState::at_rest), leave: None, aim: Aim::Hand(goals) };
+    case.starts_clear(&setting.mechanism).then_some(Pick { case, part, form, grips })
 }
 
 /// With a part that was picked into its socket.
 pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
     let task = setting.task.as_ref()?;
-    let (picked, part) = pick_of(setting, random)?;
+    let Pick { case: picked, part, form, grips } = pick_of(setting, Next::Insert { depth: 0.0 }, random)?;
     let name = part_name(part);
     let plan = picked.problem(&setting.mechanism).plan().ok()?;
     let target = plan.target?;
@@ -55,13 +64,14 @@ pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
     let index = scene.obstacles.iter().position(|obstacle| obstacle.name == name)?;
     let centre = scene.obstacles.remove(index).place;
     let frame = centre * Isometry3::translation(0.0, 0.0, -0.5 * kind.shape.height());
-    let closed = setting.hand_around(kind.width, 0.0)?;
+    let fingers = grips[target.goal].fingers(setting.hand.as_ref()?, &form, 0.0);
+    let closed = setting.with_fingers(&fingers)?;
     let (solid, within) = workplace::form(kind.shape);
     let body = closed.holding(&setting.mechanism, &name, solid, &(palm.inverse() * frame * within));
     let socket = along(goal.socket, goal.axis);
     // The part goes into its socket as it is held, turned about its own axis at will if it is round.
     let in_part = frame.inverse() * palm;
-    let turns = if matches!(kind.shape, Shape::Cylinder { .. }) { SIDES } else { 1 };
+    let turns = if form.flat.is_none() { TURNS } else { 1 };
     let goals = (0..turns).map(|side| {
         let turn = std::f64::consts::TAU * f64::from(side) / f64::from(turns);
         let place = socket * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn) * in_part;
@@ -109,17 +119,6 @@ fn table(task: &Task, random: &mut Pcg64) -> (Scene, Vec<Isometry3<f64>>) {
         places.push(place);
     }
     (scene, places)
-}
-
-/// Grips of an upright part: from above, and from all sides.
-fn grips(frame: &Isometry3<f64>, height: f64, deeper: f64) -> Vec<HandGoal> {
-    let mut goals = vec![HandGoal::grip(frame, height, 0, BEFORE, f64::NEG_INFINITY)];
-    for side in 0..SIDES {
-        let turn = std::f64::consts::TAU * f64::from(side) / f64::from(SIDES);
-        goals.push(HandGoal::grip_from_side(frame, height, turn, BEFORE));
-    }
-    goals.iter_mut().for_each(|goal| goal.point += goal.approach * deeper);
-    goals
 }
 
 fn part_name(index: usize) -> String {

@@ -1,0 +1,239 @@
+//! The ways in which a hand can take something: by the finger ends or enclosed, from above or from the side.
+
+use crate::grip::grip_height;
+use crate::{Form, HAND_JOINTS, Hand, HandGoal};
+use nalgebra::{Isometry3, Point3, Vector3};
+use std::f64::consts::TAU;
+
+/// The grips of a hand that suit a form, and the hand that opens around it for any of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grips {
+    /// What is gripped.
+    pub form: Form,
+    /// Angles of the hand's joints before the grasp, in message order, rad.
+    pub open: [f64; HAND_JOINTS],
+    /// The grips; none where the hand does not open wide enough.
+    pub all: Vec<Grip>,
+    /// Distance of the hand's grasp point from the palm, m.
+    grasp_distance: f64,
+}
+
+/// One way to take something.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grip {
+    /// What of the hand holds it.
+    pub kind: GripKind,
+    /// From where the hand comes.
+    pub side: GripSide,
+    /// Height above its underside at which the palm's axis meets it, m.
+    pub height: f64,
+    /// Distance from the palm frame's origin to there (from the side: to its middle), m.
+    pub depth: f64,
+    /// From which to which height above its underside the hand is beside it or on it, m.
+    pub covers: [f64; 2],
+}
+
+/// What of the hand holds something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GripKind {
+    /// The ends of the fingers.
+    Precision,
+    /// The fingers around it, deep in the hand: it cannot get out towards their ends.
+    WholeHand,
+}
+
+/// From where a hand comes to something that stands upright.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GripSide {
+    /// From its top.
+    Above,
+    /// Across its axis.
+    Beside,
+}
+
+/// What is done next with something that is gripped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Next {
+    /// Nothing that asks for a grip of its own.
+    Anything,
+    /// Its underside goes into something, `depth` m deep.
+    Insert {
+        /// m.
+        depth: f64,
+    },
+    /// A person takes it, and needs so much of its height, m, for the own fingers.
+    HandOver {
+        /// m.
+        room: f64,
+    },
+}
+
+/// Gap between an open finger and what it opens around, m.
+const GAP: f64 = 0.01;
+/// Room between the hand and what it shall not touch: the palm and the part, the hand and the ground, m.
+const ROOM: f64 = 0.005;
+/// Sides from which something round is gripped.
+const SIDES: u32 = 12;
+/// Steps in which the place in the hand is looked for, m, and in which fingers are closed, rad.
+const DEEPER: f64 = 0.002;
+const CLOSER: f64 = 0.005;
+/// Points on each link of a finger.
+const POINTS: u32 = 16;
+
+impl Grips {
+    /// All grips of a form that serve what follows; where none serves it, all.
+    pub fn of(hand: &Hand, form: Form, next: Next) -> Self {
+        let above = hand.grasp(form.width, GAP).angles;
+        let beside = pinching(hand, form.width, GAP);
+        let open = std::array::from_fn(|joint| above[joint].min(beside[joint]));
+        let fits = form.width + 2.0 * GAP <= hand.width(hand.joints[1].limits.lower);
+        let found =
+            [Grip::from_above(hand, &form), Grip::pinching(hand, &form), Grip::enclosing(hand, &form)];
+        let mut all: Vec<Grip> = found.into_iter().flatten().filter(|_| fits).collect();
+        if all.iter().any(|grip| grip.serves(&form, next)) {
+            all.retain(|grip| grip.serves(&form, next));
+        }
+        Self { form, open, all, grasp_distance: hand.grasp_distance }
+    }
+
+    /// Goals of the hand for all grips, each with the index of its grip, for a form whose frame (centre of its underside,
+    /// z up) is `frame`. `back` m before it the approach begins; shoulder, elbow and wrist stay above `floor` m.
+    pub fn goals(&self, frame: &Isometry3<f64>, back: f64, floor: f64) -> Vec<(usize, HandGoal)> {
+        let mut goals = Vec::new();
+        for (index, grip) in self.all.iter().enumerate() {
+            let of = |approach: Vector3<f64>, closing: Vector3<f64>, rolls: u32| {
+                let (approach, closing) = (frame.rotation * approach, frame.rotation * closing);
+                let middle = frame * Point3::new(0.0, 0.0, grip.height);
+                let point = middle + approach * (self.grasp_distance - grip.depth);
+                (index, HandGoal { point, approach, closing, rolls, back, floor })
+            };
+            let about = |turn: f64| Vector3::new(turn.cos(), turn.sin(), 0.0);
+            let turn = self.form.flat.map_or(0.0, |flat| flat.turn);
+            match (grip.side, self.form.flat) {
+                (GripSide::Above, flat) => {
+                    goals.push(of(-Vector3::z(), about(turn), if flat.is_some() { 2 } else { 0 }));
+                }
+                (GripSide::Beside, flat) => {
+                    let sides = if flat.is_some() { 2 } else { SIDES };
+                    goals.extend((0..sides).map(|side| {
+                        let closing = about(turn + TAU * f64::from(side) / f64::from(sides));
+                        of(closing.cross(&Vector3::z()), closing, 2)
+                    }));
+                }
+            }
+        }
+        goals
+    }
+}
+
+impl Grip {
+    /// Angles of the hand's joints, rad, in message order, with `gap` m between the fingers and the form; below zero they
+    /// are told to close so far into it, which makes them press.
+    pub fn fingers(&self, hand: &Hand, form: &Form, gap: f64) -> [f64; HAND_JOINTS] {
+        match (self.kind, self.side) {
+            (GripKind::WholeHand, _) => {
+                let (base, _) = closed(hand, form, self.depth, gap);
+                hand.posture(base)
+            }
+            (GripKind::Precision, GripSide::Above) => hand.grasp(form.width, gap).angles,
+            (GripKind::Precision, GripSide::Beside) => pinching(hand, form.width, gap),
+        }
+    }
+
+    /// By the finger ends, from the top.
+    fn from_above(hand: &Hand, form: &Form) -> Option<Self> {
+        let depth = hand.grasp(form.width, 0.0).depth;
+        let height = grip_height(form.height).max(form.height - (depth - hand.palm_face - ROOM));
+        let covers = [height - hand.pad[1], form.height];
+        (height < form.height).then_some(Self {
+            kind: GripKind::Precision,
+            side: GripSide::Above,
+            height,
+            depth,
+            covers,
+        })
+    }
+
+    /// By the finger ends, from the side.
+    fn pinching(hand: &Hand, form: &Form) -> Option<Self> {
+        let height = beside(hand, form, grip_height(form.height))?;
+        let depth = hand.ends(&pinching(hand, form.width, 0.0))[2].z;
+        let covers = [height - hand.reach_aside(), height + hand.reach_aside()];
+        let room = depth - form.half_length() - hand.palm_face;
+        (room > ROOM).then_some(Self {
+            kind: GripKind::Precision,
+            side: GripSide::Beside,
+            height,
+            depth,
+            covers,
+        })
+    }
+
+    /// With the whole hand, from the side: as deep in the hand as the fingers still close on it.
+    fn enclosing(hand: &Hand, form: &Form) -> Option<Self> {
+        let height = beside(hand, form, 0.5 * form.height)?;
+        let open = pinching(hand, form.width, GAP)[3];
+        let deepest = hand.palm_face + form.half_length() + ROOM;
+        let steps = ((hand.grasp_distance - deepest) / DEEPER).max(0.0) as u32;
+        let holds = |depth: &f64| {
+            let (base, meet) = closed(hand, form, *depth, 0.0);
+            let [.., end] = hand.finger(base);
+            let is_around = end[1] > *depth + form.half_length() && end[0] < 0.5 * form.width;
+            !meet && is_around && gap(hand, form, *depth, open) > 0.5 * GAP
+        };
+        let depth = (0..=steps).map(|step| deepest + f64::from(step) * DEEPER).find(holds)?;
+        let covers = [height - hand.half_breadth, height + hand.half_breadth];
+        Some(Self { kind: GripKind::WholeHand, side: GripSide::Beside, height, depth, covers })
+    }
+
+    /// Whether what follows can be done with it.
+    fn serves(&self, form: &Form, next: Next) -> bool {
+        let [from, to] = self.covers;
+        match next {
+            Next::Anything => true,
+            Next::Insert { depth } => from >= depth,
+            Next::HandOver { room } => from >= room || form.height - to >= room,
+        }
+    }
+}
+
+/// The height nearest to `wanted` at which a hand beside the form is clear of the ground and all fingers are on it.
+fn beside(hand: &Hand, form: &Form, wanted: f64) -> Option<f64> {
+    let (lowest, highest) = (hand.half_breadth + ROOM, form.height - hand.reach_aside());
+    (lowest <= highest).then(|| wanted.clamp(lowest, highest))
+}
+
+/// The hand with the ends of all fingers `gap` m from something `width` m wide that lies across all of them.
+fn pinching(hand: &Hand, width: f64, gap: f64) -> [f64; HAND_JOINTS] {
+    let [.., middle, _, _, _] = hand.grasp(width, gap).angles;
+    hand.posture(middle)
+}
+
+/// The base angle at which a finger is `gap` m from the form, whose middle is `depth` m in front of the palm's frame, rad;
+/// and whether the fingers meet each other before.
+fn closed(hand: &Hand, form: &Form, depth: f64, gap: f64) -> (f64, bool) {
+    let limit = hand.joints[1].limits.upper;
+    let mut base = pinching(hand, form.width, GAP.max(gap))[3];
+    while base < limit && self::gap(hand, form, depth, base) > gap {
+        let [.., end] = hand.finger(base + CLOSER);
+        if end[0] < hand.pad[1] {
+            return (base, true);
+        }
+        base += CLOSER;
+    }
+    (base, base >= limit)
+}
+
+/// Gap between a finger with this base angle, rad, and the form, m.
+fn gap(hand: &Hand, form: &Form, depth: f64, base: f64) -> f64 {
+    let links = hand.finger(base);
+    let distances = links.windows(2).flat_map(|link| {
+        (0..=POINTS).map(|point| {
+            let share = f64::from(point) / f64::from(POINTS);
+            let at: [f64; 2] =
+                std::array::from_fn(|axis| link[0][axis] + share * (link[1][axis] - link[0][axis]));
+            form.distance(at[0], at[1] - depth)
+        })
+    });
+    distances.fold(f64::INFINITY, f64::min) - hand.pad[1]
+}
