@@ -98,7 +98,7 @@ impl<'a> Search<'a> {
 
     /// The direct movement, but free in how it passes its middle.
     fn through_the_middle(&mut self, target: &Target) {
-        self.follow(target, &detour::denser(&self.from(), &[], &target.before));
+        self.follow(target, &detour::denser(&self.from(), &[], &target.before), Passing::Smooth);
     }
 
     /// The direct movement with stages joined less smoothly.
@@ -137,21 +137,26 @@ impl<'a> Search<'a> {
             let margin = self.problem.margin.way + room;
             let found =
                 detour::find(&self.problem.clearance(), [&self.from(), &target.before], margin, self.work);
-            let Some(mut vias) = found else { continue };
+            let Some(corners) = found else { continue };
+            let mut vias = corners.clone();
             let way = self.way(target, &[], Passing::Smooth);
             if let Some(stages) = way.find_near(&vias) {
                 self.offer(&way, target, &stages, true);
             }
             while !self.choice.is_smooth() && vias.len() < MOST_VIAS {
-                self.follow(target, &vias);
+                self.follow(target, &vias, Passing::Smooth);
                 vias = detour::denser(&self.from(), &vias, &target.before);
+            }
+            if self.choice.is_open() {
+                // As it was found, with a rest at every corner: not beautiful, but clear.
+                self.follow(target, &corners, Passing::Straight(0.0));
             }
         }
     }
 
     /// The movement through these postures.
-    fn follow(&mut self, target: &Target, vias: &[Posture]) {
-        let way = self.way(target, vias, Passing::Smooth);
+    fn follow(&mut self, target: &Target, vias: &[Posture], passing: Passing) {
+        let way = self.way(target, vias, passing);
         if let Ok(stages) = way.direct() {
             self.offer(&way, target, &stages, true);
         }

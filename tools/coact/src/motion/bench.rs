@@ -98,7 +98,10 @@ fn print(measured: &[(Scenario, Measurement)]) {
         let [median, p99, _] = one.planning_ms;
         let (budget, largest) = scenario.budget_ms();
         let within = median <= budget && largest.is_none_or(|largest| p99 <= largest);
-        let verdict = format!("{} {budget:.0}", if within { "within" } else { "above" });
+        let verdict = match one.solved {
+            0 => "none solved".to_owned(),
+            _ => format!("{} {budget:.0}", if within { "within" } else { "above" }),
+        };
         table.add_row([
             one.scenario.to_owned(),
             format!("{} of {}", one.solved, one.solvable),
