@@ -6,7 +6,7 @@ use crate::memory::{LEAD, pose};
 use crate::request::Request;
 use crate::senses::Senses;
 use crate::servo::PERIOD;
-use coact_messages::MAX_PARTS;
+use coact_messages::{ARM_JOINTS, MAX_PARTS};
 use coact_robot::MotionState;
 use nalgebra::Vector3;
 
@@ -154,6 +154,7 @@ impl Control {
             next: next.map(|subgoal| self.places.socket(subgoal)),
             before: self.memory.before == 1,
             start,
+            fingers: std::array::from_fn(|joint| self.servo.joints[ARM_JOINTS + joint].position),
             leave: self.leave(start),
             held,
             parts: [bytemuck::Zeroable::zeroed(); MAX_PARTS],

@@ -60,11 +60,14 @@ impl Control {
         let places = Places::new(&body, task);
         let planner = Planner::new(body.clone(), places.clone(), task)?;
         check(&planner, &places, task)?;
-        let mut bodies = vec![planner.figure(Fingers::Relaxed, None)?];
+        let mut bodies = vec![planner.figure(&body.fingers(Fingers::Relaxed), None)?];
         for kind in 0..task.kinds.len() {
             let goal = places.part(kind, &Isometry3::identity());
             let palm = body.robot.hand.palm_at(&goal.point, &goal.approach, &goal.closing, 0.0);
-            bodies.push(planner.figure(Fingers::On(places.width(kind)), Some((kind, palm.inverse())))?);
+            bodies.push(
+                planner
+                    .figure(&body.fingers(Fingers::On(places.width(kind))), Some((kind, palm.inverse())))?,
+            );
         }
         let park = body.park();
         let guard = Guard::new(planner.mechanism().clone(), bodies);

@@ -47,6 +47,11 @@ pub(crate) struct Memory {
     /// Kind of part in the hand, or [`NONE`], and its place and turn (x, y, z, w) in the palm's frame, m.
     pub held: u64,
     pub in_palm: [f64; 7],
+    /// Sum of the places (m, in the palm's frame) at which it was seen since the fingers closed, how many there are, and
+    /// the cycle of the newest camera frame among them.
+    pub seen: [f64; 3],
+    pub sightings: u64,
+    pub seen_in: u64,
     /// 1 when `taken_from` is the place on the table from which the held part was taken.
     pub taken: u64,
     /// That place, m.
@@ -157,6 +162,7 @@ impl Memory {
         self.touched = 0;
         self.met = 0;
         self.pulled = 0;
+        (self.seen, self.sightings) = ([0.0; 3], 0);
     }
 
     /// Kind of part in the hand.

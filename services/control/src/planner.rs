@@ -7,7 +7,7 @@ use crate::places::Places;
 use crate::request::Request;
 use coact_joint_task::{Fixture, Shape, Task};
 use coact_motion::{Aim, Margin, Mechanism, Obstacle, Plan, Problem, Refusal, Scene, Solid, workplace};
-use coact_robot::{HandGoal, MotionState, RobotError};
+use coact_robot::{HAND_JOINTS, HandGoal, MotionState, RobotError};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 /// Answers control's questions for movements, among all that is known of the surroundings. Allocates and takes
@@ -23,8 +23,10 @@ pub(crate) struct Planner {
 
 /// Distances that are kept: fingers around something low stand hardly higher than what it lies on.
 const MARGIN: Margin = Margin { way: 0.01, goal: 0.001 };
+/// How deep parts go into their places at most, m.
+const GUIDE: f64 = 0.03;
 /// What is nearer than this to where the hand works may be touched by it there, m.
-const NEIGHBOURS: f64 = 0.12;
+const NEIGHBOURS: f64 = 0.04;
 /// A part of the same kind this near to where one is meant is that one, m.
 const SAME: f64 = 0.06;
 /// Parts this near to the person's arm are in the person's hand, m.
@@ -47,17 +49,13 @@ impl Planner {
         })
     }
 
-    /// Arm and hand with the fingers as they are around, or on, what is held.
+    /// Arm and hand with the fingers at these angles, rad, around or on what is held.
     pub fn figure(
         &self,
-        fingers: Fingers,
+        fingers: &[f64; HAND_JOINTS],
         held: Option<(usize, Isometry3<f64>)>,
     ) -> Result<coact_motion::Body, RobotError> {
-        let (hand, angles) = (&self.body.robot.hand, self.body.fingers(fingers));
-        let angle = |name: &str| {
-            hand.joints.iter().position(|joint| joint.name == name).map_or(0.0, |index| angles[index])
-        };
-        let figure = self.mechanism.body(&angle)?;
+        let figure = self.mechanism.with_fingers(&self.body.robot.hand, fingers)?;
         Ok(match held {
             None => figure,
             Some((kind, in_palm)) => {
@@ -74,7 +72,7 @@ impl Planner {
 
     /// Whether the arm can get to one of these goals when nothing is in the way.
     pub fn reaches(&self, goals: Vec<HandGoal>) -> Result<bool, RobotError> {
-        let (body, scene) = (self.figure(Fingers::Slender, None)?, Scene::default());
+        let (body, scene) = (self.figure(&self.body.fingers(Fingers::Slender), None)?, Scene::default());
         let start = self.mechanism.park.map(MotionState::at_rest);
         let problem = self.problem(&body, &scene, start, Aim::Hand(goals));
         Ok(!problem.targets_from(&self.mechanism.park).is_empty())
@@ -83,17 +81,21 @@ impl Planner {
     /// The movement that is asked for, one that only gets the hand free, or none.
     pub fn answer(&mut self, request: &Request) -> Answer {
         let refused = Answer { id: request.id, course: None, withdraws: false };
-        let fingers =
-            self.body.on_the_way(request.errand, request.kind, request.held.map(|held| held.0), &self.places);
-        let Ok(figure) = self.figure(fingers, request.held) else { return refused };
+        let held = request.held.map(|held| held.0);
+        let wanted = self.body.on_the_way(request.errand, request.kind, held, &self.places);
         let goals = self.places.goals(request);
         let scene = self.scene(request, &goals);
-        if let Ok(plan) = self.plan(request, &figure, &scene, goals) {
-            return Answer { course: Course::of(&plan), ..refused };
+        // Where the fingers cannot move with the hand as they shall stand in the end, they go as they stand now.
+        for fingers in [self.body.fingers(wanted), request.fingers] {
+            let Ok(figure) = self.figure(&fingers, request.held) else { return refused };
+            if let Ok(plan) = self.plan(request, &figure, &scene, goals.clone()) {
+                return Answer { course: Course::of(&plan), ..refused };
+            }
         }
         if request.start.iter().any(|state| !state.is_at_rest()) {
             return refused;
         }
+        let Ok(figure) = self.figure(&request.fingers, request.held) else { return refused };
         let withdrawn = self.withdraw(request, &figure, &scene);
         Answer { course: withdrawn.as_ref().and_then(Course::of), withdraws: true, ..refused }
     }
@@ -107,9 +109,11 @@ impl Planner {
     ) -> Result<Plan, Refusal> {
         let aim =
             if request.errand == Errand::Park { Aim::Posture(self.mechanism.park) } else { Aim::Hand(goals) };
+        let puts = matches!(request.errand, Errand::Place | Errand::PutBack);
+        let guide = if puts { GUIDE } else { 0.0 };
         let then = request.next.map(|next| next * request.frame.inverse()).into_iter().collect();
         let problem = self.problem(figure, scene, request.start, aim);
-        let problem = Problem { leave: request.leave, then, ..problem };
+        let problem = Problem { leave: request.leave, then, guide, ..problem };
         problem.plan()
     }
 
@@ -118,6 +122,9 @@ impl Planner {
         let palm = self.mechanism.arm.palm(&request.start.map(|state| state.position));
         let back = palm.rotation * -Vector3::z();
         let margin = Margin { way: 0.0, goal: 0.0 };
+        // The hand may touch, on its way out, whatever it stands too near to.
+        let names = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str());
+        let scene = &scene.touching(&names.collect::<Vec<_>>());
         [back, Vector3::z()].iter().find_map(|direction| {
             let away = Translation3::from(direction * WITHDRAWAL) * palm;
             let goal = self.places.palm_at(&away, 0.0);
@@ -134,7 +141,17 @@ impl Planner {
         aim: Aim,
     ) -> Problem<'a> {
         let mechanism = &self.mechanism;
-        Problem { mechanism, body, scene, start, leave: None, aim, then: Vec::new(), margin: MARGIN }
+        Problem {
+            mechanism,
+            body,
+            scene,
+            start,
+            leave: None,
+            aim,
+            then: Vec::new(),
+            guide: 0.0,
+            margin: MARGIN,
+        }
     }
 
     /// All that the arm keeps clear of now.

@@ -7,7 +7,7 @@ use crate::errand::{Errand, Leg};
 use crate::memory::{self, pose};
 use crate::senses::Senses;
 use coact_messages::{NONE, PERSON, ROBOT};
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 
 /// Cycles for which something must be felt between the fingers, and for which that is waited for.
 const FELT: (u64, u64) = (40, 400);
@@ -17,6 +17,9 @@ const MET: u64 = 100;
 /// person has let go.
 const PULL: [f64; 2] = [1.5, 0.3];
 const PULLED: u64 = 30;
+/// Camera frames in which the part in the hand is looked at, and how near it must be to where it was gripped, m.
+const LOOKED: u64 = 4;
+const IN_SIGHT: f64 = 0.05;
 /// Cycles after which a handover that does not come about is given up.
 const PATIENCE: u64 = 30_000;
 /// Grasps that may close on nothing, and movements that may be refused, before the action is given up for a while.
@@ -185,10 +188,15 @@ impl Control {
                 self.memory.held = NONE.into();
                 self.memory.enter(Leg::Rest);
             }
-        } else if self.memory.touched >= FELT.0 {
+        } else if self.memory.touched >= FELT.0 && self.has_seen_what_it_holds(senses) {
             let palm = self.body.robot.palm(&self.servo.posture());
             let frame = pose(self.memory.place);
-            self.memory.in_palm = memory::words(&(palm.inverse() * frame));
+            let mut in_palm = palm.inverse() * frame;
+            if self.memory.sightings > 0 {
+                // Closing fingers push a part to where they meet: it is where it is seen now.
+                in_palm.translation.vector = Vector3::from(self.memory.seen) / self.memory.sightings as f64;
+            }
+            self.memory.in_palm = memory::words(&in_palm);
             self.memory.held = self.memory.kind;
             self.memory.misses = 0;
             self.memory.taken = u64::from(self.memory.errand() == Errand::Take);
@@ -201,6 +209,22 @@ impl Control {
             }
             self.grip(Leg::Open);
         }
+    }
+
+    /// Looks at what the fingers have closed on; true once some camera frames have shown it, or none does in time.
+    fn has_seen_what_it_holds(&mut self, senses: &Senses) -> bool {
+        let expected = pose(self.memory.place).translation.vector.into();
+        let since = senses.tick().saturating_sub(self.memory.leg_age);
+        let seen = self.memory.kind().and_then(|kind| senses.sighting(kind, &expected, IN_SIGHT));
+        if let Some((frame, at)) = seen.filter(|(frame, _)| *frame >= since && *frame != self.memory.seen_in)
+        {
+            let in_palm = self.body.robot.palm(&self.servo.posture()).inverse() * at;
+            let sum = Vector3::from(self.memory.seen) + in_palm.coords;
+            self.memory.seen = sum.into();
+            self.memory.sightings += 1;
+            self.memory.seen_in = frame;
+        }
+        self.memory.sightings >= LOOKED || self.memory.leg_age > FELT.1
     }
 
     /// Opens the fingers; they close again on a part that the person has let go before they did.

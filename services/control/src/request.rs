@@ -1,7 +1,7 @@
 use crate::errand::Errand;
 use crate::person::PersonArm;
 use coact_messages::{MAX_PARTS, Sighting};
-use coact_robot::MotionState;
+use coact_robot::{HAND_JOINTS, MotionState};
 use nalgebra::{Isometry3, Vector3};
 
 /// What the planner is asked: all that it needs to know, of fixed size, so that it passes a lock-free slot.
@@ -20,6 +20,8 @@ pub(crate) struct Request {
     pub before: bool,
     /// State of the arm in which the movement shall begin.
     pub start: [MotionState; 7],
+    /// Angles of the hand's joints now, rad.
+    pub fingers: [f64; HAND_JOINTS],
     /// First out of a narrow place: direction and distance, m.
     pub leave: Option<(Vector3<f64>, f64)>,
     /// Kind of the part in the hand, and its frame in that of the palm.

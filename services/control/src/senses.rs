@@ -127,6 +127,19 @@ impl<'a> Senses<'a> {
         Some((x * x + y * y + z * z).sqrt()).filter(|force| force.is_finite())
     }
 
+    /// Where the recogniser's newest frame has the part of this kind that is nearest to `expected`, within `within` m; and
+    /// the cycle of that frame.
+    pub fn sighting(&self, kind: usize, expected: &Point3<f64>, within: f64) -> Option<(u64, Point3<f64>)> {
+        let scene = &self.sample?.scene;
+        let sightings = &scene.sighting[..(scene.sightings as usize).min(scene.sighting.len())];
+        let places = sightings.iter().filter(|sighting| sighting.kind as usize == kind);
+        let near =
+            places.map(|sighting| Point3::from(sighting.position)).map(|at| ((at - expected).norm(), at));
+        let nearest =
+            near.filter(|(distance, _)| *distance < within).min_by(|one, other| one.0.total_cmp(&other.0));
+        nearest.map(|(_, at)| (scene.captured_cycle, at))
+    }
+
     /// All parts and screens in sight, into a request.
     pub fn surroundings(&self, request: &mut Request) {
         let Some(scene) = self.sample.map(|sample| &sample.scene) else { return };

@@ -18,7 +18,13 @@ fn lay_down(world: &mut KinematicWorld, subgoal: &str) -> usize {
     let index = world.parts.iter().position(|part| part.kind == kind).unwrap();
     if world.parts[index].workspace != ROBOT {
         world.parts[index].workspace = ROBOT;
-        world.parts[index].frame = Isometry3::translation(-0.36, 0.59, world.task.scene.table_height);
+        let places = [[-0.30, 0.46], [-0.40, 0.76], [-0.30, 0.74], [-0.46, 0.46]];
+        let far = |at: &&[f64; 2]| {
+            let others = world.parts.iter().map(|part| part.frame.translation.vector);
+            others.map(|other| (other.x - at[0]).hypot(other.y - at[1])).all(|gap| gap > 0.1)
+        };
+        let [x, y] = places.iter().find(far).unwrap();
+        world.parts[index].frame = Isometry3::translation(*x, *y, world.task.scene.table_height);
     }
     index
 }

@@ -28,6 +28,7 @@
 //!     leave: None,
 //!     aim: Aim::Hand(vec![HandGoal::grip(&part, 0.04, 0, 0.15, 0.8)]),
 //!     then: Vec::new(),
+//!     guide: 0.0,
 //!     margin: Margin::default(),
 //! }
 //! .plan()?;

@@ -25,6 +25,8 @@ pub struct Problem<'a> {
     /// What follows: motions (world), one of which a grasped part makes next, from its place now to where it shall go; a
     /// round part may be turned about its own axis at will. Goals from which the hand can go on so are preferred.
     pub then: Vec<Isometry3<f64>>,
+    /// Last part of the approach, m, on which the hand keeps to its line: as deep as a part goes into something.
+    pub guide: f64,
     /// What is kept clear.
     pub margin: Margin,
 }
@@ -76,7 +78,8 @@ impl Problem<'_> {
         let from = away.unwrap_or_else(|| self.start.map(|state| state.position));
         let targets = self.targets(&from)?;
         let work = Work::of(WORK);
-        Search { problem: self, away, work: &work, choice: Choice::default() }.run(&targets)
+        Search { problem: self, away, work: &work, choice: Choice::default(), guided: Vec::new() }
+            .run(&targets)
     }
 
     /// The postures that serve as an end, best first; none when there are none. `from`: the posture from which the way

@@ -8,6 +8,7 @@ use crate::trajectory::excursion;
 use crate::work::Work;
 use crate::{Clearance, Margin, Near, Plan, Refusal, Stage, StageKind, Trajectory, bell};
 use coact_robot::{JointLimits, Posture};
+use nalgebra::Vector3;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::ops::Range;
@@ -21,6 +22,8 @@ pub(crate) struct Way<'a> {
     pub limits: [JointLimits; 7],
     pub route: Route,
     pub margin: Margin,
+    /// Last part of the approach on which the hand keeps to its line, m.
+    pub guide: f64,
     /// What the search may do.
     pub work: &'a Work,
 }
@@ -30,6 +33,8 @@ const WATCHED: u32 = 24;
 const CHECKED: u32 = 96;
 /// Postures that making a movement smooth looks at, about.
 const SMOOTHING: u32 = 300;
+/// How far the hand may be off its line at the goal, m, and how much more for each metre before it.
+const OFF_LINE: (f64, f64) = (0.002, 0.1);
 /// Steps of one search.
 const STEPS: u32 = 25;
 /// Bones nearer than this are watched, m, beyond the margin.
@@ -99,11 +104,38 @@ impl<'a> Way<'a> {
     /// What comes too near.
     pub fn check(&self, stages: &[Stage]) -> Result<(), Refusal> {
         self.check_straight_stages(stages)?;
+        self.check_guided(stages)?;
         let reaches = stages.iter().filter(|stage| stage.kind == StageKind::Reach);
         let mut worst = reaches.filter_map(|stage| {
             self.worst_of(&stage.trajectory, CHECKED, &|s| self.reach_margin(stages, stage, s))
         });
         worst.next().map_or(Ok(()), |worst| Err(self.refusal(&worst)))
+    }
+
+    /// The hand must keep to the line of its approach where what it holds goes into something.
+    fn check_guided(&self, stages: &[Stage]) -> Result<(), Refusal> {
+        let Some(last) = stages.last().filter(|_| self.guide > 0.0) else { return Ok(()) };
+        let mechanism = self.clearance.mechanism;
+        let palm = |posture: &Posture| mechanism.arm.palm(posture);
+        let goal = palm(&last.trajectory.posture(1.0));
+        let (end, line) = (goal * mechanism.grasp_point(), goal.rotation * Vector3::z());
+        let approaches = stages.iter().filter(|stage| stage.kind == StageKind::Approach);
+        let off = approaches.flat_map(|stage| {
+            let postures =
+                (0..=WATCHED).map(|point| stage.trajectory.posture(f64::from(point) / f64::from(WATCHED)));
+            postures.map(|posture| {
+                let way = palm(&posture) * mechanism.grasp_point() - end;
+                let before = -way.dot(&line);
+                let aside = (way + before * line).norm();
+                if before < self.guide { aside - OFF_LINE.0 - OFF_LINE.1 * before.max(0.0) } else { 0.0 }
+            })
+        });
+        let short = off.fold(0.0, f64::max);
+        if short > 0.0 {
+            let (bone, other) = ("the hand".to_owned(), "the side of the place that it goes into".to_owned());
+            return Err(Refusal::Way { bone, other, short, share: 100.0 });
+        }
+        Ok(())
     }
 
     /// The distances that count at an instant of these stages, and how much of them is kept, m.

@@ -95,6 +95,7 @@ fn is_reached(mechanism: &Mechanism, posture: &Posture) {
         leave: None,
         aim: Aim::Hand(vec![goal]),
         then: Vec::new(),
+        guide: 0.0,
         margin: Margin::default(),
     };
     let plan = problem.plan().unwrap();

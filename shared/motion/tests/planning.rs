@@ -25,7 +25,7 @@ fn grip_at(x: f64, y: f64, z: f64) -> HandGoal {
 fn problem<'a>(scene: &'a Scene, start: [MotionState; 7], goal: HandGoal) -> Problem<'a> {
     let (mechanism, body) = &*AROS;
     let (aim, margin) = (Aim::Hand(vec![goal]), Margin::default());
-    Problem { mechanism, body, scene, start, leave: None, aim, then: Vec::new(), margin }
+    Problem { mechanism, body, scene, start, leave: None, aim, then: Vec::new(), guide: 0.0, margin }
 }
 
 fn parked() -> [MotionState; 7] {

@@ -28,6 +28,7 @@ impl Case {
             leave: self.leave,
             aim: self.aim.clone(),
             then: Vec::new(),
+            guide: 0.0,
             margin: Margin::default(),
         }
     }

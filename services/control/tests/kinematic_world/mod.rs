@@ -187,7 +187,17 @@ impl KinematicWorld {
         self.sample.joints.position = self.command.position;
         self.sample.joints.velocity = self.command.velocity;
         self.sample.joints.touch = if self.held().is_some() { 3.0 } else { 0.0 };
-        let Self { percept, parts, task, .. } = self;
+        let Self { percept, parts, task, sample, .. } = self;
+        if tick.is_multiple_of(33) {
+            sample.scene.captured_cycle = tick;
+            sample.scene.sightings = parts.len() as u32;
+            for (sighting, part) in sample.scene.sighting.iter_mut().zip(parts.iter()) {
+                sighting.kind = part.kind as u32;
+                sighting.confidence = 1.0;
+                sighting.position = part.frame.translation.vector.into();
+                sighting.orientation = part.frame.rotation.coords.into();
+            }
+        }
         for workspace in &mut percept.workspace {
             workspace.seen.fill(0.0);
         }

@@ -73,6 +73,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         leave: None,
         aim: Aim::Hand(vec![goal(&args)?]),
         then: Vec::new(),
+        guide: 0.0,
         margin: Margin::default(),
     };
     let plan = problem.plan()?;
