@@ -27,7 +27,7 @@ impl Control {
     pub(crate) fn ask(&mut self, senses: &Senses) {
         let standing = self.stands();
         let steady = self.memory.arm_halted == 0 && self.memory.pace == 1.0 && self.memory.pace_change == 0.0;
-        self.memory.begins = 0;
+        (self.memory.begins, self.memory.ready) = (0, 0);
         if !standing && !steady {
             (self.memory.asking, self.memory.waited) = (0, AGAIN);
             return;
@@ -56,32 +56,25 @@ impl Control {
     /// Takes an answer up: a movement from rest begins at once, one from motion in the cycle for which it was planned.
     pub(crate) fn take_up_movement(&mut self, senses: &Senses) {
         self.settle();
-        if self.memory.asking == 1 {
-            if let Some(answer) = self.planning.answer(self.memory.questions) {
-                self.memory.asking = 0;
-                self.memory.withdraws = u64::from(answer.withdraws);
-                match answer.course {
-                    Some(course) if self.memory.begins > 0 => {
-                        self.memory.next = course;
-                        self.memory.ready = 1;
-                    }
-                    Some(course) => {
-                        self.memory.next = course;
-                        self.start_next(senses);
-                    }
-                    None => self.be_without_movement(),
-                }
+        let answer = (self.memory.asking == 1).then(|| self.planning.answer(self.memory.questions)).flatten();
+        if let Some(answer) = answer {
+            self.memory.asking = 0;
+            self.memory.withdraws = u64::from(answer.withdraws);
+            match answer.course {
+                Some(course) => (self.memory.next, self.memory.ready) = (course, 1),
+                None => self.be_without_movement(),
             }
         }
-        if self.memory.begins > 0 && senses.tick() >= self.memory.begins {
-            self.memory.begins = 0;
-            if self.memory.ready == 1 {
-                self.start_next(senses);
-            } else {
-                // The answer is late: it gets more time.
-                self.memory.lead = (2 * self.memory.lead).min(LEAD.1);
-                self.ask(senses);
-            }
+        if self.memory.begins > senses.tick() {
+            return;
+        }
+        let was_due = std::mem::take(&mut self.memory.begins) > 0;
+        if self.memory.ready == 1 {
+            self.start_next(senses);
+        } else if was_due {
+            // The answer is late: it gets more time.
+            self.memory.lead = (2 * self.memory.lead).min(LEAD.1);
+            self.ask(senses);
         }
     }
 

@@ -47,6 +47,7 @@ fn chosen(
         leave: None,
         aim: Aim::Hand(offers.iter().map(|(_, goal)| *goal).collect()),
         then,
+        guide: 0.0,
         margin: Margin::default(),
     }
     .plan()

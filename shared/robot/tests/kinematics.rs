@@ -1,8 +1,8 @@
 //! Forward and inverse kinematics agree on the robot of `rt-config/robots`.
 #![allow(clippy::unwrap_used)]
 
-use coact_robot::{HandGoal, Posture, PostureSearch, Robot};
-use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use coact_robot::{Posture, Robot};
+use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -100,37 +100,4 @@ fn the_hand_closes_on_a_width() {
         }
     }
     assert!(ROBOT.hand.width(0.5) > ROBOT.hand.width(1.0), "larger angles close");
-}
-
-#[test]
-fn the_search_finds_a_comfortable_straight_approach_from_above() {
-    let frame = Isometry3::from_parts(Point3::new(-0.4, 0.55, 0.8).coords.into(), UnitQuaternion::identity());
-    let goal = HandGoal::grip(&frame, 0.025, 0, 0.15, 0.8);
-    let reach = PostureSearch::complete(&ROBOT, &goal, &ROBOT.park).unwrap();
-    assert!((ROBOT.grasp_point(&reach.at) - goal.point).norm() < 1e-9);
-    assert!((ROBOT.palm(&reach.at).rotation * Vector3::z() + Vector3::z()).norm() < 1e-9);
-    for step in 0..=20 {
-        let share = f64::from(step) / 20.0;
-        let between: Posture =
-            std::array::from_fn(|j| reach.before[j] + share * (reach.at[j] - reach.before[j]));
-        let point = ROBOT.grasp_point(&between);
-        assert!((point.xy() - goal.point.xy()).norm() < 0.02, "strays from the line: {point}");
-    }
-}
-
-#[test]
-fn the_search_spread_over_ticks_finds_the_same() {
-    let frame = Isometry3::translation(-0.36, 0.6, 0.8);
-    let goal = HandGoal::grip(&frame, 0.12, 2, 0.15, 0.8);
-    let whole = PostureSearch::complete(&ROBOT, &goal, &ROBOT.park).unwrap();
-    let mut search = PostureSearch::default();
-    let mut ticks = 0;
-    let spread = loop {
-        ticks += 1;
-        if let Some(done) = search.advance(&ROBOT, &goal, &ROBOT.park, 7) {
-            break done.unwrap();
-        }
-    };
-    assert_eq!(whole, spread);
-    assert!(ticks > 10);
 }

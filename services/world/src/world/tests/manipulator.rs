@@ -5,9 +5,8 @@ use crate::{BodyKind, Partner, Script, Settings, World};
 use bytemuck::zeroed_box;
 use coact_joint_task::{Agent, Part, Subgoal, Task};
 use coact_messages::{ARM_JOINTS, Command};
-use coact_robot::{
-    HandGoal, JointLimits, MotionState, Movement, Posture, PostureSearch, ROBOT_JOINTS, Robot,
-};
+use coact_motion::{Aim, Margin, Mechanism, Problem, Scene};
+use coact_robot::{HandGoal, JointLimits, MotionState, Movement, Posture, ROBOT_JOINTS, Robot};
 use glam::{DQuat, DVec3};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use rand::{RngExt, SeedableRng};
@@ -126,8 +125,21 @@ impl Manipulator {
         let deeper = self.robot.hand.grasp_distance - self.robot.hand.grasp(width, 0.0).depth;
         let goal = HandGoal { point: goal.point + goal.approach * deeper, ..goal };
         let from: Posture = self.at[..ARM_JOINTS].try_into().unwrap();
-        let reach = PostureSearch::complete(&self.robot, &goal, &from).unwrap();
-        (reach.before, reach.at)
+        let mechanism = Mechanism::of(&self.robot).unwrap();
+        let open = self.robot.hand.grasp(width, 0.01).angles;
+        let problem = Problem {
+            mechanism: &mechanism,
+            body: &mechanism.with_fingers(&self.robot.hand, &open).unwrap(),
+            scene: &Scene::default(),
+            start: from.map(MotionState::at_rest),
+            leave: None,
+            aim: Aim::Hand(vec![goal]),
+            then: Vec::new(),
+            guide: 0.0,
+            margin: Margin::default(),
+        };
+        let target = problem.targets_from(&from)[0];
+        (target.before, target.at)
     }
 
     /// Moves to an arm posture with the fingers open around the part, or closed on it.
