@@ -10,9 +10,8 @@ use coact_messages::{ARM_JOINTS, MAX_PARTS};
 use coact_robot::MotionState;
 use nalgebra::Vector3;
 
-/// Cycles after which a question that was refused is asked again, and after which one that was not answered is.
+/// Cycles after which a question that was refused is asked again.
 const AGAIN: u64 = 300;
-const LOST: u64 = 8_000;
 /// How far the hand backs out of where it is, with a part and without, m.
 const LIFT: f64 = 0.06;
 const RETREAT: f64 = 0.10;
@@ -44,11 +43,10 @@ impl Control {
         self.planning.ask(&request);
     }
 
-    /// Asks again what was refused, or lost.
+    /// Asks again what was refused.
     pub(crate) fn ask_again(&mut self, senses: &Senses) {
         self.memory.waited += 1;
-        let due = if self.memory.asking == 1 { LOST } else { AGAIN };
-        if self.memory.waited > due && self.memory.begins == 0 {
+        if self.memory.waited > AGAIN && self.memory.asking == 0 && self.memory.begins == 0 {
             self.ask(senses);
         }
     }
@@ -56,6 +54,10 @@ impl Control {
     /// Takes an answer up: a movement from rest begins at once, one from motion in the cycle for which it was planned.
     pub(crate) fn take_up_movement(&mut self, senses: &Senses) {
         self.settle();
+        if self.memory.asking == 1 && !self.planning.was_asked(self.memory.questions) {
+            // It was a predecessor's question.
+            self.ask(senses);
+        }
         let answer = (self.memory.asking == 1).then(|| self.planning.answer(self.memory.questions)).flatten();
         if let Some(answer) = answer {
             self.memory.asking = 0;

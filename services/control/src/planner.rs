@@ -23,6 +23,8 @@ pub(crate) struct Planner {
 
 /// Distances that are kept: fingers around something low stand hardly higher than what it lies on.
 const MARGIN: Margin = Margin { way: 0.01, goal: 0.001 };
+/// Postures that a search looks at, in motion and at rest: it ends before the person wonders.
+const EFFORT: (u32, u32) = (1_000, 4_000);
 /// How deep parts go into their places at most, m.
 const GUIDE: f64 = 0.03;
 /// What is nearer than this to where the hand works may be touched by it there, m.
@@ -84,11 +86,17 @@ impl Planner {
         let held = request.held.map(|held| held.0);
         let wanted = self.body.on_the_way(request.errand, request.kind, held, &self.places);
         let goals = self.places.goals(request);
-        let scene = self.scene(request, &goals);
-        // Where the fingers cannot move with the hand as they shall stand in the end, they go as they stand now.
-        for fingers in [self.body.fingers(wanted), request.fingers] {
+        let (scene, alone) =
+            (self.scene(request, &goals), self.scene(&Request { person: None, ..*request }, &goals));
+        // Where the person leaves no way, the arm goes as far as the guard lets it; where the fingers cannot move with
+        // the hand as they shall stand in the end, they go as they stand now.
+        for (fingers, scene) in [
+            (self.body.fingers(wanted), &scene),
+            (self.body.fingers(wanted), &alone),
+            (request.fingers, &alone),
+        ] {
             let Ok(figure) = self.figure(&fingers, request.held) else { return refused };
-            if let Ok(plan) = self.plan(request, &figure, &scene, goals.clone()) {
+            if let Ok(plan) = self.plan(request, &figure, scene, goals.clone()) {
                 return Answer { course: Course::of(&plan), ..refused };
             }
         }
@@ -114,7 +122,8 @@ impl Planner {
         let then = request.next.map(|next| next * request.frame.inverse()).into_iter().collect();
         let problem = self.problem(figure, scene, request.start, aim);
         let problem = Problem { leave: request.leave, then, guide, ..problem };
-        problem.plan()
+        let moving = request.start.iter().any(|state| !state.is_at_rest());
+        problem.plan_within(if moving { EFFORT.0 } else { EFFORT.1 })
     }
 
     /// Straight back out of a place that no movement leaves, or up.

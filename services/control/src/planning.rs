@@ -5,9 +5,17 @@ use crossbeam::queue::ArrayQueue;
 use std::sync::{Arc, OnceLock};
 use std::thread::{self, Thread};
 
+/// Asks the planner, and takes its answers.
+#[derive(Debug)]
+pub(crate) struct Planning {
+    /// The last question that was asked here; a predecessor's is not known.
+    asked: u64,
+    place: Place,
+}
+
 /// Where movements are planned: at once, within the step that asks, or by a [`PlanningThread`] beside the servo.
 #[derive(Debug)]
-pub(crate) enum Planning {
+enum Place {
     AtOnce { planner: Box<Planner>, answer: Option<Box<Answer>> },
     Beside(Arc<Slots>),
 }
@@ -29,31 +37,38 @@ pub struct PlanningThread {
 
 impl Planning {
     pub fn at_once(planner: Planner) -> Self {
-        Self::AtOnce { planner: Box::new(planner), answer: None }
+        Self { asked: 0, place: Place::AtOnce { planner: Box::new(planner), answer: None } }
     }
 
     pub fn beside(planner: Planner) -> (Self, PlanningThread) {
         let (request, answer) = (ArrayQueue::new(1), ArrayQueue::new(1));
         let slots = Arc::new(Slots { request, answer, planner: OnceLock::new() });
-        (Self::Beside(Arc::clone(&slots)), PlanningThread { planner, slots })
+        let place = Place::Beside(Arc::clone(&slots));
+        (Self { asked: 0, place }, PlanningThread { planner, slots })
     }
 
     /// Asks; a question that was not taken up yet is replaced.
     pub fn ask(&mut self, request: &Request) {
-        match self {
-            Self::AtOnce { planner, answer } => *answer = Some(Box::new(planner.answer(request))),
-            Self::Beside(slots) => {
+        self.asked = request.id;
+        match &mut self.place {
+            Place::AtOnce { planner, answer } => *answer = Some(Box::new(planner.answer(request))),
+            Place::Beside(slots) => {
                 _ = slots.request.force_push(*request);
                 slots.planner.get().into_iter().for_each(Thread::unpark);
             }
         }
     }
 
+    /// Whether question `id` was asked here.
+    pub fn was_asked(&self, id: u64) -> bool {
+        self.asked == id
+    }
+
     /// The answer to question `id`, once.
     pub fn answer(&mut self, id: u64) -> Option<Answer> {
-        let answer = match self {
-            Self::AtOnce { answer, .. } => answer.take().map(|answer| *answer),
-            Self::Beside(slots) => slots.answer.pop(),
+        let answer = match &mut self.place {
+            Place::AtOnce { answer, .. } => answer.take().map(|answer| *answer),
+            Place::Beside(slots) => slots.answer.pop(),
         };
         answer.filter(|answer| answer.id == id)
     }

@@ -41,7 +41,7 @@ fn garble(world: &mut KinematicWorld, fault: u8, noise: f64) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 6, failure_persistence: None, ..ProptestConfig::default() })]
 
     // The kinematic world holds the finite differences of every tick against all limits.
     #[test]
@@ -75,7 +75,7 @@ fn decisions_that_change_every_few_cycles_keep_the_limits() {
     let mut world = KinematicWorld::new();
     let count = world.task.actions.len() as u32;
     let mut state = 12345u32;
-    for tick in 0..20_000u32 {
+    for tick in 0..10_000u32 {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         if state >> 24 < 3 {
             world.decide(Some((state >> 8) % (count + 3)));

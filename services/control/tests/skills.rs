@@ -293,5 +293,5 @@ fn a_restarted_control_goes_on_with_the_same_bits() {
     };
     let (path, mounted) = run(&[]);
     assert!(mounted);
-    assert_eq!(run(&[5, 12, 700, 1500, 2000, 2600, 4000, 5200]).0, path);
+    assert_eq!(run(&[1, 5, 12, 700, 1500, 2000, 2600, 4000, 5200]).0, path);
 }

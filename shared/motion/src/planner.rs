@@ -74,10 +74,18 @@ impl Problem<'_> {
     /// # Errors
     /// The constraint that binds.
     pub fn plan(&self) -> Result<Plan, Refusal> {
+        self.plan_within(WORK)
+    }
+
+    /// The same for somebody who waits: the search ends after `postures` postures, 40 000 of which take about a second.
+    ///
+    /// # Errors
+    /// The constraint that binds, as far as the search came.
+    pub fn plan_within(&self, postures: u32) -> Result<Plan, Refusal> {
         let away = self.away()?;
         let from = away.unwrap_or_else(|| self.start.map(|state| state.position));
         let targets = self.targets(&from)?;
-        let work = Work::of(WORK);
+        let work = Work::of(postures);
         Search { problem: self, away, work: &work, choice: Choice::default(), guided: Vec::new() }
             .run(&targets)
     }

@@ -4,6 +4,7 @@ use crate::{Arguments, Bus, Cycle, Message, Output, PortError, ProcessError, Sch
 use clap::Parser;
 use coact_messages::topic;
 use coact_pipeline::{GENERATION_VARIABLE, Pipeline, ProcessEntry, Ready, Run};
+use std::panic::AssertUnwindSafe;
 use std::path::Path;
 use std::time::Duration;
 use tracing_subscriber::EnvFilter;
@@ -112,7 +113,10 @@ impl Process {
         let pipeline = self.pipeline.clone();
         let beside = move || {
             scheduling::step_aside(&pipeline);
-            work();
+            // A process whose work beside the cycle died would wait for it for ever: it ends, and is replaced.
+            if std::panic::catch_unwind(AssertUnwindSafe(work)).is_err() {
+                std::process::abort();
+            }
         };
         std::thread::Builder::new().name(name.to_owned()).spawn(beside).map_err(ProcessError::Thread)?;
         Ok(())

@@ -1,0 +1,59 @@
+//! Cost of one servo step in real time: tracking, limits, clearance to a person who moves about, and all decisions, while
+//! movements are planned on another thread. `cargo bench -p coact-control --bench servo [-- SECONDS]`.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../tests/kinematic_world/mod.rs"]
+mod kinematic_world;
+
+use coact_control::{Control, Settings};
+use hdrhistogram::Histogram;
+use kinematic_world::KinematicWorld;
+use std::time::{Duration, Instant};
+
+const CYCLE: Duration = Duration::from_millis(1);
+/// A decision changes after so many cycles.
+const CHANGES: u64 = 1_300;
+
+fn main() {
+    let seconds = std::env::args().find_map(|argument| argument.parse().ok()).unwrap_or(60u64);
+    let mut world = KinematicWorld::new();
+    let (control, planner) =
+        Control::in_real_time(world.robot.clone(), &world.task, Settings::default()).unwrap();
+    world.control = control;
+    std::thread::spawn(move || planner.run());
+    let actions = world.task.actions.len() as u64;
+    let mut times = Histogram::<u64>::new(3).unwrap();
+    let (mut command, mut moving) = (world.command.clone(), 0);
+    let start = Instant::now();
+    for cycle in 0..1000 * seconds {
+        if cycle % CHANGES == 0 {
+            world.decide(Some((cycle / CHANGES % (actions + 1)) as u32));
+        }
+        let at = cycle as f64 * 1e-3;
+        world.hand_at([-0.75 + 0.25 * (0.7 * at).sin(), 0.35 + 0.25 * (0.5 * at).cos(), 1.0]);
+        world.sense();
+        let before = Instant::now();
+        world.control.step(
+            world.tick,
+            Some(&world.sample),
+            Some(&world.percept),
+            Some(&world.frame),
+            None,
+            &mut command,
+        );
+        times.saturating_record(before.elapsed().as_nanos() as u64);
+        *world.command = *command;
+        moving += u64::from(command.velocity[..7].iter().any(|velocity| velocity.abs() > 0.05));
+        world.tick += 1;
+        std::thread::sleep((start + CYCLE * (cycle as u32 + 1)).saturating_duration_since(Instant::now()));
+    }
+    let at = |share| times.value_at_quantile(share) as f64 * 1e-3;
+    println!(
+        "servo step over {seconds} s, in motion {} %: p50 {:.1}, p99 {:.1}, p99.9 {:.1}, max {:.1} µs",
+        100 * moving / (1000 * seconds),
+        at(0.5),
+        at(0.99),
+        at(0.999),
+        times.max() as f64 * 1e-3
+    );
+}
