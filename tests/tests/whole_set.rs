@@ -9,7 +9,7 @@ const CHAIN: [&str; 4] = ["world", "perception", "fields", "control"];
 
 #[test]
 fn a_set_builds_at_its_rate_and_reports() {
-    let launched = Launched::start(&["--duration", "15", "--world", "kinematic", "--json"]);
+    let launched = Launched::start(&["--duration", "25", "--world", "kinematic", "--json"]);
     let run = launched.when_started();
     let finished = launched.finish();
     assert_eq!(left_behind(&run), Vec::<String>::new());
@@ -21,7 +21,7 @@ fn a_set_builds_at_its_rate_and_reports() {
     }
     for process in CHAIN {
         let cycles = finished.cycles(process);
-        assert!((13_500..=15_100).contains(&cycles), "{process}: {cycles} cycles in 15 s");
+        assert!((22_500..=25_100).contains(&cycles), "{process}: {cycles} cycles in 25 s");
     }
     let printed: serde_json::Value = serde_json::from_str(&finished.stdout).unwrap();
     assert_eq!(printed, finished.summary, "--json prints the summary and nothing else");
@@ -30,7 +30,7 @@ fn a_set_builds_at_its_rate_and_reports() {
 
 #[test]
 fn two_runs_beside_each_other_both_build() {
-    let start = |seed| Launched::start(&["--duration", "12", "--world", "kinematic", "--seed", seed]);
+    let start = |seed| Launched::start(&["--duration", "30", "--world", "kinematic", "--seed", seed]);
     let (one, other) = (start("1"), start("2"));
     let (first, second) = (one.when_started(), other.when_started());
     assert_ne!(first.prefix(), second.prefix());
