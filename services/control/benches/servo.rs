@@ -22,7 +22,7 @@ fn main() {
     world.control = control;
     std::thread::spawn(move || planner.run());
     let actions = world.task.actions.len() as u64;
-    let mut times = Histogram::<u64>::new(3).unwrap();
+    let mut times = Histogram::<u64>::new_with_max(1_000_000_000, 3).unwrap();
     let (mut command, mut moving) = (world.command.clone(), 0);
     let start = Instant::now();
     for cycle in 0..1000 * seconds {
