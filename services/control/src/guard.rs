@@ -68,7 +68,10 @@ impl Guard {
             .iter()
             .zip(&self.hulls)
             .filter(|(bone, _)| bone.carriers > 0 && !(meets && bone.hand));
-        let gaps = watched.flat_map(|(_, hull)| person.iter().map(|capsule| hull.distance(capsule)));
-        gaps.fold(f64::INFINITY, f64::min)
+        let pairs = watched.flat_map(|(_, hull)| person.iter().map(move |capsule| (hull, capsule)));
+        pairs.fold(f64::INFINITY, |nearest, (hull, capsule)| {
+            // Most pairs are certainly farther apart than the nearest one so far.
+            if hull.least_distance(capsule) < nearest { nearest.min(hull.distance(capsule)) } else { nearest }
+        })
     }
 }

@@ -100,7 +100,7 @@ impl Planner {
                 return Answer { course: Course::of(&plan), ..refused };
             }
         }
-        if request.start.iter().any(|state| !state.is_at_rest()) {
+        if request.is_in_motion() {
             return refused;
         }
         let Ok(figure) = self.figure(&request.fingers, request.held) else { return refused };
@@ -122,8 +122,7 @@ impl Planner {
         let then = request.next.map(|next| next * request.frame.inverse()).into_iter().collect();
         let problem = self.problem(figure, scene, request.start, aim);
         let problem = Problem { leave: request.leave, then, guide, ..problem };
-        let moving = request.start.iter().any(|state| !state.is_at_rest());
-        problem.plan_within(if moving { EFFORT.0 } else { EFFORT.1 })
+        problem.plan_within(if request.is_in_motion() { EFFORT.0 } else { EFFORT.1 })
     }
 
     /// Straight back out of a place that no movement leaves, or up.

@@ -35,3 +35,10 @@ pub(crate) struct Request {
     /// The person's arm, when it is tracked.
     pub person: Option<PersonArm>,
 }
+
+impl Request {
+    /// Whether the arm moves when the movement begins.
+    pub fn is_in_motion(&self) -> bool {
+        self.start.iter().any(|state| !state.is_at_rest())
+    }
+}
