@@ -3,12 +3,14 @@
 use crate::Control;
 use crate::errand::{Errand, Leg};
 use crate::memory::{LEAD, pose};
+use crate::planner::GUIDE;
 use crate::request::Request;
 use crate::senses::Senses;
 use crate::servo::PERIOD;
+use coact_joint_task::Motion;
 use coact_messages::{ARM_JOINTS, MAX_PARTS};
-use coact_robot::MotionState;
-use nalgebra::Vector3;
+use coact_robot::{MotionState, Next};
+use nalgebra::{Isometry3, Vector3};
 
 /// Cycles after which a question that was refused is asked again.
 const AGAIN: u64 = 300;
@@ -17,6 +19,8 @@ const LIFT: f64 = 0.06;
 const RETREAT: f64 = 0.10;
 /// A hand less far in a narrow place than this share of the way is out of it.
 const OUT: f64 = 0.05;
+/// Height of a part that a person needs to take it, m: two fingers.
+const ROOM: f64 = 0.04;
 /// Setpoints may differ by this from the state for which a movement was planned, rad.
 const EXACT: f64 = 1e-7;
 
@@ -62,6 +66,7 @@ impl Control {
         if let Some(answer) = answer {
             self.memory.asking = 0;
             self.memory.withdraws = u64::from(answer.withdraws);
+            self.memory.hold = answer.hold.map_or(self.memory.hold, |hold| hold as u64);
             match answer.course {
                 Some(course) => (self.memory.next, self.memory.ready) = (course, 1),
                 None => self.be_without_movement(),
@@ -138,20 +143,20 @@ impl Control {
     /// What is asked: all that the planner must know.
     fn request(&self, senses: &Senses, start: [MotionState; 7]) -> Request {
         let held = self.memory.held().map(|kind| (kind, pose(self.memory.in_palm)));
-        let action = self.actions.get(self.memory.action as usize);
-        let taking = self.memory.errand() == Errand::Take;
-        let next = action.and_then(|action| action.subgoal).filter(|_| taking);
+        let (purpose, next) = self.purpose();
         let mut request = Request {
             id: self.memory.questions,
             errand: self.memory.errand(),
             kind: self.memory.kind(),
             frame: pose(self.memory.place),
-            next: next.map(|subgoal| self.places.socket(subgoal)),
+            purpose,
+            next,
             before: self.memory.before == 1,
             start,
             fingers: std::array::from_fn(|joint| self.servo.joints[ARM_JOINTS + joint].position),
             leave: self.leave(start),
             held,
+            hold: self.hold(),
             parts: [bytemuck::Zeroable::zeroed(); MAX_PARTS],
             seen: 0,
             screens: [[0.0; 6]; 4],
@@ -160,6 +165,19 @@ impl Control {
         };
         senses.surroundings(&mut request);
         request
+    }
+
+    /// What is done next with a part that is taken, and where.
+    fn purpose(&self) -> (Next, Option<Isometry3<f64>>) {
+        let taking = self.memory.errand() == Errand::Take;
+        let action = self.actions.get(self.memory.action as usize).filter(|_| taking);
+        match action.map(|action| (action.motion, action.subgoal)) {
+            Some((Motion::Insert, Some(subgoal))) => {
+                (Next::Insert { depth: GUIDE }, Some(self.places.socket(subgoal)))
+            }
+            Some((Motion::Give, _)) => (Next::HandOver { room: ROOM }, Some(self.places.meeting())),
+            _ => (Next::Anything, None),
+        }
     }
 
     /// Out of where the hand is: up with a part that was taken, else back as it came.

@@ -1,13 +1,11 @@
+use crate::ControlError;
 use crate::errand::Errand;
+use crate::holds::Holds;
 use crate::memory::FINGER_JOINTS;
-use crate::places::Places;
+use coact_joint_task::Task;
 use coact_messages::{ARM_JOINTS, JOINTS};
 use coact_robot::{HAND_JOINTS, JointLimits, Robot};
 
-/// Gap between an open finger and the part that it opens around, m.
-const OPENING: f64 = 0.01;
-/// How far into a part each finger is told to close, as a share of its width: what makes them press.
-const SQUEEZE: f64 = 0.3;
 /// Clear width of the resting hand, m.
 const RELAXED: f64 = 0.10;
 /// Clear width of the hand that steadies or points, m.
@@ -20,10 +18,10 @@ const HELD_OUT: f64 = 0.6;
 pub(crate) enum Fingers {
     /// Resting, half open.
     Relaxed,
-    /// Open wider than something this wide, m.
-    Around(f64),
-    /// Closed on something this wide, m.
-    On(f64),
+    /// Open around a kind of part, whichever way it is taken.
+    Around(usize),
+    /// Closed on a part in one of the [`Holds`].
+    On(usize),
     /// Together, to press on something or to point.
     Slender,
     /// Wide open, held out.
@@ -34,9 +32,22 @@ pub(crate) enum Fingers {
 #[derive(Debug, Clone)]
 pub(crate) struct Body {
     pub robot: Robot,
+    pub holds: Holds,
+    /// Angles of the hand's joints (message order) at rest and pressed together, rad: known beforehand, for the servo has
+    /// no time to look for them.
+    relaxed: [f64; HAND_JOINTS],
+    slender: [f64; HAND_JOINTS],
 }
 
 impl Body {
+    /// # Errors
+    /// [`ControlError::Ungraspable`] when the hand cannot hold a part of the task.
+    pub fn new(robot: Robot, task: &Task) -> Result<Self, ControlError> {
+        let clear = |width: f64| robot.hand.posture(robot.hand.base_for_width(width));
+        let (relaxed, slender) = (clear(RELAXED), clear(SLENDER));
+        Ok(Self { holds: Holds::new(&robot.hand, task)?, relaxed, slender, robot })
+    }
+
     /// Limits in message order; the reserved joint stays at zero.
     pub fn limits(&self) -> [JointLimits; JOINTS] {
         let reserved =
@@ -47,13 +58,12 @@ impl Body {
 
     /// Angles of the hand's joints (message order) for what the fingers do.
     pub fn fingers(&self, fingers: Fingers) -> [f64; HAND_JOINTS] {
-        let hand = &self.robot.hand;
         match fingers {
-            Fingers::Relaxed => hand.posture(hand.base_for_width(RELAXED)),
-            Fingers::Around(width) => hand.grasp(width, OPENING).angles,
-            Fingers::On(width) => hand.grasp(width, -SQUEEZE * width).angles,
-            Fingers::Slender => hand.posture(hand.base_for_width(SLENDER)),
-            Fingers::HeldOut => hand.posture(HELD_OUT),
+            Fingers::Relaxed => self.relaxed,
+            Fingers::Around(kind) => self.holds.around(kind),
+            Fingers::On(hold) => self.holds.all()[hold].closed,
+            Fingers::Slender => self.slender,
+            Fingers::HeldOut => self.robot.hand.posture(HELD_OUT),
         }
     }
 
@@ -64,18 +74,11 @@ impl Body {
         angles
     }
 
-    /// What the fingers do on the way to an errand's goal.
-    pub fn on_the_way(
-        &self,
-        errand: Errand,
-        kind: Option<usize>,
-        held: Option<usize>,
-        places: &Places,
-    ) -> Fingers {
-        let width = |kind: usize| places.width(kind);
-        match (errand, held, kind) {
-            (_, Some(held), _) => Fingers::On(width(held)),
-            (Errand::Take | Errand::Receive, _, Some(kind)) => Fingers::Around(width(kind)),
+    /// What the fingers do on the way to an errand's goal, with a part in `hold` or none.
+    pub fn on_the_way(errand: Errand, kind: Option<usize>, hold: Option<usize>) -> Fingers {
+        match (errand, hold, kind) {
+            (_, Some(hold), _) => Fingers::On(hold),
+            (Errand::Take | Errand::Receive, _, Some(kind)) => Fingers::Around(kind),
             (Errand::Ask, ..) => Fingers::HeldOut,
             (Errand::Steady | Errand::Point, ..) => Fingers::Slender,
             _ => Fingers::Relaxed,

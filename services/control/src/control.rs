@@ -3,14 +3,14 @@ use crate::choice::{self, Choice};
 use crate::errand::{Errand, Leg};
 use crate::guard::Guard;
 use crate::places::Places;
-use crate::planner::Planner;
+use crate::planner::{GUIDE, Planner};
 use crate::planning::Planning;
 use crate::senses::Senses;
 use crate::servo::Servo;
 use crate::{ControlError, Memory, PlanningThread, Settings};
 use coact_joint_task::{Action, Motion, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
-use coact_robot::Robot;
+use coact_robot::{Next, Robot};
 use nalgebra::Isometry3;
 
 /// The control stage: decisions in, setpoints out, one period of 1 ms at each step.
@@ -56,18 +56,17 @@ impl Control {
         settings: Settings,
         planning: impl FnOnce(Planner) -> (Planning, T),
     ) -> Result<(Self, T), ControlError> {
-        let body = Body { robot };
+        let body = Body::new(robot, task)?;
         let places = Places::new(&body, task);
         let planner = Planner::new(body.clone(), places.clone(), task)?;
         check(&planner, &places, task)?;
         let mut bodies = vec![planner.figure(&body.fingers(Fingers::Relaxed), None)?];
-        for kind in 0..task.kinds.len() {
-            let goal = places.part(kind, &Isometry3::identity());
+        for (index, hold) in body.holds.all().iter().enumerate() {
+            let mut goals = places.takes(hold.kind, Next::Anything, &Isometry3::identity()).into_iter();
+            let Some((goal, _)) = goals.find(|(_, of)| *of == Some(index)) else { continue };
             let palm = body.robot.hand.palm_at(&goal.point, &goal.approach, &goal.closing, 0.0);
-            bodies.push(
-                planner
-                    .figure(&body.fingers(Fingers::On(places.width(kind))), Some((kind, palm.inverse())))?,
-            );
+            let held = Some((hold.kind, palm.inverse()));
+            bodies.push(planner.figure(&body.fingers(Fingers::On(index)), held)?);
         }
         let park = body.park();
         let guard = Guard::new(planner.mechanism().clone(), bodies);
@@ -165,9 +164,14 @@ impl Control {
         let Some(person) = senses.person_arm().filter(|_| !self.memory.arrived()) else { return 1.0 };
         let Memory { course, elapsed, .. } = &self.memory;
         let meets = self.memory.errand().meets();
-        let pace = self.guard.pace(course, *elapsed, self.memory.held(), &person, meets);
+        let pace = self.guard.pace(course, *elapsed, self.hold(), &person, meets);
         self.memory.blocked = if pace < 0.1 { self.memory.blocked + 1 } else { 0 };
         pace
+    }
+
+    /// How the part in the hand is held: index of a hold.
+    pub(crate) fn hold(&self) -> Option<usize> {
+        self.memory.held().map(|kind| self.body.holds.known(self.memory.hold, kind))
     }
 
     /// Notes how long after the decision its movement begins.
@@ -213,16 +217,18 @@ impl Control {
 fn check(planner: &Planner, places: &Places, task: &Task) -> Result<(), ControlError> {
     for action in &task.actions {
         let goals = match (action.motion, action.kind, action.subgoal) {
-            (Motion::Insert, Some(kind), Some(subgoal)) => vec![places.part(kind, &places.socket(subgoal))],
-            (Motion::Receive | Motion::Give, Some(kind), _) => {
-                vec![places.part(kind, &Isometry3::from_parts(places.handover().into(), Default::default()))]
+            (Motion::Insert, Some(kind), Some(subgoal)) => {
+                places.takes(kind, Next::Insert { depth: GUIDE }, &places.socket(subgoal))
             }
-            (Motion::Request, ..) => vec![places.held_out()],
-            (Motion::Hold, ..) => vec![places.steadying()],
+            (Motion::Receive | Motion::Give, Some(kind), _) => {
+                places.takes(kind, Next::Anything, &places.meeting())
+            }
+            (Motion::Request, ..) => vec![(places.held_out(), None)],
+            (Motion::Hold, ..) => vec![(places.steadying(), None)],
             _ => continue,
         };
-        let goal = goals[0];
-        if !planner.reaches(goals)? {
+        let Some((goal, _)) = goals.first().copied() else { continue };
+        if !planner.reaches(goals.into_iter().map(|(goal, _)| goal).collect())? {
             let [x, y, z]: [f64; 3] = goal.approach.into();
             return Err(ControlError::Unreachable {
                 what: format!("the place for \"{}\"", action.name),

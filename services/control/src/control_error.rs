@@ -14,6 +14,17 @@ pub enum ControlError {
         /// How the hand would have to stand there.
         towards: String,
     },
+    /// The hand cannot hold a kind of part.
+    #[error(
+        "the robot's hand has no grip for \"{name}\", {width} m wide; expected a width that its fingers open around; \
+         change it in the task file, or use another hand"
+    )]
+    Ungraspable {
+        /// The kind's name.
+        name: String,
+        /// How far the fingers would close, m.
+        width: f64,
+    },
     /// The arm's or the hand's collision geometry cannot be used.
     #[error(transparent)]
     Robot(#[from] coact_robot::RobotError),

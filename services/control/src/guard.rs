@@ -7,7 +7,7 @@ use coact_robot::Posture;
 #[derive(Debug)]
 pub(crate) struct Guard {
     mechanism: Mechanism,
-    /// Bodies with an empty hand, then with each kind of part in it.
+    /// Bodies with an empty hand, then with a part in it in each of the holds.
     bodies: Vec<Body>,
     hulls: Vec<Capsule>,
 }
@@ -35,20 +35,20 @@ impl Guard {
         &mut self,
         course: &Course,
         t: f64,
-        held: Option<usize>,
+        hold: Option<usize>,
         person: &PersonArm,
         meets: bool,
     ) -> f64 {
         let (horizon, steps) = AHEAD;
         let step = horizon / f64::from(steps);
-        let now = self.distance(&course.posture(t), held, &person.after(0.0), meets);
+        let now = self.distance(&course.posture(t), hold, &person.after(0.0), meets);
         if now < MARGIN {
-            let next = self.distance(&course.posture(t + step), held, &person.after(step), meets);
+            let next = self.distance(&course.posture(t + step), hold, &person.after(step), meets);
             return if next > now + GROWS { ESCAPE } else { 0.0 };
         }
         let blocked = (1..=steps).map(|index| step * f64::from(index)).find(|ahead| {
             let posture = course.posture(t + ahead);
-            self.distance(&posture, held, &person.after(*ahead), meets) < MARGIN
+            self.distance(&posture, hold, &person.after(*ahead), meets) < MARGIN
         });
         blocked.map_or(1.0, |ahead| ((ahead - STANDING) / (horizon - STANDING)).clamp(0.0, 1.0))
     }
@@ -57,11 +57,11 @@ impl Guard {
     fn distance(
         &mut self,
         posture: &Posture,
-        held: Option<usize>,
+        hold: Option<usize>,
         person: &[Capsule; 3],
         meets: bool,
     ) -> f64 {
-        let body = &self.bodies[held.map_or(0, |kind| kind + 1).min(self.bodies.len() - 1)];
+        let body = &self.bodies[hold.map_or(0, |hold| hold + 1).min(self.bodies.len() - 1)];
         body.hulls_into(&self.mechanism, posture, &mut self.hulls);
         let watched = body
             .bones()

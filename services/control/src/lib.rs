@@ -43,6 +43,7 @@ mod control_error;
 mod course;
 mod errand;
 mod guard;
+mod holds;
 mod memory;
 mod person;
 mod places;

@@ -47,6 +47,8 @@ pub(crate) struct Memory {
     /// Kind of part in the hand, or [`NONE`], and its place and turn (x, y, z, w) in the palm's frame, m.
     pub held: u64,
     pub in_palm: [f64; 7],
+    /// How the hand holds, or is about to take, a part: index into [`Holds`](crate::holds::Holds), or [`NONE`].
+    pub hold: u64,
     /// Sum of the places (m, in the palm's frame) at which it was seen since the fingers closed, how many there are, and
     /// the cycle of the newest camera frame among them.
     pub seen: [f64; 3],
@@ -99,7 +101,7 @@ pub(crate) struct Memory {
 }
 
 /// Marks the words as control's, of this layout: to be changed with it.
-pub(crate) const MARK: u64 = 0x636f_6163_7402;
+pub(crate) const MARK: u64 = 0x636f_6163_7403;
 
 const WORDS: usize = size_of::<Memory>() / 8;
 /// Cycles ahead at which a movement begins that is asked for in motion, at first and at most.
@@ -121,6 +123,7 @@ impl Memory {
             action: NONE.into(),
             kind: NONE.into(),
             held: NONE.into(),
+            hold: NONE.into(),
             finished: NONE.into(),
             lead: LEAD.0,
             ..Self::zeroed()

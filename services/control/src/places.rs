@@ -1,8 +1,9 @@
 use crate::body::Body;
 use crate::errand::Errand;
+use crate::holds::Holds;
 use crate::request::Request;
-use coact_joint_task::{Scene, Shape, Task};
-use coact_robot::{Hand, HandGoal};
+use coact_joint_task::{Scene, Task};
+use coact_robot::{Hand, HandGoal, Next};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
 /// Distance of the pose before a grasp or a placing from the goal, m.
@@ -24,20 +25,12 @@ pub(crate) struct Places {
     scene: Scene,
     shoulder: Point3<f64>,
     hand: Hand,
-    kinds: Vec<Grip>,
+    holds: Holds,
     sockets: Vec<Isometry3<f64>>,
 }
 
-/// How a kind of part is gripped.
-#[derive(Debug, Clone, Copy)]
-struct Grip {
-    height: f64,
-    width: f64,
-    /// Rolls that serve: any (0) for round parts, two for parts with flat sides.
-    rolls: u32,
-    /// Turn of the closing axis about the part's z axis, rad.
-    turn: f64,
-}
+/// A goal of the hand, and the hold in which it takes a part there, if it does.
+pub(crate) type Offer = (HandGoal, Option<usize>);
 
 impl Places {
     pub fn new(body: &Body, task: &Task) -> Self {
@@ -45,30 +38,45 @@ impl Places {
             scene: task.scene.clone(),
             shoulder: body.robot.arm().centres(&body.robot.park)[0],
             hand: body.robot.hand.clone(),
-            kinds: task.kinds.iter().map(|kind| grip(kind.width, &kind.shape)).collect(),
+            holds: body.holds.clone(),
             sockets: task.subgoals.iter().map(|subgoal| frame(subgoal.socket, subgoal.axis)).collect(),
         }
     }
 
     /// The goals of the hand that serve a request; none for standing at rest.
-    pub fn goals(&self, request: &Request) -> Vec<HandGoal> {
+    pub fn goals(&self, request: &Request) -> Vec<Offer> {
         let at = Point3::from(request.frame.translation.vector);
         let held = request.held.filter(|(kind, _)| request.kind == Some(*kind));
         match (request.errand, request.kind) {
             (Errand::Place | Errand::Offer | Errand::PutBack, _) => {
                 held.map_or_else(Vec::new, |held| self.puts(held, &request.frame, request.errand))
             }
-            (Errand::Take, Some(kind)) => vec![self.part(kind, &request.frame)],
-            (Errand::Receive, Some(kind)) => {
-                let goal = self.part(kind, &request.frame);
-                let before = HandGoal { point: goal.point - goal.approach * BACK, back: 0.0, ..goal };
-                vec![if request.before { before } else { HandGoal { back: STRAIGHT, ..goal } }]
-            }
-            (Errand::Ask, _) => vec![self.held_out()],
-            (Errand::Steady, _) => vec![self.steadying()],
-            (Errand::Point, _) => vec![self.pointing(&at)],
+            (Errand::Take, Some(kind)) => self.takes(kind, request.purpose, &request.frame),
+            (Errand::Receive, Some(kind)) => self.receives(kind, &request.frame, request.before),
+            (Errand::Ask, _) => vec![(self.held_out(), None)],
+            (Errand::Steady, _) => vec![(self.steadying(), None)],
+            (Errand::Point, _) => vec![(self.pointing(&at), None)],
             (Errand::Park | Errand::Take | Errand::Receive, _) => Vec::new(),
         }
+    }
+
+    /// The goals with the hand on a part whose frame is `frame`, in all holds that serve what is done next.
+    pub fn takes(&self, kind: usize, next: Next, frame: &Isometry3<f64>) -> Vec<Offer> {
+        let goals = self.holds.goals(kind, next, frame, BACK, self.scene.table_height);
+        goals.map(|(goal, hold)| (goal, Some(hold))).collect()
+    }
+
+    /// The goal with the hand on a part that the person holds out, or before it: from above, where the person's hand is not.
+    fn receives(&self, kind: usize, frame: &Isometry3<f64>, before: bool) -> Vec<Offer> {
+        let mut goals = self.takes(kind, Next::Anything, frame);
+        if goals.iter().any(|(_, hold)| hold.is_some_and(|hold| self.holds.is_from_above(hold))) {
+            goals.retain(|(_, hold)| hold.is_some_and(|hold| self.holds.is_from_above(hold)));
+        }
+        for (goal, _) in &mut goals {
+            goal.point -= if before { goal.along * BACK } else { Vector3::zeros() };
+            goal.back = if before { 0.0 } else { STRAIGHT };
+        }
+        goals
     }
 
     /// The goals with which the held part comes to `place`, as it is held: a round one turned about its own axis at
@@ -78,8 +86,8 @@ impl Places {
         (kind, in_palm): (usize, Isometry3<f64>),
         place: &Isometry3<f64>,
         errand: Errand,
-    ) -> Vec<HandGoal> {
-        let round = self.kinds[kind].rolls == 0;
+    ) -> Vec<Offer> {
+        let round = self.holds.form(kind).flat.is_none();
         let turns = if round {
             TURNS[0]
         } else if errand == Errand::Place {
@@ -90,7 +98,8 @@ impl Places {
         let goal = |step: u32| {
             let turn = std::f64::consts::TAU * f64::from(step) / f64::from(turns);
             let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
-            self.palm_at(&(place * about * in_palm.inverse()), BACK)
+            let goal = self.palm_at(&(place * about * in_palm.inverse()), BACK);
+            (HandGoal { along: place.rotation * -Vector3::z(), ..goal }, None)
         };
         (0..turns).map(goal).collect()
     }
@@ -102,23 +111,10 @@ impl Places {
             approach: palm.rotation * Vector3::z(),
             closing: palm.rotation * Vector3::x(),
             rolls: 1,
+            along: palm.rotation * Vector3::z(),
             back,
             floor: self.scene.table_height,
         }
-    }
-
-    /// Width of a kind of part, m.
-    pub fn width(&self, kind: usize) -> f64 {
-        self.kinds[kind].width
-    }
-
-    /// Gripping, or setting down, a part whose frame is `frame`: so deep in the hand that its fingers meet on it.
-    pub fn part(&self, kind: usize, frame: &Isometry3<f64>) -> HandGoal {
-        let Grip { height, width, rolls, turn } = self.kinds[kind];
-        let turned = frame * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
-        let goal = HandGoal::grip(&turned, height, rolls, BACK, self.scene.table_height);
-        let deeper = self.hand.grasp_distance - self.hand.grasp(width, 0.0).depth;
-        HandGoal { point: goal.point + goal.approach * deeper, ..goal }
     }
 
     /// Where the part of a subgoal belongs.
@@ -134,6 +130,11 @@ impl Places {
     /// Where parts change hands, m.
     pub fn handover(&self) -> Point3<f64> {
         Point3::from(self.scene.handover)
+    }
+
+    /// The same as a part's frame, upright.
+    pub fn meeting(&self) -> Isometry3<f64> {
+        Isometry3::from_parts(self.handover().into(), UnitQuaternion::identity())
     }
 
     /// The open hand held out to the handover place: away from the shoulder, raised, so that what lies in the hand
@@ -178,19 +179,8 @@ impl Places {
     }
 
     fn free(&self, point: Point3<f64>, approach: Vector3<f64>, back: f64) -> HandGoal {
-        HandGoal { point, approach, closing: Vector3::y(), rolls: 0, back, floor: self.scene.table_height }
-    }
-}
-
-/// How to grip a part `width` wide: a box across the side that is nearer to this width.
-fn grip(width: f64, shape: &Shape) -> Grip {
-    match *shape {
-        Shape::Cylinder { height, .. } => Grip { height, width, rolls: 0, turn: 0.0 },
-        Shape::Box { size: [x, y, height] } => {
-            let across_y = (y - width).abs() < (x - width).abs();
-            let turn = if across_y { std::f64::consts::FRAC_PI_2 } else { 0.0 };
-            Grip { height, width, rolls: 2, turn }
-        }
+        let floor = self.scene.table_height;
+        HandGoal { point, approach, closing: Vector3::y(), rolls: 0, along: approach, back, floor }
     }
 }
 

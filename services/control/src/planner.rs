@@ -3,7 +3,7 @@ use crate::body::{Body, Fingers};
 use crate::course::Course;
 use crate::errand::Errand;
 use crate::person::PersonArm;
-use crate::places::Places;
+use crate::places::{Offer, Places};
 use crate::request::Request;
 use coact_joint_task::{Fixture, Shape, Task};
 use coact_motion::{Aim, Margin, Mechanism, Obstacle, Plan, Problem, Refusal, Scene, Solid, workplace};
@@ -26,7 +26,7 @@ const MARGIN: Margin = Margin { way: 0.01, goal: 0.001 };
 /// Postures that a search looks at, in motion and at rest: it ends before the person wonders.
 const EFFORT: (u32, u32) = (1_000, 4_000);
 /// How deep parts go into their places at most, m.
-const GUIDE: f64 = 0.03;
+pub(crate) const GUIDE: f64 = 0.03;
 /// What is nearer than this to where the hand works may be touched by it there, m.
 const NEIGHBOURS: f64 = 0.04;
 /// A part of the same kind this near to where one is meant is that one, m.
@@ -82,12 +82,11 @@ impl Planner {
 
     /// The movement that is asked for, one that only gets the hand free, or none.
     pub fn answer(&mut self, request: &Request) -> Answer {
-        let refused = Answer { id: request.id, course: None, withdraws: false };
-        let held = request.held.map(|held| held.0);
-        let wanted = self.body.on_the_way(request.errand, request.kind, held, &self.places);
-        let goals = self.places.goals(request);
+        let refused = Answer { id: request.id, course: None, hold: None, withdraws: false };
+        let wanted = Body::on_the_way(request.errand, request.kind, request.hold);
+        let offers = self.places.goals(request);
         let (scene, alone) =
-            (self.scene(request, &goals), self.scene(&Request { person: None, ..*request }, &goals));
+            (self.scene(request, &offers), self.scene(&Request { person: None, ..*request }, &offers));
         // Where the person leaves no way, the arm goes as far as the guard lets it; where the fingers cannot move with
         // the hand as they shall stand in the end, they go as they stand now.
         for (fingers, scene) in [
@@ -96,8 +95,9 @@ impl Planner {
             (request.fingers, &alone),
         ] {
             let Ok(figure) = self.figure(&fingers, request.held) else { return refused };
-            if let Ok(plan) = self.plan(request, &figure, scene, goals.clone()) {
-                return Answer { course: Course::of(&plan), ..refused };
+            if let Ok(plan) = self.plan(request, &figure, scene, &offers) {
+                let hold = plan.target.and_then(|target| offers.get(target.goal)?.1);
+                return Answer { course: Course::of(&plan), hold, ..refused };
             }
         }
         if request.is_in_motion() {
@@ -113,10 +113,12 @@ impl Planner {
         request: &Request,
         figure: &coact_motion::Body,
         scene: &Scene,
-        goals: Vec<HandGoal>,
+        offers: &[Offer],
     ) -> Result<Plan, Refusal> {
-        let aim =
-            if request.errand == Errand::Park { Aim::Posture(self.mechanism.park) } else { Aim::Hand(goals) };
+        let aim = match request.errand {
+            Errand::Park => Aim::Posture(self.mechanism.park),
+            _ => Aim::Hand(offers.iter().map(|(goal, _)| *goal).collect()),
+        };
         let puts = matches!(request.errand, Errand::Place | Errand::PutBack);
         let guide = if puts { GUIDE } else { 0.0 };
         let then = request.next.map(|next| next * request.frame.inverse()).into_iter().collect();
@@ -163,7 +165,7 @@ impl Planner {
     }
 
     /// All that the arm keeps clear of now.
-    fn scene(&self, request: &Request, goals: &[HandGoal]) -> Scene {
+    fn scene(&self, request: &Request, offers: &[Offer]) -> Scene {
         let mut obstacles = self.fixtures.clone();
         obstacles.extend(self.parts(request));
         for [x, y, z, half_x, half_y, half_z] in &request.screens[..request.screened] {
@@ -172,7 +174,7 @@ impl Planner {
         }
         let person = request.person.as_ref().map(|arm| person(arm, request.errand.meets()));
         obstacles.extend(person.into_iter().flatten());
-        let touchable = self.touchable(request, goals, &obstacles);
+        let touchable = self.touchable(request, offers, &obstacles);
         Scene { obstacles, touchable }
     }
 
@@ -212,7 +214,7 @@ impl Planner {
 
     /// Names of what the hand may touch where it works: what lies near the place that it leaves, and near the one where
     /// it puts something.
-    fn touchable(&self, request: &Request, goals: &[HandGoal], obstacles: &[Obstacle]) -> Vec<String> {
+    fn touchable(&self, request: &Request, offers: &[Offer], obstacles: &[Obstacle]) -> Vec<String> {
         let mut names = vec![PERSON.to_owned()];
         let start = request.start.map(|state| state.position);
         let mut places: Vec<Point3<f64>> = Vec::new();
@@ -220,7 +222,7 @@ impl Planner {
             places.push(self.mechanism.arm.palm(&start) * self.mechanism.grasp_point());
         }
         if matches!(request.errand, Errand::Place | Errand::PutBack | Errand::Steady) {
-            places.extend(goals.first().map(|goal| goal.point));
+            places.extend(offers.first().map(|(goal, _)| goal.point));
         }
         let holds = request.held.is_some() && !places.is_empty();
         let works = matches!(request.errand, Errand::Place | Errand::Steady) || request.leave.is_some();

@@ -1,7 +1,7 @@
 //! The legs of each errand, one after the other.
 
 use crate::Control;
-use crate::body::Fingers;
+use crate::body::{Body, Fingers};
 use crate::choice::Choice;
 use crate::errand::{Errand, Leg};
 use crate::memory::{self, pose};
@@ -62,9 +62,7 @@ impl Control {
                 let at = if self.memory.taken == 1 { [x, y] } else { self.places.free_place(senses.parts()) };
                 Some(self.places.on_table(at))
             }
-            Errand::Ask | Errand::Receive | Errand::Offer => {
-                Some(Isometry3::from_parts(self.places.handover().into(), Default::default()))
-            }
+            Errand::Ask | Errand::Receive | Errand::Offer => Some(self.places.meeting()),
             Errand::Steady => Some(Isometry3::identity()),
             // The person is shown what lies at hand for the person.
             Errand::Point => senses.part(PERSON, kind?).or_else(|| senses.part(ROBOT, kind?)),
@@ -109,8 +107,8 @@ impl Control {
 
     /// The fingers take the shape that the errand needs, from when the hand has left the place where it was.
     fn shape_fingers(&mut self) {
-        let (errand, kind, held) = (self.memory.errand(), self.memory.kind(), self.memory.held());
-        let wanted = self.body.finger_joints(self.body.on_the_way(errand, kind, held, &self.places));
+        let (errand, kind) = (self.memory.errand(), self.memory.kind());
+        let wanted = self.body.finger_joints(Body::on_the_way(errand, kind, self.hold()));
         let left = self.memory.begins == 0 && self.memory.elapsed >= self.memory.course.left;
         if left && self.memory.finger_target != wanted {
             self.servo.launch_fingers(&mut self.memory, wanted);
@@ -270,8 +268,11 @@ impl Control {
 
     /// Closes or opens the fingers where the hand is.
     fn grip(&mut self, leg: Leg) {
-        let width = self.memory.kind().map_or(0.0, |kind| self.places.width(kind));
-        let fingers = if leg == Leg::Close { Fingers::On(width) } else { Fingers::Around(width) };
+        let fingers = match self.memory.kind() {
+            Some(kind) if leg == Leg::Close => Fingers::On(self.body.holds.known(self.memory.hold, kind)),
+            Some(kind) => Fingers::Around(kind),
+            None => Fingers::Relaxed,
+        };
         self.servo.launch_fingers(&mut self.memory, self.body.finger_joints(fingers));
         self.memory.enter(leg);
     }

@@ -1,7 +1,7 @@
 use crate::errand::Errand;
 use crate::person::PersonArm;
 use coact_messages::{MAX_PARTS, Sighting};
-use coact_robot::{HAND_JOINTS, MotionState};
+use coact_robot::{HAND_JOINTS, MotionState, Next};
 use nalgebra::{Isometry3, Vector3};
 
 /// What the planner is asked: all that it needs to know, of fixed size, so that it passes a lock-free slot.
@@ -14,7 +14,8 @@ pub(crate) struct Request {
     pub kind: Option<usize>,
     /// Frame of the place: of the part to take, of the socket, of the place on the table, of the handover.
     pub frame: Isometry3<f64>,
-    /// Where a part that is taken goes next, if that is known.
+    /// What is done next with a part that is taken, and where, if that is known.
+    pub purpose: Next,
     pub next: Option<Isometry3<f64>>,
     /// Whether the hand stops before the place.
     pub before: bool,
@@ -24,8 +25,9 @@ pub(crate) struct Request {
     pub fingers: [f64; HAND_JOINTS],
     /// First out of a narrow place: direction and distance, m.
     pub leave: Option<(Vector3<f64>, f64)>,
-    /// Kind of the part in the hand, and its frame in that of the palm.
+    /// Kind of the part in the hand, and its frame in that of the palm; and which of the holds it is in.
     pub held: Option<(usize, Isometry3<f64>)>,
+    pub hold: Option<usize>,
     /// Parts in sight, the first `seen` of them.
     pub parts: [Sighting; MAX_PARTS],
     pub seen: usize,

@@ -53,7 +53,17 @@ fn every_part_of_the_robots_side_is_inserted() {
         });
         let reach = world.phases.iter().find(|phase| phase.0 == MotionPhase::Approach).unwrap().1
             - world.phases.iter().find(|phase| phase.0 == MotionPhase::Reach).unwrap().1;
-        let mounted = world.until(5.0, "mounted", |world| {
+        println!("{name} palm z {:.2?} reach {reach}", world.palm().rotation * Vector3::z());
+        let mounted = world.until(25.0, "mounted", |world| {
+            if world.tick % 250 == 0 {
+                println!(
+                    "{} {:?} palm {:.3?} held {:.3?}",
+                    world.tick,
+                    world.phase(),
+                    world.palm().translation.vector,
+                    world.held().map(|p| p.frame.translation.vector)
+                );
+            }
             lowest = lowest.min(clearance(world));
             world.parts.iter().any(|part| part.holder == Holder::Socket(goal))
         });

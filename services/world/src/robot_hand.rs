@@ -4,11 +4,13 @@ use crate::slot::Slot;
 use bytemuck::{Pod, Zeroable};
 use coact_joint_task::Task;
 use coact_messages::{ARM_JOINTS, JOINTS};
-use coact_robot::{HAND_JOINTS, Robot};
+use coact_robot::{HAND_JOINTS, Hand, Robot};
 use glam::{DQuat, DVec3};
 
-/// How near a part's axis must be to the grasp point for the fingers to get hold of it, m.
+/// How near a part's axis must be to that of the hand, between palm and grasp point, for the fingers to get hold of it, m.
 const REACH: f64 = 0.03;
+/// Steps in which that is looked at, m.
+const ALONG: f64 = 0.005;
 /// The fingers touch a part when their clear width exceeds the part's by no more than this, m.
 const TOUCHING: f64 = 0.002;
 /// They have let go when it exceeds it by this, m.
@@ -201,15 +203,22 @@ impl RobotHand {
         parts.drop(part, task);
     }
 
+    /// Distance of a part's axis from that of the hand, m.
+    fn distance(&self, part: usize, palm: &Palm, parts: &Parts, task: &Task) -> f64 {
+        let Hand { palm_face, grasp_distance, .. } = self.robot.hand;
+        let back = palm.orientation * -DVec3::Z;
+        let steps = ((grasp_distance - palm_face) / ALONG) as u32;
+        let points = (0..=steps).map(|step| palm.grasp_point + f64::from(step) * ALONG * back);
+        points.map(|point| parts.distance_to_axis(part, point, task)).fold(f64::INFINITY, f64::min)
+    }
+
     fn grasp(&self, palm: &Palm, memory: &mut RobotHandMemory, parts: &mut Parts, task: &Task) {
         let within = |part: &usize| {
             let angles = self.angles[parts.kind(*part)];
             let closes_now = memory.closing < angles.touch && palm.closing >= angles.touch;
-            closes_now
-                && !parts.is(*part, Holder::Socket)
-                && parts.distance_to_axis(*part, palm.grasp_point, task) <= REACH
+            closes_now && !parts.is(*part, Holder::Socket) && self.distance(*part, palm, parts, task) <= REACH
         };
-        let distance = |part: &usize| parts.distance_to_axis(*part, palm.grasp_point, task);
+        let distance = |part: &usize| self.distance(*part, palm, parts, task);
         let nearest = (0..parts.all().len())
             .filter(within)
             .min_by(|one, other| distance(one).total_cmp(&distance(other)));
@@ -231,7 +240,7 @@ impl RobotHand {
         memory.offering_since = since(at_handover && memory.brought == 1, memory.offering_since);
         memory.holding_since = since(at_base && empty, memory.holding_since);
         let between = |part: &usize| {
-            parts.is(*part, Holder::Person) && parts.distance_to_axis(*part, palm.grasp_point, task) <= REACH
+            parts.is(*part, Holder::Person) && self.distance(*part, palm, parts, task) <= REACH
         };
         let received = (0..parts.all().len()).find(between).filter(|_| empty);
         memory.receiving = received.map_or(Slot::EMPTY, Slot::of);

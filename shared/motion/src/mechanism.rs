@@ -150,6 +150,7 @@ impl Mechanism {
             approach: palm.rotation * Vector3::z(),
             closing: palm.rotation * Vector3::x(),
             rolls: 1,
+            along: palm.rotation * Vector3::z(),
             back: 0.0,
             floor: f64::NEG_INFINITY,
         }
@@ -157,7 +158,7 @@ impl Mechanism {
 
     /// Palm pose at a goal, turned by `roll` rad about the approach, `back` m before it.
     pub(crate) fn palm_at(&self, goal: &HandGoal, roll: f64, back: f64) -> Isometry3<f64> {
-        let point = goal.point - goal.approach * back;
+        let point = goal.point - goal.along * back;
         let grip = grip::frame(&point, &goal.approach, &goal.closing, roll);
         grip * Translation3::new(0.0, 0.0, -self.grasp_distance)
     }

@@ -5,6 +5,7 @@ use crate::way::Way;
 use crate::work::Work;
 use crate::{Aim, Plan, Problem, Refusal, Stage, StageKind, Target, detour};
 use coact_robot::Posture;
+use nalgebra::Vector3;
 
 /// The search for a movement to one of several targets on which the hand moves in one unit.
 pub(crate) struct Search<'a> {
@@ -195,7 +196,13 @@ impl<'a> Search<'a> {
         let legs = leave.into_iter().chain(reaches).chain(approach).collect();
         let route = Route::new(mechanism, start, legs, passing).smoothest(mechanism, &limits);
         let (clearance, touching) = (self.problem.clearance(), self.problem.touching());
-        Way { clearance, touching, limits, route, margin, guide: self.problem.guide, work: self.work }
+        Way { clearance, touching, limits, route, margin, guide: self.guide(target), work: self.work }
+    }
+
+    /// The last part of the approach to a target on which the hand keeps to its line, m.
+    fn guide(&self, target: &Target) -> Vector3<f64> {
+        let goal = if let Aim::Hand(goals) = &self.problem.aim { goals.get(target.goal) } else { None };
+        goal.map_or_else(Vector3::zeros, |goal| goal.along * self.problem.guide)
     }
 
     /// The posture at which the last, straight part of the approach begins, where there is one.

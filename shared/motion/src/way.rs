@@ -22,8 +22,8 @@ pub(crate) struct Way<'a> {
     pub limits: [JointLimits; 7],
     pub route: Route,
     pub margin: Margin,
-    /// Last part of the approach on which the hand keeps to its line, m.
-    pub guide: f64,
+    /// Last part of the approach, on which the hand keeps to its line, m, world.
+    pub guide: Vector3<f64>,
     /// What the search may do.
     pub work: &'a Work,
 }
@@ -114,11 +114,12 @@ impl<'a> Way<'a> {
 
     /// The hand must keep to the line of its approach where what it holds goes into something.
     fn check_guided(&self, stages: &[Stage]) -> Result<(), Refusal> {
-        let Some(last) = stages.last().filter(|_| self.guide > 0.0) else { return Ok(()) };
+        let length = self.guide.norm();
+        let Some(last) = stages.last().filter(|_| length > 0.0) else { return Ok(()) };
         let mechanism = self.clearance.mechanism;
         let palm = |posture: &Posture| mechanism.arm.palm(posture);
-        let goal = palm(&last.trajectory.posture(1.0));
-        let (end, line) = (goal * mechanism.grasp_point(), goal.rotation * Vector3::z());
+        let end = palm(&last.trajectory.posture(1.0)) * mechanism.grasp_point();
+        let line = self.guide / length;
         let approaches = stages.iter().filter(|stage| stage.kind == StageKind::Approach);
         let off = approaches.flat_map(|stage| {
             let postures =
@@ -127,7 +128,7 @@ impl<'a> Way<'a> {
                 let way = palm(&posture) * mechanism.grasp_point() - end;
                 let before = -way.dot(&line);
                 let aside = (way + before * line).norm();
-                if before < self.guide { aside - OFF_LINE.0 - OFF_LINE.1 * before.max(0.0) } else { 0.0 }
+                if before < length { aside - OFF_LINE.0 - OFF_LINE.1 * before.max(0.0) } else { 0.0 }
             })
         });
         let short = off.fold(0.0, f64::max);

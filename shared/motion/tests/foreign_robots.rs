@@ -84,6 +84,7 @@ fn is_reached(mechanism: &Mechanism, posture: &Posture) {
         approach: palm.rotation * Vector3::z(),
         closing: palm.rotation * Vector3::x(),
         rolls: 0,
+        along: palm.rotation * Vector3::z(),
         back: 0.0,
         floor: f64::NEG_INFINITY,
     };

@@ -105,7 +105,7 @@ impl Grips {
                 let (approach, closing) = (frame.rotation * approach, frame.rotation * closing);
                 let middle = frame * Point3::new(0.0, 0.0, grip.height);
                 let point = middle + approach * (self.grasp_distance - grip.depth);
-                (index, HandGoal { point, approach, closing, rolls, back, floor })
+                (index, HandGoal { point, approach, closing, rolls, along: approach, back, floor })
             };
             let about = |turn: f64| Vector3::new(turn.cos(), turn.sin(), 0.0);
             let turn = self.form.flat.map_or(0.0, |flat| flat.turn);
@@ -178,8 +178,9 @@ impl Grip {
         let holds = |depth: &f64| {
             let (base, meet) = closed(hand, form, *depth, 0.0);
             let [.., end] = hand.finger(base);
-            let is_around = end[1] > *depth + form.half_length() && end[0] < 0.5 * form.width;
-            !meet && is_around && gap(hand, form, *depth, open) > 0.5 * GAP
+            let is_behind = end[1] > *depth + form.half_length() && end[0] < 0.5 * form.width;
+            let is_around = is_behind && nearest(hand, form, *depth, base).along > *depth;
+            !meet && is_around && nearest(hand, form, *depth, open).gap > 0.5 * GAP
         };
         let depth = (0..=steps).map(|step| deepest + f64::from(step) * DEEPER).find(holds)?;
         let covers = [height - hand.half_breadth, height + hand.half_breadth];
@@ -187,7 +188,7 @@ impl Grip {
     }
 
     /// Whether what follows can be done with it.
-    fn serves(&self, form: &Form, next: Next) -> bool {
+    pub fn serves(&self, form: &Form, next: Next) -> bool {
         let [from, to] = self.covers;
         match next {
             Next::Anything => true,
@@ -214,9 +215,9 @@ fn pinching(hand: &Hand, width: f64, gap: f64) -> [f64; HAND_JOINTS] {
 fn closed(hand: &Hand, form: &Form, depth: f64, gap: f64) -> (f64, bool) {
     let limit = hand.joints[1].limits.upper;
     let mut base = pinching(hand, form.width, GAP.max(gap))[3];
-    while base < limit && self::gap(hand, form, depth, base) > gap {
+    while base < limit && nearest(hand, form, depth, base).gap > gap {
         let [.., end] = hand.finger(base + CLOSER);
-        if end[0] < hand.pad[1] {
+        if end[0] < hand.pad[1] && !hand.interlaces {
             return (base, true);
         }
         base += CLOSER;
@@ -224,16 +225,26 @@ fn closed(hand: &Hand, form: &Form, depth: f64, gap: f64) -> (f64, bool) {
     (base, base >= limit)
 }
 
-/// Gap between a finger with this base angle, rad, and the form, m.
-fn gap(hand: &Hand, form: &Form, depth: f64, base: f64) -> f64 {
+/// Where a finger comes nearest to something, m.
+#[derive(Clone, Copy)]
+struct Nearest {
+    /// Gap between them.
+    gap: f64,
+    /// Distance of that point from the palm's frame.
+    along: f64,
+}
+
+/// Where a finger with this base angle, rad, comes nearest to the form.
+fn nearest(hand: &Hand, form: &Form, depth: f64, base: f64) -> Nearest {
     let links = hand.finger(base);
-    let distances = links.windows(2).flat_map(|link| {
+    let points = links.windows(2).flat_map(|link| {
         (0..=POINTS).map(|point| {
             let share = f64::from(point) / f64::from(POINTS);
-            let at: [f64; 2] =
+            let [across, along] =
                 std::array::from_fn(|axis| link[0][axis] + share * (link[1][axis] - link[0][axis]));
-            form.distance(at[0], at[1] - depth)
+            Nearest { gap: form.distance(across, along - depth) - hand.pad[1], along }
         })
     });
-    distances.fold(f64::INFINITY, f64::min) - hand.pad[1]
+    let farthest = Nearest { gap: f64::INFINITY, along: 0.0 };
+    points.fold(farthest, |best, point| if point.gap < best.gap { point } else { best })
 }

@@ -21,6 +21,8 @@ pub struct Hand {
     pub grasp_distance: f64,
     /// How far the palm reaches out of its frame's origin, along its z axis, m.
     pub palm_face: f64,
+    /// Whether finger 3 fits between fingers 1 and 2 when all are closed.
+    pub interlaces: bool,
     /// Half the hand's extent across approach and closing axis, m.
     pub half_breadth: f64,
 }

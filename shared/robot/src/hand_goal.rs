@@ -12,7 +12,9 @@ pub struct HandGoal {
     pub closing: Vector3<f64>,
     /// How many rolls about the approach serve as well, evenly spaced: 2 for something with two flat sides; 0 = any.
     pub rolls: u32,
-    /// Distance along the approach of the pose before (pre-grasp, pre-place), m.
+    /// Direction in which the hand goes last, unit, world: its approach, or that in which what it holds goes into a place.
+    pub along: Vector3<f64>,
+    /// How far it goes so, from the pose before (pre-grasp, pre-place), m.
     pub back: f64,
     /// Height that shoulder, elbow and wrist stay above, m, world.
     pub floor: f64,
@@ -24,7 +26,8 @@ impl HandGoal {
     pub fn grip(frame: &Isometry3<f64>, height: f64, rolls: u32, back: f64, floor: f64) -> Self {
         let point = frame * Point3::new(0.0, 0.0, grip::grip_height(height));
         let approach = frame.rotation * -Vector3::z();
-        Self { point, approach, closing: frame.rotation * Vector3::x(), rolls, back, floor }
+        let closing = frame.rotation * Vector3::x();
+        Self { point, approach, closing, rolls, along: approach, back, floor }
     }
 
     /// Goal for gripping an upright part from its side: as [`HandGoal::grip`], but the hand comes across the part's z
@@ -33,6 +36,6 @@ impl HandGoal {
         let point = frame * Point3::new(0.0, 0.0, grip::grip_height(height));
         let approach = frame.rotation * -Vector3::new(turn.cos(), turn.sin(), 0.0);
         let closing = frame.rotation * Vector3::new(-turn.sin(), turn.cos(), 0.0);
-        Self { point, approach, closing, rolls: 2, back, floor: f64::NEG_INFINITY }
+        Self { point, approach, closing, rolls: 2, along: approach, back, floor: f64::NEG_INFINITY }
     }
 }

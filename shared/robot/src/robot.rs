@@ -114,6 +114,9 @@ fn hand(path: &Path, config: &Config, urdf: &Urdf) -> Result<Hand, RobotError> {
     let coupling = urdf.mimicked(&config.hand.tips[0]).map_or(0.0, |(_, factor, _)| factor);
     let HandConfig { grasp_spread, pad, grasp_distance, .. } = config.hand;
     let [_, palm_breadth, palm_face] = extent(urdf, &config.palm);
+    let middle = urdf.model().joints.iter().filter(|joint| joint.name == config.hand.tips[2]);
+    let middle = middle.map(|joint| extent(urdf, &joint.child.link)[1]).fold(0.0, f64::max);
+    let interlaces = fingers[0].joints[0].origin.translation.y.abs() - pad[0] > middle;
     let mut hand = Hand {
         joints,
         fingers,
@@ -122,6 +125,7 @@ fn hand(path: &Path, config: &Config, urdf: &Urdf) -> Result<Hand, RobotError> {
         pad,
         grasp_distance,
         palm_face,
+        interlaces,
         half_breadth: palm_breadth,
     };
     hand.half_breadth = hand.half_breadth.max(hand.reach_aside());

@@ -64,10 +64,16 @@ fn what_is_enclosed_lies_deeper_in_the_hand_between_palm_and_fingers() {
     let (pinched, enclosed) = (grip(column(), PINCHED), grip(column(), ENCLOSED));
     assert!(enclosed.depth < pinched.depth - 0.03, "{} against {}", enclosed.depth, pinched.depth);
     assert!(enclosed.depth - 0.0275 > HAND.palm_face);
-    let ends = HAND.ends(&enclosed.fingers(&HAND, &column(), 0.0));
-    for end in ends {
+    let [one, two, three] = HAND.ends(&enclosed.fingers(&HAND, &column(), 0.0));
+    for end in [one, two, three] {
         assert!(end.z > enclosed.depth + 0.0275, "the fingers end behind it: {end}");
-        assert!(end.x.abs() < 0.0275 && end.x.abs() > HAND.pad[1] - 1e-9, "and do not meet: {end}");
+    }
+    assert!(HAND.interlaces && one.x < three.x, "finger 3 passes between the others: {one}, {three}");
+    let meeting = Hand { interlaces: false, ..HAND.clone() };
+    let grips = Grips::of(&meeting, column(), Next::Anything);
+    let enclosed = grips.all.iter().find(|grip| grip.kind == GripKind::WholeHand);
+    for end in enclosed.iter().flat_map(|grip| meeting.ends(&grip.fingers(&meeting, &column(), 0.0))) {
+        assert!(end.x.abs() > HAND.pad[1] - 1e-9, "fingers that do not pass each other do not meet: {end}");
     }
 }
 

@@ -4,11 +4,12 @@
 use coact_control::{Control, Settings};
 use coact_joint_task::{Motion, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, PERSON, Percept, ROBOT, SensorSample};
-use coact_robot::{JointLimits, Robot, grip};
+use coact_motion::Capsule;
+use coact_robot::{JointLimits, Robot};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use std::path::{Path, PathBuf};
 
-/// How near the grasp point must be to a part's grip, and a part to its socket, m.
+/// How near the palm's axis must be to a part's, and a part to its socket, m.
 const NEAR: f64 = 0.03;
 
 pub fn root() -> PathBuf {
@@ -234,11 +235,15 @@ impl KinematicWorld {
             }
             return;
         }
-        let point = self.grasp_point();
+        let line = |frame: &Isometry3<f64>, from: f64, to: f64| {
+            let [start, end] = [from, to].map(|z| frame * Point3::new(0.0, 0.0, z));
+            Capsule { start, end, radius: 0.0 }
+        };
+        let hand = line(&palm, self.robot.hand.palm_face, self.robot.hand.grasp_distance);
         let between = |part: &Part| {
-            let grip = part.frame * Point3::new(0.0, 0.0, grip::grip_height(self.height(part.kind)));
+            let gap = hand.distance(&line(&part.frame, 0.0, self.height(part.kind)));
             let free = matches!(part.holder, Holder::Nobody | Holder::Person);
-            free && (grip - point).norm() < NEAR && width <= self.task.kinds[part.kind].width
+            free && gap < NEAR && width <= self.task.kinds[part.kind].width
         };
         if let Some(index) = self.parts.iter().position(between) {
             self.parts[index].holder = Holder::Robot;

@@ -80,9 +80,8 @@ impl Clasp {
         let before = std::mem::replace(&mut self.velocity, body.linvel());
         let mut load = body.mass() * ((body.linvel() - before) / seconds - world.gravity) - body.user_force();
         for own in body.colliders() {
-            let on_finger =
-                |other| hand.shapes.iter().any(|(shape, finger)| *shape == other && finger.is_some());
-            let others = pushes(world, *own).filter(|(other, _)| !on_finger(*other));
+            let on_hand = |other| hand.shapes.iter().any(|(shape, _)| *shape == other);
+            let others = pushes(world, *own).filter(|(other, _)| !on_hand(*other));
             load += others.map(|(_, push)| push).sum::<Vector>();
         }
         Some(f64::from(load.length()))

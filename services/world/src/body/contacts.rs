@@ -5,14 +5,17 @@ use rapier3d::prelude::*;
 /// What the robot's hand touched in one step. Forces are those along the contacts' normals, N, world frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Contacts {
-    /// Force of each finger on each part.
-    pub pushes: [[Vector; 3]; MAX_PARTS],
+    /// Force of each finger, and last of the palm, on each part.
+    pub pushes: [[Vector; 4]; MAX_PARTS],
     /// Force of all else on the hand and on the part that it holds.
     pub outside: Vector,
 }
 
+/// Place of the palm among the fingers.
+const PALM: usize = 3;
+
 impl Contacts {
-    pub const NONE: Self = Self { pushes: [[Vector::ZERO; 3]; MAX_PARTS], outside: Vector::ZERO };
+    pub const NONE: Self = Self { pushes: [[Vector::ZERO; 4]; MAX_PARTS], outside: Vector::ZERO };
 
     /// Reads the last step's contacts. Colliders of parts carry their index + 1 as user data; `own` tells the parts whose
     /// contact with the hand is not of the outside.
@@ -27,8 +30,8 @@ impl Contacts {
             for (other, push) in pushes(world, collider) {
                 let part = world.colliders.get(other).and_then(|other| other.user_data.checked_sub(1));
                 let part = part.map(|part| part as usize);
-                if let (Some(part), Some(finger)) = (part, finger) {
-                    contacts.pushes[part][finger] += push;
+                if let Some(part) = part {
+                    contacts.pushes[part][finger.unwrap_or(PALM)] += push;
                 }
                 if !part.is_some_and(&own) {
                     contacts.outside -= push;

@@ -5,12 +5,12 @@ use rapier3d::prelude::*;
 /// Friction coefficient between finger pads and parts.
 const FRICTION: f64 = 0.85;
 
-/// What the fingers squeeze, as their force sensors tell.
+/// What fingers and palm squeeze, as their force sensors tell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Grip {
     /// The part that is squeezed most.
     pub part: Option<usize>,
-    /// How hard, N: what of the fingers' forces on it opposes each other. A push from one side alone is no grip.
+    /// How hard, N: what of their forces on it opposes each other. A push from one side alone is no grip.
     pub force: f64,
     forces: [f64; MAX_PARTS],
 }
@@ -28,11 +28,11 @@ impl Grip {
         2.0 * FRICTION * self.force_on(part)
     }
 
-    /// The grip that the fingers' forces make.
+    /// The grip that these forces make.
     pub(super) fn of(contacts: &Contacts) -> Self {
-        let forces = contacts.pushes.map(|fingers| {
-            let all: f32 = fingers.iter().map(|push| push.length()).sum();
-            let unopposed = fingers.iter().copied().sum::<Vector>().length();
+        let forces = contacts.pushes.map(|pushes| {
+            let all: f32 = pushes.iter().map(|push| push.length()).sum();
+            let unopposed = pushes.iter().copied().sum::<Vector>().length();
             f64::from(0.5 * (all - unopposed))
         });
         let most = (0..MAX_PARTS).max_by(|one, other| forces[*one].total_cmp(&forces[*other]));

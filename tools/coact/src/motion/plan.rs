@@ -134,6 +134,7 @@ fn goal(args: &Args) -> Result<HandGoal> {
         approach,
         closing: Vector3::y(),
         rolls: 0,
+        along: approach,
         back: args.back,
         floor: f64::NEG_INFINITY,
     })

@@ -80,6 +80,7 @@ pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
             approach: place.rotation * Vector3::z(),
             closing: place.rotation * Vector3::x(),
             rolls: 1,
+            along: -(socket * Vector3::z()),
             ..goals[target.goal]
         }
     });

@@ -66,6 +66,7 @@ pub(super) fn shelf(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
         return None;
     }
     goal.approach = flat.normalize();
+    goal.along = goal.approach;
     goal.rolls = 0;
     goal.back = 0.15;
     let turn = UnitQuaternion::rotation_between(&Vector3::x(), &goal.approach)?;
@@ -91,6 +92,7 @@ fn hand_at(setting: &Setting, posture: &Posture) -> HandGoal {
         approach: palm.rotation * Vector3::z(),
         closing: palm.rotation * Vector3::x(),
         rolls: 0,
+        along: palm.rotation * Vector3::z(),
         back: 0.0,
         floor: f64::NEG_INFINITY,
     }

@@ -3,6 +3,7 @@
 use super::grasping::{KINDS, goal};
 use super::manipulator::{Fingers, Manipulator};
 use crate::parts::Holder;
+use coact_robot::{GripKind, GripSide};
 use glam::{DQuat, DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -14,6 +15,11 @@ const ANGLE: f64 = 0.05;
 
 /// One part there and back again; `Err` tells what went wrong.
 fn carry(kind: &str, seed: u64) -> Result<(), String> {
+    carry_in(None, kind, seed)
+}
+
+/// The same in another grip.
+fn carry_in(grip: Option<(GripKind, GripSide)>, kind: &str, seed: u64) -> Result<(), String> {
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut any = |low: f64, high: f64| random.random_range(low..high);
     let at = [any(-0.52, -0.44), any(0.50, 0.72)];
@@ -22,6 +28,7 @@ fn carry(kind: &str, seed: u64) -> Result<(), String> {
     let axis =
         DQuat::from_rotation_x(any(-ANGLE, ANGLE)) * DQuat::from_rotation_y(any(-ANGLE, ANGLE)) * DVec3::Z;
     let mut robot = Manipulator::new(kind, at);
+    robot.grip = grip.unwrap_or(robot.grip);
     robot.stay(50);
     let table = robot.world.task.scene.table_height;
     robot.pick(DVec3::new(at[0], at[1], table) + off, axis);
@@ -59,6 +66,16 @@ fn parts_are_lifted_turned_carried_and_put_down() {
     }
 }
 
+#[test]
+fn a_column_is_carried_in_every_grip() {
+    for kind in [GripKind::Precision, GripKind::WholeHand] {
+        for seed in 30..32 {
+            carry_in(Some((kind, GripSide::Beside)), "column 3", seed)
+                .unwrap_or_else(|fault| panic!("{kind:?}, seed {seed}: {fault}"));
+        }
+    }
+}
+
 /// `cargo test -p coact-world --release nineteen_of_twenty -- --ignored --nocapture`
 #[test]
 #[ignore = "takes minutes, and tells figures"]
@@ -71,10 +88,10 @@ fn nineteen_of_twenty_parts_of_each_kind_are_carried() {
 }
 
 #[test]
-fn what_was_gripped_by_its_edge_and_is_not_held_is_noticed_to_have_slipped() {
-    let (mut lost, mut slipped) = (0, 0);
-    for (seed, above) in [(0, 0.006), (0, 0.008), (1, 0.008), (0, 0.010), (1, 0.010), (0, 0.012), (1, 0.012)]
-    {
+fn what_was_gripped_by_its_edge_is_felt_only_as_long_as_it_is_held() {
+    let mut lost = 0;
+    let tries = [0.006, 0.008, 0.010, 0.012].into_iter().flat_map(|above| [(0, above), (1, above)]);
+    for (seed, above) in tries {
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         let mut robot = Manipulator::new("nut", [-0.40, random.random_range(0.50..0.70)]);
         robot.stay(50);
@@ -85,7 +102,6 @@ fn what_was_gripped_by_its_edge_and_is_not_held_is_noticed_to_have_slipped() {
         assert_eq!(robot.holds(), robot.out.sample.joints.touch > 0.0, "seed {seed}, {above} m too high");
         assert_eq!(noticed, held && !robot.holds(), "seed {seed}, {above} m too high");
         lost += u32::from(!robot.holds());
-        slipped += u32::from(noticed);
     }
-    assert!(lost > 0 && slipped > 0, "{lost} not held, {slipped} of them slipped");
+    assert!(lost > 0, "all were held");
 }

@@ -3,16 +3,23 @@
 use super::grasping::{KINDS, goal};
 use super::manipulator::Manipulator;
 use crate::parts::Holder;
+use coact_robot::{GripKind, GripSide};
 use glam::{DQuat, DVec3};
+
+/// Where the part lies, m.
+const AT: [f64; 2] = [-0.40, 0.60];
 
 /// Brings a part of `kind` to its place, its own frame so far aside and so far turned, in multiples of the tolerances.
 /// Tells whether it is in its place then, still in the hand, and whether it is mounted after it was let go.
 fn insert(kind: &str, aside: f64, tilt: f64) -> (bool, bool) {
-    let at = [-0.40, 0.60];
-    let mut robot = Manipulator::assembling(kind, at);
+    insert_with(Manipulator::assembling(kind, AT), kind, aside, tilt)
+}
+
+/// The same with this robot.
+fn insert_with(mut robot: Manipulator, kind: &str, aside: f64, tilt: f64) -> (bool, bool) {
     robot.stay(50);
     let table = robot.world.task.scene.table_height;
-    assert!(robot.pick(DVec3::new(at[0], at[1], table), DVec3::Z), "{kind}");
+    assert!(robot.pick(DVec3::new(AT[0], AT[1], table), DVec3::Z), "{kind}");
     let (goal, fit) = (goal(&robot), robot.world.task.scene.fit);
     let (socket, axis) = (DVec3::from(goal.socket), DVec3::from(goal.axis));
     let leans = axis.cross(if axis.z > 0.5 { DVec3::X } else { DVec3::Y });
@@ -29,6 +36,13 @@ fn part_within_the_tolerances_enters_its_place_and_is_mounted() {
             assert_eq!(insert(kind, aside, tilt), (true, true), "{kind}: {aside} x position, {tilt} x angle");
         }
     }
+}
+
+#[test]
+fn a_column_that_is_held_from_the_side_enters_its_hole() {
+    let mut robot = Manipulator::assembling("column 3", AT);
+    robot.grip = (GripKind::Precision, GripSide::Beside);
+    assert_eq!(insert_with(robot, "column 3", 0.0, 0.0), (true, true));
 }
 
 #[test]

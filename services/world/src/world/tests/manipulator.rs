@@ -3,10 +3,13 @@ use crate::body::Body;
 use crate::staging::Staging;
 use crate::{BodyKind, Partner, Script, Settings, World};
 use bytemuck::zeroed_box;
-use coact_joint_task::{Agent, Part, Subgoal, Task};
+use coact_joint_task::{Agent, Part, Shape, Subgoal, Task};
 use coact_messages::{ARM_JOINTS, Command};
 use coact_motion::{Aim, Margin, Mechanism, Problem, Scene};
-use coact_robot::{HandGoal, JointLimits, MotionState, Movement, Posture, ROBOT_JOINTS, Robot};
+use coact_robot::{
+    Form, Grip, GripKind, GripSide, Grips, HandGoal, JointLimits, MotionState, Movement, Next, Posture,
+    ROBOT_JOINTS, Robot,
+};
 use glam::{DQuat, DVec3};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use rand::{RngExt, SeedableRng};
@@ -15,7 +18,10 @@ use rand_pcg::Pcg64Mcg;
 /// How far before it grips or places something the hand is, m.
 const BACK: f64 = 0.15;
 /// Where it passes on its way there, m: joints that move together make no straight line.
-const NEARER: [f64; 3] = [0.06, 0.03, 0.012];
+const NEARER: [f64; 5] = [0.12, 0.09, 0.06, 0.03, 0.012];
+
+/// How parts are taken if nothing else is said.
+const ABOVE: (GripKind, GripSide) = (GripKind::Precision, GripSide::Above);
 
 /// A robot in the physics world with one part on the table, moved posture by posture.
 pub(super) struct Manipulator {
@@ -26,6 +32,8 @@ pub(super) struct Manipulator {
     limits: [JointLimits; ROBOT_JOINTS],
     at: [f64; ROBOT_JOINTS],
     tick: u64,
+    /// How it takes the part.
+    pub grip: (GripKind, GripSide),
     /// Largest deviation of an arm joint from its setpoint so far, rad.
     pub deviation: f64,
 }
@@ -90,7 +98,7 @@ impl Manipulator {
         let mut at = [0.0; ROBOT_JOINTS];
         at[..ARM_JOINTS].copy_from_slice(&robot.park);
         let limits = robot.limits();
-        Self { world, out: Out::new(), script, robot, limits, at, tick: 0, deviation: 0.0 }
+        Self { world, out: Out::new(), script, robot, limits, at, tick: 0, grip: ABOVE, deviation: 0.0 }
     }
 
     /// One that has taken a part of `kind` and holds it above the table; it took the part for lying up to 3 mm beside.
@@ -105,35 +113,55 @@ impl Manipulator {
         robot
     }
 
-    /// Shape and width of the part, m.
-    fn part(&self) -> (f64, f64) {
+    /// The grips for the part.
+    fn grips(&self) -> Grips {
         let kind = &self.world.task.kinds[self.world.parts.kind(0)];
-        (kind.shape.height(), kind.width)
+        let form = match kind.shape {
+            Shape::Cylinder { height, .. } => Form::round(kind.width, height),
+            Shape::Box { size } => Form::brick(size, kind.width),
+        };
+        Grips::of(&self.robot.hand, form, Next::Anything)
+    }
+
+    /// Whether this is the grip that it uses.
+    fn uses(&self, grip: &Grip) -> bool {
+        (grip.kind, grip.side) == self.grip
     }
 
     /// Postures for gripping the part when its frame is at `place` with its axis along `axis`.
     pub fn reach(&self, place: DVec3, axis: DVec3) -> (Posture, Posture) {
-        self.reach_from(BACK, place, axis)
+        self.bring(BACK, place, axis)
     }
 
-    fn reach_from(&self, back: f64, place: DVec3, axis: DVec3) -> (Posture, Posture) {
+    /// The same, and where the hand is `back` m before with the part in it, on the part's own axis.
+    fn bring(&self, back: f64, place: DVec3, axis: DVec3) -> (Posture, Posture) {
+        let along = -nalgebra::Vector3::from(axis.to_array());
+        self.reach_from(back, place, axis, |goal| HandGoal { along, ..goal })
+    }
+
+    fn reach_from(
+        &self,
+        back: f64,
+        place: DVec3,
+        axis: DVec3,
+        goal: impl Fn(HandGoal) -> HandGoal,
+    ) -> (Posture, Posture) {
         let turn = DQuat::from_rotation_arc(DVec3::Z, axis);
         let turn = UnitQuaternion::from_quaternion(Quaternion::new(turn.w, turn.x, turn.y, turn.z));
         let frame = Isometry3::from_parts(Translation3::new(place.x, place.y, place.z), turn);
-        let (height, width) = self.part();
-        let goal = HandGoal::grip(&frame, height, 0, back, self.world.task.scene.table_height);
-        let deeper = self.robot.hand.grasp_distance - self.robot.hand.grasp(width, 0.0).depth;
-        let goal = HandGoal { point: goal.point + goal.approach * deeper, ..goal };
+        let grips = self.grips();
+        let goals = grips.goals(&frame, back, self.world.task.scene.table_height);
+        let goals =
+            goals.into_iter().filter(|(grip, _)| self.uses(&grips.all[*grip])).map(|(_, own)| goal(own));
         let from: Posture = self.at[..ARM_JOINTS].try_into().unwrap();
         let mechanism = Mechanism::of(&self.robot).unwrap();
-        let open = self.robot.hand.grasp(width, 0.01).angles;
         let problem = Problem {
             mechanism: &mechanism,
-            body: &mechanism.with_fingers(&self.robot.hand, &open).unwrap(),
+            body: &mechanism.with_fingers(&self.robot.hand, &grips.open).unwrap(),
             scene: &Scene::default(),
             start: from.map(MotionState::at_rest),
             leave: None,
-            aim: Aim::Hand(vec![goal]),
+            aim: Aim::Hand(goals.collect()),
             then: Vec::new(),
             guide: 0.0,
             margin: Margin::default(),
@@ -149,14 +177,15 @@ impl Manipulator {
 
     /// The same; `look` sees every tick.
     pub fn watch(&mut self, arm: &Posture, fingers: Fingers, mut look: impl FnMut(&Self)) {
-        let width = self.part().1;
-        let gap = match fingers {
-            Fingers::Open => 0.01,
-            Fingers::Closed => -0.3 * width,
+        let grips = self.grips();
+        let grip = grips.all.iter().find(|grip| self.uses(grip)).unwrap();
+        let angles = match fingers {
+            Fingers::Open => grips.open,
+            Fingers::Closed => grip.fingers(&self.robot.hand, &grips.form, -0.3 * grips.form.width),
         };
         let mut target = [0.0; ROBOT_JOINTS];
         target[..ARM_JOINTS].copy_from_slice(arm);
-        target[ARM_JOINTS..].copy_from_slice(&self.robot.hand.grasp(width, gap).angles);
+        target[ARM_JOINTS..].copy_from_slice(&angles);
         let movement = Movement::plan(self.at.map(MotionState::at_rest), target, &self.limits).unwrap();
         let ticks = (movement.duration * 1e3).ceil() as u64;
         for tick in 1..=ticks {
@@ -199,24 +228,29 @@ impl Manipulator {
     /// Takes the part from where it is thought to be, its axis along `axis`, and lifts it. Tells whether it was held
     /// before it was lifted.
     pub fn pick(&mut self, thought: DVec3, axis: DVec3) -> bool {
-        let (before, at) = self.reach(thought, axis);
-        self.go(&before, Fingers::Open);
+        let (high, _) = self.reach(thought + BACK * axis, axis);
+        self.go(&high, Fingers::Open);
+        for back in [BACK].iter().chain(&NEARER) {
+            let (nearer, _) = self.reach_from(*back, thought, axis, |goal| goal);
+            self.go(&nearer, Fingers::Open);
+        }
+        let (_, at) = self.reach(thought, axis);
         self.go(&at, Fingers::Open);
         self.go(&at, Fingers::Closed);
         self.stay(100);
         let held = self.holds();
-        self.go(&before, Fingers::Closed);
+        let (lifted, _) = self.reach(thought, axis);
+        self.go(&lifted, Fingers::Closed);
         held
     }
 
     /// Brings the held part to `place`, its axis along `axis`, and lets it go there. Tells where it was just before.
     pub fn put(&mut self, place: DVec3, axis: DVec3) -> (DVec3, DQuat) {
-        let (before, at) = self.reach(place, axis);
-        self.go(&before, Fingers::Closed);
-        for back in NEARER {
-            let (nearer, _) = self.reach_from(back, place, axis);
+        for back in [BACK].iter().chain(&NEARER) {
+            let (nearer, _) = self.bring(*back, place, axis);
             self.go(&nearer, Fingers::Closed);
         }
+        let (before, at) = self.reach_from(BACK, place, axis, |goal| goal);
         self.go(&at, Fingers::Closed);
         let brought = (self.world.parts.position(0), self.world.parts.orientation(0));
         self.go(&at, Fingers::Open);

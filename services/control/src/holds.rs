@@ -1,0 +1,100 @@
+use crate::ControlError;
+use coact_joint_task::{Shape, Task};
+use coact_robot::{Form, Grip, GripSide, Grips, HAND_JOINTS, Hand, HandGoal, Next};
+use nalgebra::Isometry3;
+
+/// All the ways in which the hand can hold the parts of a task. Memory names each of them by its index.
+#[derive(Debug, Clone)]
+pub(crate) struct Holds {
+    /// Those of each kind of part.
+    grips: Vec<Grips>,
+    all: Vec<Hold>,
+}
+
+/// One way to hold a kind of part.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Hold {
+    pub kind: usize,
+    pub grip: Grip,
+    /// Angles of the hand's joints that is closed on it, rad.
+    pub closed: [f64; HAND_JOINTS],
+}
+
+/// How far into a part each finger is told to close, as a share of its width: what makes them press.
+const SQUEEZE: f64 = 0.3;
+
+impl Holds {
+    /// # Errors
+    /// [`ControlError::Ungraspable`] when the hand has no grip for a kind of part.
+    pub fn new(hand: &Hand, task: &Task) -> Result<Self, ControlError> {
+        let of_kind = |kind: &coact_joint_task::Kind| {
+            let form = match kind.shape {
+                Shape::Cylinder { height, .. } => Form::round(kind.width, height),
+                Shape::Box { size } => Form::brick(size, kind.width),
+            };
+            Grips::of(hand, form, Next::Anything)
+        };
+        let grips: Vec<Grips> = task.kinds.iter().map(of_kind).collect();
+        if let Some(kind) = grips.iter().position(|grips| grips.all.is_empty()) {
+            let (name, width) = (task.kinds[kind].name.clone(), task.kinds[kind].width);
+            return Err(ControlError::Ungraspable { name, width });
+        }
+        let holds = grips.iter().enumerate().flat_map(|(kind, grips)| {
+            grips.all.iter().map(move |grip| {
+                let closed = grip.fingers(hand, &grips.form, -SQUEEZE * grips.form.width);
+                Hold { kind, grip: *grip, closed }
+            })
+        });
+        Ok(Self { all: holds.collect(), grips })
+    }
+
+    /// All of them.
+    pub fn all(&self) -> &[Hold] {
+        &self.all
+    }
+
+    /// What is gripped of a kind.
+    pub fn form(&self, kind: usize) -> &Form {
+        &self.grips[kind].form
+    }
+
+    /// The hand open around a part of this kind, whichever way it takes it: angles of its joints, rad.
+    pub fn around(&self, kind: usize) -> [f64; HAND_JOINTS] {
+        self.grips[kind].open
+    }
+
+    /// The hold that a word of memory names, when it is one of this kind; else the kind's first one.
+    pub fn known(&self, word: u64, kind: usize) -> usize {
+        let named =
+            usize::try_from(word).ok().filter(|hold| self.all.get(*hold).is_some_and(|h| h.kind == kind));
+        named.unwrap_or_else(|| self.first(kind))
+    }
+
+    /// Goals of the hand that takes, or brings, a part whose frame is `frame`, each with its hold: of all that serve what
+    /// is done next. The approach begins `back` m before; shoulder, elbow and wrist stay above `floor` m.
+    pub fn goals(
+        &self,
+        kind: usize,
+        next: Next,
+        frame: &Isometry3<f64>,
+        back: f64,
+        floor: f64,
+    ) -> impl Iterator<Item = (HandGoal, usize)> {
+        let (grips, first) = (&self.grips[kind], self.first(kind));
+        let serves = move |grip: &Grip| grip.serves(&grips.form, next);
+        let any = grips.all.iter().any(serves);
+        let goals = grips.goals(frame, back, floor).into_iter();
+        goals
+            .filter(move |(grip, _)| !any || serves(&grips.all[*grip]))
+            .map(move |(grip, goal)| (goal, first + grip))
+    }
+
+    /// Whether the hand comes from above in this hold.
+    pub fn is_from_above(&self, hold: usize) -> bool {
+        self.all[hold].grip.side == GripSide::Above
+    }
+
+    fn first(&self, kind: usize) -> usize {
+        self.all.iter().take_while(|hold| hold.kind < kind).count()
+    }
+}
