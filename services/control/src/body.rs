@@ -22,6 +22,8 @@ pub(crate) enum Fingers {
     Around(usize),
     /// Closed on a part in one of the [`Holds`].
     On(usize),
+    /// Open around it in that one.
+    Off(usize),
     /// Together, to press on something or to point.
     Slender,
     /// Wide open, held out.
@@ -62,6 +64,7 @@ impl Body {
             Fingers::Relaxed => self.relaxed,
             Fingers::Around(kind) => self.holds.around(kind),
             Fingers::On(hold) => self.holds.all()[hold].closed,
+            Fingers::Off(hold) => self.holds.all()[hold].open,
             Fingers::Slender => self.slender,
             Fingers::HeldOut => self.robot.hand.posture(HELD_OUT),
         }
@@ -75,10 +78,11 @@ impl Body {
     }
 
     /// What the fingers do on the way to an errand's goal, with a part in `hold` or none.
-    pub fn on_the_way(errand: Errand, kind: Option<usize>, hold: Option<usize>) -> Fingers {
+    pub fn on_the_way(&self, errand: Errand, kind: Option<usize>, hold: Option<usize>) -> Fingers {
         match (errand, hold, kind) {
             (_, Some(hold), _) => Fingers::On(hold),
-            (Errand::Take | Errand::Receive, _, Some(kind)) => Fingers::Around(kind),
+            (Errand::Take, _, Some(kind)) => Fingers::Around(kind),
+            (Errand::Receive, _, Some(kind)) => Fingers::Off(self.holds.received(kind)),
             (Errand::Ask, ..) => Fingers::HeldOut,
             (Errand::Steady | Errand::Point, ..) => Fingers::Slender,
             _ => Fingers::Relaxed,

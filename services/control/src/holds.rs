@@ -16,8 +16,9 @@ pub(crate) struct Holds {
 pub(crate) struct Hold {
     pub kind: usize,
     pub grip: Grip,
-    /// Angles of the hand's joints that is closed on it, rad.
+    /// Angles of the hand's joints that is closed on it, and of one that has let it go, rad.
     pub closed: [f64; HAND_JOINTS],
+    pub open: [f64; HAND_JOINTS],
 }
 
 /// How far into a part each finger is told to close, as a share of its width: what makes them press.
@@ -42,7 +43,7 @@ impl Holds {
         let holds = grips.iter().enumerate().flat_map(|(kind, grips)| {
             grips.all.iter().map(move |grip| {
                 let closed = grip.fingers(hand, &grips.form, -SQUEEZE * grips.form.width);
-                Hold { kind, grip: *grip, closed }
+                Hold { kind, grip: *grip, closed, open: grip.open(hand, &grips.form) }
             })
         });
         Ok(Self { all: holds.collect(), grips })
@@ -89,9 +90,10 @@ impl Holds {
             .map(move |(grip, goal)| (goal, first + grip))
     }
 
-    /// Whether the hand comes from above in this hold.
-    pub fn is_from_above(&self, hold: usize) -> bool {
-        self.all[hold].grip.side == GripSide::Above
+    /// How a part of this kind is taken out of a person's hand: from above, where that is not.
+    pub fn received(&self, kind: usize) -> usize {
+        let is_from_above = |hold: &Hold| hold.kind == kind && hold.grip.side == GripSide::Above;
+        self.all.iter().position(is_from_above).unwrap_or_else(|| self.first(kind))
     }
 
     fn first(&self, kind: usize) -> usize {

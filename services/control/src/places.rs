@@ -66,12 +66,10 @@ impl Places {
         goals.map(|(goal, hold)| (goal, Some(hold))).collect()
     }
 
-    /// The goal with the hand on a part that the person holds out, or before it: from above, where the person's hand is not.
+    /// The goals with the hand on a part that the person holds out, or before it.
     fn receives(&self, kind: usize, frame: &Isometry3<f64>, before: bool) -> Vec<Offer> {
         let mut goals = self.takes(kind, Next::Anything, frame);
-        if goals.iter().any(|(_, hold)| hold.is_some_and(|hold| self.holds.is_from_above(hold))) {
-            goals.retain(|(_, hold)| hold.is_some_and(|hold| self.holds.is_from_above(hold)));
-        }
+        goals.retain(|(_, hold)| *hold == Some(self.holds.received(kind)));
         for (goal, _) in &mut goals {
             goal.point -= if before { goal.along * BACK } else { Vector3::zeros() };
             goal.back = if before { 0.0 } else { STRAIGHT };

@@ -83,7 +83,7 @@ impl Planner {
     /// The movement that is asked for, one that only gets the hand free, or none.
     pub fn answer(&mut self, request: &Request) -> Answer {
         let refused = Answer { id: request.id, course: None, hold: None, withdraws: false };
-        let wanted = Body::on_the_way(request.errand, request.kind, request.hold);
+        let wanted = self.body.on_the_way(request.errand, request.kind, request.hold);
         let offers = self.places.goals(request);
         let (scene, alone) =
             (self.scene(request, &offers), self.scene(&Request { person: None, ..*request }, &offers));

@@ -1,7 +1,7 @@
 //! The legs of each errand, one after the other.
 
 use crate::Control;
-use crate::body::{Body, Fingers};
+use crate::body::Fingers;
 use crate::choice::Choice;
 use crate::errand::{Errand, Leg};
 use crate::memory::{self, pose};
@@ -108,7 +108,7 @@ impl Control {
     /// The fingers take the shape that the errand needs, from when the hand has left the place where it was.
     fn shape_fingers(&mut self) {
         let (errand, kind) = (self.memory.errand(), self.memory.kind());
-        let wanted = self.body.finger_joints(Body::on_the_way(errand, kind, self.hold()));
+        let wanted = self.body.finger_joints(self.body.on_the_way(errand, kind, self.hold()));
         let left = self.memory.begins == 0 && self.memory.elapsed >= self.memory.course.left;
         if left && self.memory.finger_target != wanted {
             self.servo.launch_fingers(&mut self.memory, wanted);
@@ -268,11 +268,9 @@ impl Control {
 
     /// Closes or opens the fingers where the hand is.
     fn grip(&mut self, leg: Leg) {
-        let fingers = match self.memory.kind() {
-            Some(kind) if leg == Leg::Close => Fingers::On(self.body.holds.known(self.memory.hold, kind)),
-            Some(kind) => Fingers::Around(kind),
-            None => Fingers::Relaxed,
-        };
+        let hold = self.memory.kind().map(|kind| self.body.holds.known(self.memory.hold, kind));
+        let shape = if leg == Leg::Close { Fingers::On } else { Fingers::Off };
+        let fingers = hold.map_or(Fingers::Relaxed, shape);
         self.servo.launch_fingers(&mut self.memory, self.body.finger_joints(fingers));
         self.memory.enter(leg);
     }

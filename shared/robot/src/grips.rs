@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 pub struct Grips {
     /// What is gripped.
     pub form: Form,
-    /// Angles of the hand's joints before the grasp, in message order, rad.
+    /// Angles of the hand's joints before the grasp, open enough for any of the grips, in message order, rad.
     pub open: [f64; HAND_JOINTS],
     /// The grips; none where the hand does not open wide enough.
     pub all: Vec<Grip>,
@@ -83,9 +83,6 @@ const POINTS: u32 = 16;
 impl Grips {
     /// All grips of a form that serve what follows; where none serves it, all.
     pub fn of(hand: &Hand, form: Form, next: Next) -> Self {
-        let above = hand.grasp(form.width, GAP).angles;
-        let beside = pinching(hand, form.width, GAP);
-        let open = std::array::from_fn(|joint| above[joint].min(beside[joint]));
         let fits = form.width + 2.0 * GAP <= hand.width(hand.joints[1].limits.lower);
         let found =
             [Grip::from_above(hand, &form), Grip::pinching(hand, &form), Grip::enclosing(hand, &form)];
@@ -93,6 +90,11 @@ impl Grips {
         if all.iter().any(|grip| grip.serves(&form, next)) {
             all.retain(|grip| grip.serves(&form, next));
         }
+        let opened = all.iter().map(|grip| grip.open(hand, &form));
+        let wider = |one: [f64; HAND_JOINTS], other: [f64; HAND_JOINTS]| {
+            std::array::from_fn(|joint| one[joint].min(other[joint]))
+        };
+        let open = opened.reduce(wider).unwrap_or_else(|| hand.grasp(form.width, GAP).angles);
         Self { form, open, all, grasp_distance: hand.grasp_distance }
     }
 
@@ -137,6 +139,14 @@ impl Grip {
             }
             (GripKind::Precision, GripSide::Above) => hand.grasp(form.width, gap).angles,
             (GripKind::Precision, GripSide::Beside) => pinching(hand, form.width, gap),
+        }
+    }
+
+    /// Angles of the hand's joints, rad, in message order, that is open enough to come to the form in this grip.
+    pub fn open(&self, hand: &Hand, form: &Form) -> [f64; HAND_JOINTS] {
+        match self.side {
+            GripSide::Above => hand.grasp(form.width, GAP).angles,
+            GripSide::Beside => pinching(hand, form.width, GAP),
         }
     }
 
