@@ -68,7 +68,7 @@ impl Clearance<'_> {
     }
 
     /// Names both sides of a nearness.
-    pub fn names(&self, near: &Near) -> (String, String) {
+    pub(crate) fn names(&self, near: &Near) -> (String, String) {
         let other = match near.other {
             Other::Obstacle(index) => &self.scene.obstacles[index].name,
             Other::Bone(index) => &self.body.bones[index].name,

@@ -43,6 +43,7 @@ mod choice;
 mod clearance;
 mod comfort;
 mod detour;
+mod guide;
 mod hand_path;
 mod links;
 mod mechanism;

@@ -1,3 +1,4 @@
+use crate::guide::Guide;
 use crate::plan::load;
 use crate::straight::Change;
 use crate::trajectory::CHECKED;
@@ -100,8 +101,9 @@ impl Route {
         mechanism: &'a Mechanism,
         stages: &[Stage],
         room: &dyn Fn(f64) -> (Clearance<'a>, f64),
+        guide: Option<Guide>,
     ) -> Change {
-        straight::smoothest(mechanism, stages, self.passing == Passing::Smooth, room)
+        straight::smoothest(mechanism, stages, self.passing == Passing::Smooth, room, guide)
     }
 
     /// The same route with a change of these stages, its own.

@@ -1,6 +1,5 @@
 use crate::choice::Choice;
 use crate::route::{Passing, Route};
-use crate::solver::Solver;
 use crate::way::Way;
 use crate::work::Work;
 use crate::{Aim, Plan, Problem, Refusal, Stage, StageKind, Target, detour};
@@ -15,8 +14,6 @@ pub(crate) struct Search<'a> {
     /// What it may do.
     pub work: &'a Work,
     pub choice: Choice,
-    /// For the targets, by their posture: the one at which the last, straight part of the approach begins.
-    pub guided: Vec<(Posture, Posture)>,
 }
 
 /// How stages are joined where they cannot be joined smoothly: ever more straightly and slowly.
@@ -38,7 +35,6 @@ impl<'a> Search<'a> {
     /// # Errors
     /// The constraint that binds.
     pub fn run(mut self, targets: &[Target]) -> Result<Plan, Refusal> {
-        self.guided = targets.iter().filter_map(|target| Some((target.at, self.guided(target)?))).collect();
         let kinds: [fn(&mut Self, &Target); 4] =
             [Self::direct, Self::through_the_middle, Self::straighter, Self::bounce];
         for few in targets.chunks(AT_ONCE) {
@@ -190,9 +186,7 @@ impl<'a> Search<'a> {
         let limits = mechanism.limits();
         let leave = self.away.map(|away| (StageKind::Leave, away));
         let reaches = vias.iter().chain([&target.before]).map(|posture| (StageKind::Reach, *posture));
-        let guided = self.guided.iter().find(|(at, _)| *at == target.at).map(|(_, guided)| *guided);
-        let approach = guided.into_iter().chain((target.before != target.at).then_some(target.at));
-        let approach = approach.map(|posture| (StageKind::Approach, posture));
+        let approach = (target.before != target.at).then_some((StageKind::Approach, target.at));
         let legs = leave.into_iter().chain(reaches).chain(approach).collect();
         let route = Route::new(mechanism, start, legs, passing).smoothest(mechanism, &limits);
         let (clearance, touching) = (self.problem.clearance(), self.problem.touching());
@@ -203,13 +197,5 @@ impl<'a> Search<'a> {
     fn guide(&self, target: &Target) -> Vector3<f64> {
         let goal = if let Aim::Hand(goals) = &self.problem.aim { goals.get(target.goal) } else { None };
         goal.map_or_else(Vector3::zeros, |goal| goal.along * self.problem.guide)
-    }
-
-    /// The posture at which the last, straight part of the approach begins, where there is one.
-    fn guided(&self, target: &Target) -> Option<Posture> {
-        let Aim::Hand(goals) = &self.problem.aim else { return None };
-        let goal = goals.get(target.goal).filter(|goal| (0.0..goal.back).contains(&self.problem.guide))?;
-        let solver = Solver { clearance: self.problem.touching(), from: &target.at, margin: 0.0 };
-        (self.problem.guide > 0.0).then(|| solver.reach(goal, target.roll, self.problem.guide, &target.at))?
     }
 }

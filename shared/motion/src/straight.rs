@@ -3,10 +3,11 @@
 
 use crate::body::Frames;
 use crate::comfort::WEIGHT;
+use crate::guide::Guide;
 use crate::trajectory::excursion;
 use crate::{Clearance, Mechanism, Stage, StageKind};
 use coact_robot::{MotionState, Posture, Quintic};
-use nalgebra::{DMatrix, DVector, Matrix3xX, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3xX, Point3, SMatrix, Vector3};
 
 /// Places of the hand between which its jerk is measured.
 const PIECES: usize = 36;
@@ -17,10 +18,13 @@ const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.1];
 const JOINTS: f64 = 0.03;
 
 /// What a joint beyond its limits of position costs at each place, 1/rad², the distance from them that is kept, rad, and
-/// what coming too near to something costs, 1/m².
+/// what coming too near to something costs, 1/m², and what being off the line to the goal costs, 1/m².
 const BEYOND: f64 = 1e7;
 const FROM_LIMITS: f64 = 0.01;
 const TOO_NEAR: f64 = 1e7;
+const OFF_LINE: f64 = 3e7;
+/// What it costs to pass the posture before the goal elsewhere, 1/rad².
+const MOVED: f64 = 1e4;
 
 /// What may be changed: for each joint the bounce of the reach and, where they are free, velocity and acceleration at
 /// each posture passed, as for a movement of 1 s; and the posture itself where it lies between two reaches.
@@ -31,14 +35,16 @@ pub(crate) struct Change {
 }
 
 /// The change of these stages for which the jerk of hand and joints is least.
-/// `room`: the distances that count at an instant of the stages, and how much of them is kept, m.
+/// `room`: the distances that count at an instant of the stages, and how much of them is kept, m. `guide`: the line of the
+/// last stage.
 pub(crate) fn smoothest<'a>(
     mechanism: &'a Mechanism,
     stages: &[Stage],
     is_free: bool,
     room: &dyn Fn(f64) -> (Clearance<'a>, f64),
+    guide: Option<Guide>,
 ) -> Change {
-    let smoothing = Smoothing::of(mechanism, stages, is_free, room);
+    let smoothing = Smoothing::of(mechanism, stages, is_free, room, guide);
     let mut best = DVector::zeros(7 * smoothing.shapes.len());
     let mut way = smoothing.way(&best);
     for _ in 0..STEPS {
@@ -65,6 +71,11 @@ struct Smoothing<'a> {
     postures: Vec<Posture>,
     /// Distances that count there, and how much of them is kept, m.
     room: Vec<(Clearance<'a>, f64)>,
+    /// The line to the goal, and the step at which the stage that ends there begins.
+    guide: Option<Guide>,
+    last: usize,
+    /// The shape that moves the posture before the goal.
+    moved: Option<usize>,
     /// Shapes of the changes at these steps, the same for all joints.
     shapes: Vec<Vec<f64>>,
     /// Third differences of the shapes, as jerks.
@@ -87,10 +98,12 @@ impl<'a> Smoothing<'a> {
         stages: &[Stage],
         is_free: bool,
         room: &dyn Fn(f64) -> (Clearance<'a>, f64),
+        guide: Option<Guide>,
     ) -> Self {
         let total: f64 = stages.iter().map(|stage| stage.trajectory.duration).sum();
         let mut shapes = vec![Vec::new(); 1 + if is_free { 3 * (stages.len() - 1) } else { 0 }];
         let mut postures = Vec::new();
+        let mut moved = None;
         for piece in 0..=PIECES {
             let (mut t, mut index) = (piece as f64 / PIECES as f64 * total, 0);
             while index + 1 < stages.len() && t >= stages[index].trajectory.duration {
@@ -104,8 +117,13 @@ impl<'a> Smoothing<'a> {
             shapes[0].push(if *kind == StageKind::Reach { share } else { 0.0 });
             for (shape, values) in shapes.iter_mut().enumerate().skip(1) {
                 let (via, order) = ((shape - 1) / 3, (shape - 1) % 3);
-                let is_between = [via, via + 1].iter().all(|stage| stages[*stage].kind == StageKind::Reach);
+                let kinds = [stages[via].kind, stages[via + 1].kind];
+                let is_between = kinds == [StageKind::Reach; 2]
+                    || guide.is_some() && kinds == [StageKind::Reach, StageKind::Approach];
                 let of = |which: usize| if order == which { 1.0 } else { 0.0 };
+                if is_between && order == 0 && kinds[1] == StageKind::Approach {
+                    moved = Some(shape);
+                }
                 let position = if is_between { of(0) } else { 0.0 };
                 let moved = MotionState { position, velocity: of(1), acceleration: of(2) };
                 let rest = MotionState::default();
@@ -118,7 +136,9 @@ impl<'a> Smoothing<'a> {
         }
         let room = (0..=PIECES).map(|piece| room(piece as f64 / PIECES as f64 * total)).collect();
         let jerks = shapes.iter().map(|shape| shape.windows(4).map(|p| third(p) * UNIT).collect()).collect();
-        Self { mechanism, postures, room, shapes, jerks }
+        let last = total - stages.last().map_or(0.0, |stage| stage.trajectory.duration);
+        let last = (last / total * PIECES as f64).ceil() as usize;
+        Self { mechanism, postures, room, guide, last, moved, shapes, jerks }
     }
 
     fn way(&self, change: &DVector<f64>) -> Way {
@@ -135,6 +155,7 @@ impl<'a> Smoothing<'a> {
             .collect();
         let mut places = Vec::with_capacity(PIECES + 1);
         let mut slopes = Vec::with_capacity(PIECES + 1);
+        let mut broken = self.broken(&postures);
         for (piece, posture) in postures.iter().enumerate() {
             let frames = Frames::of(self.mechanism, posture);
             let hand = frames.pose[joints - 1] * self.mechanism.arm.tool * self.mechanism.grasp_point();
@@ -143,10 +164,12 @@ impl<'a> Smoothing<'a> {
             for (shape, values) in self.shapes.iter().enumerate() {
                 slope.fixed_columns_mut::<7>(7 * shape).copy_from(&(values[piece] * jacobian));
             }
+            if let Some(guide) = self.guide.filter(|_| piece >= self.last) {
+                broken.extend(off_line(&guide, &hand, &jacobian).map(|(off, slope)| (piece, off, slope)));
+            }
             places.push(hand.coords);
             slopes.push(slope);
         }
-        let broken = self.broken(&postures);
         let length: f64 = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
         let unit = UNIT / length.max(1e-3);
         let jerk: Vec<_> = places.windows(4).map(|p| (p[3] - p[0] + 3.0 * (p[1] - p[2])) * unit).collect();
@@ -157,7 +180,9 @@ impl<'a> Smoothing<'a> {
                 WEIGHT[joint] * angles.windows(4).map(|p| (third(p) * UNIT).powi(2)).sum::<f64>()
             })
             .sum();
-        let merit = jerk.iter().map(Vector3::norm_squared).sum::<f64>()
+        let moved = |shape: usize| MOVED * change.rows(7 * shape, 7).norm_squared();
+        let merit = self.moved.map_or(0.0, moved)
+            + jerk.iter().map(Vector3::norm_squared).sum::<f64>()
             + JOINTS * of_joints
             + broken.iter().map(|(_, amount, _)| amount * amount).sum::<f64>();
         Way { merit, jerk, slope, broken }
@@ -204,6 +229,10 @@ impl<'a> Smoothing<'a> {
             matrix.ger(1.0, &row, &row, 1.0);
             right.axpy(-amount, &row, 1.0);
         }
+        for variable in self.moved.into_iter().flat_map(|shape| 7 * shape..7 * shape + 7) {
+            matrix[(variable, variable)] += MOVED;
+            right[variable] -= MOVED * change[variable];
+        }
         for one in 0..count {
             for joint in 0..7 {
                 let angles: Vec<f64> = self.postures.iter().map(|posture| posture[joint]).collect();
@@ -221,6 +250,18 @@ impl<'a> Smoothing<'a> {
         }
         matrix.cholesky().map(|factors| factors.solve(&right))
     }
+}
+
+/// How far the hand is off its line, along each axis of the world, and the change of that by the joints.
+fn off_line(
+    guide: &Guide,
+    hand: &Point3<f64>,
+    jacobian: &SMatrix<f64, 3, 7>,
+) -> impl Iterator<Item = (f64, Posture)> + use<> {
+    let slopes = guide.across() * jacobian * OFF_LINE.sqrt();
+    let slope = move |axis: usize| std::array::from_fn(|joint| slopes[(axis, joint)]);
+    let aside = guide.aside(hand).into_iter();
+    aside.flat_map(move |aside| (0..3).map(move |axis| (aside[axis] * OFF_LINE.sqrt(), slope(axis))))
 }
 
 /// Third difference of four values.

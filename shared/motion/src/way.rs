@@ -1,5 +1,6 @@
 use crate::bell::during;
 use crate::comfort::{WEIGHT, cost};
+use crate::guide::Guide;
 use crate::quadratic::Quadratic;
 use crate::roughness::Roughness;
 use crate::route::Route;
@@ -33,8 +34,6 @@ const WATCHED: u32 = 24;
 const CHECKED: u32 = 96;
 /// Postures that making a movement smooth looks at, about.
 const SMOOTHING: u32 = 300;
-/// How far the hand may be off its line at the goal, m, and how much more for each metre before it.
-const OFF_LINE: (f64, f64) = (0.002, 0.1);
 /// Steps of one search.
 const STEPS: u32 = 25;
 /// Bones nearer than this are watched, m, beyond the margin.
@@ -93,7 +92,8 @@ impl<'a> Way<'a> {
         if !self.work.spend(SMOOTHING) {
             return None;
         }
-        let change = self.route.smoothing(self.clearance.mechanism, stages, &room);
+        let guide = self.guide(stages);
+        let change = self.route.smoothing(self.clearance.mechanism, stages, &room, guide);
         let stages = self.route.changed(stages, &change).timed(&self.limits).ok()?;
         self.check(&stages).is_ok().then_some(stages)
     }
@@ -114,29 +114,21 @@ impl<'a> Way<'a> {
 
     /// The hand must keep to the line of its approach where what it holds goes into something.
     fn check_guided(&self, stages: &[Stage]) -> Result<(), Refusal> {
-        let length = self.guide.norm();
-        let Some(last) = stages.last().filter(|_| length > 0.0) else { return Ok(()) };
-        let mechanism = self.clearance.mechanism;
-        let palm = |posture: &Posture| mechanism.arm.palm(posture);
-        let end = palm(&last.trajectory.posture(1.0)) * mechanism.grasp_point();
-        let line = self.guide / length;
-        let approaches = stages.iter().filter(|stage| stage.kind == StageKind::Approach);
-        let off = approaches.flat_map(|stage| {
-            let postures =
-                (0..=WATCHED).map(|point| stage.trajectory.posture(f64::from(point) / f64::from(WATCHED)));
-            postures.map(|posture| {
-                let way = palm(&posture) * mechanism.grasp_point() - end;
-                let before = -way.dot(&line);
-                let aside = (way + before * line).norm();
-                if before < length { aside - OFF_LINE.0 - OFF_LINE.1 * before.max(0.0) } else { 0.0 }
-            })
-        });
-        let short = off.fold(0.0, f64::max);
+        let (mechanism, last) = (self.clearance.mechanism, stages.last());
+        let Some((guide, last)) = self.guide(stages).zip(last) else { return Ok(()) };
+        let postures =
+            (0..=WATCHED).map(|point| last.trajectory.posture(f64::from(point) / f64::from(WATCHED)));
+        let places = postures.map(|posture| mechanism.arm.palm(&posture) * mechanism.grasp_point());
+        let short = places.map(|place| guide.excess(&place)).fold(0.0, f64::max);
         if short > 0.0 {
             let (bone, other) = ("the hand".to_owned(), "the side of the place that it goes into".to_owned());
             return Err(Refusal::Way { bone, other, short, share: 100.0 });
         }
         Ok(())
+    }
+
+    fn guide(&self, stages: &[Stage]) -> Option<Guide> {
+        Guide::to_end_of(self.clearance.mechanism, stages, self.guide)
     }
 
     /// The distances that count at an instant of these stages, and how much of them is kept, m.

@@ -33,6 +33,8 @@ Keys of random, after a colon, separated by commas:
                            at it; an action that comes with a sentence of the task that means the same
   clarity=LOW..HIGH        of a grip: 1 its own pitch, 0 the middle between it and the nearest other grip's
   dropouts                 bursts per second in which the tracker loses the hand
+  withdraws, late          shares: parts in both hands that the person lets go, or takes back, too early; offered parts
+                           for which the person comes 2 to 6 s late
   movement=LOW..HIGH       movement time of a reach, ms
 
 Exit status: 0, or 2 for bad usage or configuration.")]

@@ -15,6 +15,8 @@ pub struct Case {
     pub leave: Option<(Vector3<f64>, f64)>,
     /// Where to.
     pub aim: Aim,
+    /// Last part of the approach on which the hand keeps to its line, m.
+    pub guide: f64,
 }
 
 impl Case {
@@ -28,7 +30,7 @@ impl Case {
             leave: self.leave,
             aim: self.aim.clone(),
             then: Vec::new(),
-            guide: 0.0,
+            guide: self.guide,
             margin: Margin::default(),
         }
     }

@@ -11,6 +11,8 @@ use rand_pcg::Pcg64;
 /// Distance of the pose before a grasp or a socket, and of leaving, m.
 const BEFORE: f64 = 0.15;
 const AWAY: f64 = 0.05;
+/// How deep parts go into their sockets at most, m.
+const DEEP: f64 = 0.03;
 /// Turns in which a round part is inserted.
 const TURNS: u32 = 12;
 
@@ -43,15 +45,15 @@ fn pick_of(setting: &Setting, next: Next, random: &mut Pcg64) -> Option<Pick> {
     let start = near_park(setting, random);
     let offers = grips.goals(&places[part], BEFORE, f64::NEG_INFINITY);
     let (grips, goals) = offers.into_iter().map(|(index, goal)| (grips.all[index], goal)).unzip();
-    let case =
-        Case { body, scene, start: start.map(MotionState::at_rest), leave: None, aim: Aim::Hand(goals) };
+    let (start, aim) = (start.map(MotionState::at_rest), Aim::Hand(goals));
+    let case = Case { body, scene, start, leave: None, aim, guide: 0.0 };
     case.starts_clear(&setting.mechanism).then_some(Pick { case, part, form, grips })
 }
 
 /// With a part that was picked into its socket.
 pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
     let task = setting.task.as_ref()?;
-    let Pick { case: picked, part, form, grips } = pick_of(setting, Next::Insert { depth: 0.0 }, random)?;
+    let Pick { case: picked, part, form, grips } = pick_of(setting, Next::Insert { depth: DEEP }, random)?;
     let name = part_name(part);
     let plan = picked.problem(&setting.mechanism).plan().ok()?;
     let target = plan.target?;
@@ -91,6 +93,7 @@ pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
         start: plan.end().map(MotionState::at_rest),
         leave: Some((Vector3::z(), AWAY)),
         aim: Aim::Hand(goals),
+        guide: DEEP,
     };
     Some(case)
 }
@@ -106,6 +109,7 @@ pub(super) fn park(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
         start: plan.end().map(MotionState::at_rest),
         leave: Some((palm.rotation * -Vector3::z(), BEFORE)),
         aim: Aim::Posture(setting.mechanism.park),
+        guide: DEEP,
     })
 }
 

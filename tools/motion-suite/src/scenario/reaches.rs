@@ -28,6 +28,7 @@ pub(super) fn free_reach(setting: &Setting, random: &mut Pcg64) -> Case {
                 start: from.map(MotionState::at_rest),
                 leave: None,
                 aim: Aim::Hand(vec![goal]),
+                guide: 0.0,
             };
         }
     }
