@@ -14,6 +14,8 @@ use nalgebra::{Isometry3, Vector3};
 
 /// Cycles after which a question that was refused is asked again.
 const AGAIN: u64 = 300;
+/// Refusals after which a part is put down as it comes.
+const LOOSELY: u64 = 3;
 /// How far the hand backs out of where it is, with a part and without, m.
 const LIFT: f64 = 0.06;
 const RETREAT: f64 = 0.10;
@@ -152,6 +154,7 @@ impl Control {
             purpose,
             next,
             before: self.memory.before == 1,
+            loosely: self.memory.refusals >= LOOSELY,
             start,
             fingers: std::array::from_fn(|joint| self.servo.joints[ARM_JOINTS + joint].position),
             leave: self.leave(start),

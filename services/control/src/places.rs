@@ -16,6 +16,8 @@ const TURNS: [u32; 2] = [12, 4];
 const RAISED: f64 = 0.262;
 /// Distance from the palm to the middle of the held-out hand, m.
 const HOLLOW: f64 = 0.065;
+/// How far a part falls at most that is laid down as it comes, m.
+const DROPPED: f64 = 0.02;
 /// How far the pointing hand stays from what it points to, and how far it goes at most, m.
 const POINTING: (f64, f64) = (0.25, 0.85);
 
@@ -48,6 +50,9 @@ impl Places {
         let at = Point3::from(request.frame.translation.vector);
         let held = request.held.filter(|(kind, _)| request.kind == Some(*kind));
         match (request.errand, request.kind) {
+            (Errand::PutBack, _) if request.loosely => {
+                request.held.map_or_else(Vec::new, |held| vec![self.lays_down(held, &at)])
+            }
             (Errand::Place | Errand::Offer | Errand::PutBack, _) => {
                 held.map_or_else(Vec::new, |held| self.puts(held, &request.frame, request.errand))
             }
@@ -100,6 +105,15 @@ impl Places {
             (HandGoal { along: place.rotation * -Vector3::z(), ..goal }, None)
         };
         (0..turns).map(goal).collect()
+    }
+
+    /// The goal from which the held part, however it is held, comes to lie on the table at `place` when it is let go.
+    fn lays_down(&self, (kind, in_palm): (usize, Isometry3<f64>), place: &Point3<f64>) -> Offer {
+        let form = self.holds.form(kind);
+        let ends = [0.0, form.height].map(|z| (in_palm * Point3::new(0.0, 0.0, z)).z);
+        let lowest = ends[0].max(ends[1]) + form.half_width();
+        let height = (lowest - self.hand.grasp_distance).max(0.0) + DROPPED;
+        (self.free(place + Vector3::z() * height, -Vector3::z(), BACK), None)
     }
 
     /// The goal that is reached with the palm there, `back` m before it first.

@@ -199,10 +199,11 @@ impl Planner {
             let at = Point3::from(frame.translation.vector);
             let carried = person.iter().flatten().any(|arm| arm.distance_of_line(&at) < arm.radius + IN_HAND);
             let received = request.errand == Errand::Receive && request.kind == Some(kind);
+            let awaited = received && request.before;
             if !frame.translation.vector.iter().all(|value| value.is_finite())
                 || near(kind, &held, &frame)
-                || (carried && !near(kind, &meant, &frame))
-                || (received && near(kind, &Some((kind, request.frame)), &frame))
+                || (carried && !awaited && !near(kind, &meant, &frame))
+                || (received && !awaited && near(kind, &Some((kind, request.frame)), &frame))
             {
                 continue;
             }

@@ -19,6 +19,8 @@ pub(crate) struct Request {
     pub next: Option<Isometry3<f64>>,
     /// Whether the hand stops before the place.
     pub before: bool,
+    /// Whether a part may be put down lying or leaning.
+    pub loosely: bool,
     /// State of the arm in which the movement shall begin.
     pub start: [MotionState; 7],
     /// Angles of the hand's joints now, rad.

@@ -71,8 +71,8 @@ impl Loss {
             _ if self.opened == 1 => self.has_fallen(objects, places),
             Some(part) if after(part.seen) => {
                 let body = places.body(self.kind as usize);
-                let away = |point| part.distance_to_axis(body, point) > AWAY;
-                around.grasp_point.map_or(!places.is_airborne(self.kind as usize, part.position), away)
+                let away = |axis| part.distance_to_hand(body, axis) > AWAY;
+                around.hand_axis.map_or(!places.is_airborne(self.kind as usize, part.position), away)
             }
             _ => objects.captured > self.suspected + UNSEEN,
         };

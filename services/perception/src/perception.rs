@@ -7,6 +7,7 @@ use crate::words::Words;
 use coact_joint_task::Task;
 use coact_messages::{HandPercept, JointReading, Percept, SensorSample};
 use coact_robot::Robot;
+use nalgebra::Point3;
 
 /// Sensor samples become a percept: what the person's hand does, what lies where, how far the construction is.
 #[derive(Debug, Clone)]
@@ -65,7 +66,9 @@ impl Perception {
         if let Some(sample) = sample {
             self.sense(tick, sample);
             let followed = self.memory.hand.is_followed(tick);
-            self.places.report(tick, &self.memory.objects, &sample.scene, followed, &mut self.state);
+            let around = surroundings(tick, &self.memory.hand, self.robot.as_ref(), &sample.joints);
+            let objects = &self.memory.objects;
+            self.places.report(tick, objects, &sample.scene, followed, &around, &mut self.state);
         }
         self.classifier.learn(&mut self.memory.preshape);
         let heard = self.words.heard(tick);
@@ -125,6 +128,9 @@ fn surroundings(tick: u64, hand: &HandMemory, robot: Option<&Robot>, joints: &Jo
         aperture: hand.aperture(),
         speed: hand.motion.speed,
     });
-    let grasp_point = robot.map(|robot| robot.grasp_point(&joints.position).coords);
-    Surroundings { person, grasp_point, touch: joints.touch }
+    let hand_axis = robot.map(|robot| {
+        let (palm, hand) = (robot.palm(&joints.position), &robot.hand);
+        [hand.palm_face, hand.grasp_distance].map(|along| (palm * Point3::new(0.0, 0.0, along)).coords)
+    });
+    Surroundings { person, hand_axis, touch: joints.touch }
 }

@@ -1,48 +1,71 @@
 use crate::{Mechanism, Stage, StageKind};
+use coact_robot::Posture;
 use nalgebra::{Matrix3, Point3, Vector3};
 
-/// The line on which the hand comes to its goal where what it holds goes into something.
+/// The line on which the hand leaves something, or goes into it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Guide {
-    /// Its end: the goal of the grasp point, m.
-    end: Point3<f64>,
-    /// Direction of the hand on it, unit.
-    line: Vector3<f64>,
+    /// The stage that it is for.
+    pub stage: usize,
+    /// Where the grasp point is inside, m.
+    inside: Point3<f64>,
+    /// The way out from there, unit.
+    out: Vector3<f64>,
     /// Its length, m.
     length: f64,
+    /// How far the hand may be off it.
+    off: (f64, f64),
 }
 
-/// How far the hand may be off its line at the goal, m, and how much more for each metre before it.
-const OFF_LINE: (f64, f64) = (0.002, 0.1);
+/// How far the hand may be off its line inside, m, and how much more for each metre outside: where it leaves what it has
+/// let go, and where it puts something into its place.
+const LEAVING: (f64, f64) = (0.004, 0.2);
+const ENTERING: (f64, f64) = (0.002, 0.1);
 
 impl Guide {
-    /// To the end of these stages, along `line`, m; none for a line without length, or where no approach ends.
-    pub fn to_end_of(mechanism: &Mechanism, stages: &[Stage], line: Vector3<f64>) -> Option<Self> {
-        let length = line.norm();
-        let last = stages.last().filter(|last| length > 0.0 && last.kind == StageKind::Approach)?;
-        let palm = mechanism.arm.palm(&last.trajectory.posture(1.0));
-        Some(Self { end: palm * mechanism.grasp_point(), line: line / length, length })
+    /// The line out of where these stages begin, as long as `out`, m; none without length, or where the hand does not
+    /// leave first.
+    pub fn of_leaving(mechanism: &Mechanism, stages: &[Stage], out: Vector3<f64>) -> Option<Self> {
+        let first = stages.first().filter(|first| first.kind == StageKind::Leave)?;
+        Self::new(mechanism, 0, &first.trajectory.posture(0.0), out, LEAVING)
     }
 
-    /// How far a place of the grasp point is off the line, m, world; none before the line begins.
+    /// The line on which they end; `out` leads out of there.
+    pub fn of_approach(mechanism: &Mechanism, stages: &[Stage], out: Vector3<f64>) -> Option<Self> {
+        let last = stages.last().filter(|last| last.kind == StageKind::Approach)?;
+        Self::new(mechanism, stages.len() - 1, &last.trajectory.posture(1.0), out, ENTERING)
+    }
+
+    fn new(
+        mechanism: &Mechanism,
+        stage: usize,
+        inside: &Posture,
+        out: Vector3<f64>,
+        off: (f64, f64),
+    ) -> Option<Self> {
+        let inside = mechanism.arm.palm(inside) * mechanism.grasp_point();
+        let length = out.norm();
+        (length > 0.0).then(|| Self { stage, inside, out: out / length, length, off })
+    }
+
+    /// How far a place of the grasp point is off the line, m, world; none where the line has ended.
     pub fn aside(&self, place: &Point3<f64>) -> Option<Vector3<f64>> {
-        let way = place - self.end;
-        (self.before(place) < self.length).then(|| self.across() * way)
+        (self.outside(place) < self.length).then(|| self.across() * (place - self.inside))
     }
 
     /// What of a vector is across the line.
     pub fn across(&self) -> Matrix3<f64> {
-        Matrix3::identity() - self.line * self.line.transpose()
+        Matrix3::identity() - self.out * self.out.transpose()
     }
 
     /// By how much it is farther off than it may be, m.
     pub fn excess(&self, place: &Point3<f64>) -> f64 {
-        let allowed = OFF_LINE.0 + OFF_LINE.1 * self.before(place).max(0.0);
+        let allowed = self.off.0 + self.off.1 * self.outside(place).max(0.0);
         self.aside(place).map_or(0.0, |aside| (aside.norm() - allowed).max(0.0))
     }
 
-    /// Distance before the goal, m.
-    fn before(&self, place: &Point3<f64>) -> f64 {
-        -(place - self.end).dot(&self.line)
+    /// How far outside it is, m.
+    fn outside(&self, place: &Point3<f64>) -> f64 {
+        (place - self.inside).dot(&self.out)
     }
 }

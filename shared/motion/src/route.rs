@@ -101,9 +101,9 @@ impl Route {
         mechanism: &'a Mechanism,
         stages: &[Stage],
         room: &dyn Fn(f64) -> (Clearance<'a>, f64),
-        guide: Option<Guide>,
+        guides: &[Guide],
     ) -> Change {
-        straight::smoothest(mechanism, stages, self.passing == Passing::Smooth, room, guide)
+        straight::smoothest(mechanism, stages, self.passing == Passing::Smooth, room, guides)
     }
 
     /// The same route with a change of these stages, its own.

@@ -26,6 +26,8 @@ const TRIES: u32 = 2;
 const MORE: u32 = 8;
 /// Distance beyond the margin that a way through several postures keeps before it is made smooth, m: first, then.
 const ROOM: [f64; 2] = [0.02, 0.004];
+/// Share of leaving that is straight.
+const LEAVING: f64 = 0.6;
 /// Postures that a way passes at most.
 const MOST_VIAS: usize = 12;
 
@@ -190,12 +192,25 @@ impl<'a> Search<'a> {
         let legs = leave.into_iter().chain(reaches).chain(approach).collect();
         let route = Route::new(mechanism, start, legs, passing).smoothest(mechanism, &limits);
         let (clearance, touching) = (self.problem.clearance(), self.problem.touching());
-        Way { clearance, touching, limits, route, margin, guide: self.guide(target), work: self.work }
+        Way {
+            clearance,
+            touching,
+            limits,
+            route,
+            margin,
+            lines: [self.out(), self.into(target)],
+            work: self.work,
+        }
     }
 
-    /// The last part of the approach to a target on which the hand keeps to its line, m.
-    fn guide(&self, target: &Target) -> Vector3<f64> {
+    /// The first part of leaving, on which the hand keeps to its line, m.
+    fn out(&self) -> Vector3<f64> {
+        self.problem.leave.map_or_else(Vector3::zeros, |(out, distance)| out * distance * LEAVING)
+    }
+
+    /// The last part of the approach to a target on which it does, m, from the goal outwards.
+    fn into(&self, target: &Target) -> Vector3<f64> {
         let goal = if let Aim::Hand(goals) = &self.problem.aim { goals.get(target.goal) } else { None };
-        goal.map_or_else(Vector3::zeros, |goal| goal.along * self.problem.guide)
+        goal.map_or_else(Vector3::zeros, |goal| -goal.along * self.problem.guide)
     }
 }

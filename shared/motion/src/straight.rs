@@ -23,8 +23,8 @@ const BEYOND: f64 = 1e7;
 const FROM_LIMITS: f64 = 0.01;
 const TOO_NEAR: f64 = 1e7;
 const OFF_LINE: f64 = 3e7;
-/// What it costs to pass the posture before the goal elsewhere, 1/rad².
-const MOVED: f64 = 1e4;
+/// What it costs to pass the postures after leaving and before the goal elsewhere, 1/rad².
+const MOVED: f64 = 4e4;
 
 /// What may be changed: for each joint the bounce of the reach and, where they are free, velocity and acceleration at
 /// each posture passed, as for a movement of 1 s; and the posture itself where it lies between two reaches.
@@ -35,16 +35,16 @@ pub(crate) struct Change {
 }
 
 /// The change of these stages for which the jerk of hand and joints is least.
-/// `room`: the distances that count at an instant of the stages, and how much of them is kept, m. `guide`: the line of the
-/// last stage.
+/// `room`: the distances that count at an instant of the stages, and how much of them is kept, m. `guides`: lines to
+/// which the hand keeps.
 pub(crate) fn smoothest<'a>(
     mechanism: &'a Mechanism,
     stages: &[Stage],
     is_free: bool,
     room: &dyn Fn(f64) -> (Clearance<'a>, f64),
-    guide: Option<Guide>,
+    guides: &[Guide],
 ) -> Change {
-    let smoothing = Smoothing::of(mechanism, stages, is_free, room, guide);
+    let smoothing = Smoothing::of(mechanism, stages, is_free, room, guides);
     let mut best = DVector::zeros(7 * smoothing.shapes.len());
     let mut way = smoothing.way(&best);
     for _ in 0..STEPS {
@@ -71,11 +71,11 @@ struct Smoothing<'a> {
     postures: Vec<Posture>,
     /// Distances that count there, and how much of them is kept, m.
     room: Vec<(Clearance<'a>, f64)>,
-    /// The line to the goal, and the step at which the stage that ends there begins.
-    guide: Option<Guide>,
-    last: usize,
-    /// The shape that moves the posture before the goal.
-    moved: Option<usize>,
+    /// The stages of these steps, and lines to which the hand keeps.
+    stages: Vec<usize>,
+    guides: Vec<Guide>,
+    /// The shapes that move the posture after leaving, and that before the goal.
+    moved: Vec<usize>,
     /// Shapes of the changes at these steps, the same for all joints.
     shapes: Vec<Vec<f64>>,
     /// Third differences of the shapes, as jerks.
@@ -98,12 +98,13 @@ impl<'a> Smoothing<'a> {
         stages: &[Stage],
         is_free: bool,
         room: &dyn Fn(f64) -> (Clearance<'a>, f64),
-        guide: Option<Guide>,
+        guides: &[Guide],
     ) -> Self {
         let total: f64 = stages.iter().map(|stage| stage.trajectory.duration).sum();
         let mut shapes = vec![Vec::new(); 1 + if is_free { 3 * (stages.len() - 1) } else { 0 }];
-        let mut postures = Vec::new();
-        let mut moved = None;
+        let is_free = |via: usize| (via..via + 2).all(|stage| stages[stage].kind == StageKind::Reach);
+        let is_moved = |via: usize| guides.iter().any(|guide| (via..via + 2).contains(&guide.stage));
+        let (mut postures, mut stage_of) = (Vec::new(), Vec::new());
         for piece in 0..=PIECES {
             let (mut t, mut index) = (piece as f64 / PIECES as f64 * total, 0);
             while index + 1 < stages.len() && t >= stages[index].trajectory.duration {
@@ -112,19 +113,14 @@ impl<'a> Smoothing<'a> {
             }
             let Stage { kind, trajectory } = &stages[index];
             postures.push(trajectory.at(t).map(|state| state.position));
+            stage_of.push(index);
             let own = trajectory.duration / total;
             let [share, ..] = excursion((t / trajectory.duration).min(1.0));
             shapes[0].push(if *kind == StageKind::Reach { share } else { 0.0 });
             for (shape, values) in shapes.iter_mut().enumerate().skip(1) {
                 let (via, order) = ((shape - 1) / 3, (shape - 1) % 3);
-                let kinds = [stages[via].kind, stages[via + 1].kind];
-                let is_between = kinds == [StageKind::Reach; 2]
-                    || guide.is_some() && kinds == [StageKind::Reach, StageKind::Approach];
                 let of = |which: usize| if order == which { 1.0 } else { 0.0 };
-                if is_between && order == 0 && kinds[1] == StageKind::Approach {
-                    moved = Some(shape);
-                }
-                let position = if is_between { of(0) } else { 0.0 };
+                let position = if is_free(via) || is_moved(via) { of(0) } else { 0.0 };
                 let moved = MotionState { position, velocity: of(1), acceleration: of(2) };
                 let rest = MotionState::default();
                 values.push(match index {
@@ -136,9 +132,8 @@ impl<'a> Smoothing<'a> {
         }
         let room = (0..=PIECES).map(|piece| room(piece as f64 / PIECES as f64 * total)).collect();
         let jerks = shapes.iter().map(|shape| shape.windows(4).map(|p| third(p) * UNIT).collect()).collect();
-        let last = total - stages.last().map_or(0.0, |stage| stage.trajectory.duration);
-        let last = (last / total * PIECES as f64).ceil() as usize;
-        Self { mechanism, postures, room, guide, last, moved, shapes, jerks }
+        let moved = (0..shapes.len() / 3).filter(|via| is_moved(*via)).map(|via| 1 + 3 * via).collect();
+        Self { mechanism, postures, room, stages: stage_of, guides: guides.to_vec(), moved, shapes, jerks }
     }
 
     fn way(&self, change: &DVector<f64>) -> Way {
@@ -164,8 +159,8 @@ impl<'a> Smoothing<'a> {
             for (shape, values) in self.shapes.iter().enumerate() {
                 slope.fixed_columns_mut::<7>(7 * shape).copy_from(&(values[piece] * jacobian));
             }
-            if let Some(guide) = self.guide.filter(|_| piece >= self.last) {
-                broken.extend(off_line(&guide, &hand, &jacobian).map(|(off, slope)| (piece, off, slope)));
+            for guide in self.guides.iter().filter(|guide| guide.stage == self.stages[piece]) {
+                broken.extend(off_line(guide, &hand, &jacobian).map(|(off, slope)| (piece, off, slope)));
             }
             places.push(hand.coords);
             slopes.push(slope);
@@ -180,8 +175,8 @@ impl<'a> Smoothing<'a> {
                 WEIGHT[joint] * angles.windows(4).map(|p| (third(p) * UNIT).powi(2)).sum::<f64>()
             })
             .sum();
-        let moved = |shape: usize| MOVED * change.rows(7 * shape, 7).norm_squared();
-        let merit = self.moved.map_or(0.0, moved)
+        let moved = self.moved.iter().map(|shape| change.rows(7 * shape, 7).norm_squared());
+        let merit = MOVED * moved.sum::<f64>()
             + jerk.iter().map(Vector3::norm_squared).sum::<f64>()
             + JOINTS * of_joints
             + broken.iter().map(|(_, amount, _)| amount * amount).sum::<f64>();
@@ -229,7 +224,7 @@ impl<'a> Smoothing<'a> {
             matrix.ger(1.0, &row, &row, 1.0);
             right.axpy(-amount, &row, 1.0);
         }
-        for variable in self.moved.into_iter().flat_map(|shape| 7 * shape..7 * shape + 7) {
+        for variable in self.moved.iter().flat_map(|shape| 7 * shape..7 * shape + 7) {
             matrix[(variable, variable)] += MOVED;
             right[variable] -= MOVED * change[variable];
         }

@@ -23,8 +23,8 @@ pub(crate) struct Way<'a> {
     pub limits: [JointLimits; 7],
     pub route: Route,
     pub margin: Margin,
-    /// Last part of the approach, on which the hand keeps to its line, m, world.
-    pub guide: Vector3<f64>,
+    /// Lines to which the hand keeps: out of where it is, and outwards from where it goes, m, world.
+    pub lines: [Vector3<f64>; 2],
     /// What the search may do.
     pub work: &'a Work,
 }
@@ -92,8 +92,8 @@ impl<'a> Way<'a> {
         if !self.work.spend(SMOOTHING) {
             return None;
         }
-        let guide = self.guide(stages);
-        let change = self.route.smoothing(self.clearance.mechanism, stages, &room, guide);
+        let guides: Vec<Guide> = self.guides(stages).collect();
+        let change = self.route.smoothing(self.clearance.mechanism, stages, &room, &guides);
         let stages = self.route.changed(stages, &change).timed(&self.limits).ok()?;
         self.check(&stages).is_ok().then_some(stages)
     }
@@ -112,23 +112,28 @@ impl<'a> Way<'a> {
         worst.next().map_or(Ok(()), |worst| Err(self.refusal(&worst)))
     }
 
-    /// The hand must keep to the line of its approach where what it holds goes into something.
+    /// The hand must keep to its line where it leaves something, and where what it holds goes into something.
     fn check_guided(&self, stages: &[Stage]) -> Result<(), Refusal> {
-        let (mechanism, last) = (self.clearance.mechanism, stages.last());
-        let Some((guide, last)) = self.guide(stages).zip(last) else { return Ok(()) };
-        let postures =
-            (0..=WATCHED).map(|point| last.trajectory.posture(f64::from(point) / f64::from(WATCHED)));
-        let places = postures.map(|posture| mechanism.arm.palm(&posture) * mechanism.grasp_point());
-        let short = places.map(|place| guide.excess(&place)).fold(0.0, f64::max);
+        let mechanism = self.clearance.mechanism;
+        let excesses = self.guides(stages).flat_map(|guide| {
+            (0..=WATCHED).map(move |point| {
+                let posture = stages[guide.stage].trajectory.posture(f64::from(point) / f64::from(WATCHED));
+                guide.excess(&(mechanism.arm.palm(&posture) * mechanism.grasp_point()))
+            })
+        });
+        let short = excesses.fold(0.0, f64::max);
         if short > 0.0 {
-            let (bone, other) = ("the hand".to_owned(), "the side of the place that it goes into".to_owned());
+            let (bone, other) =
+                ("the hand".to_owned(), "the side of the place that it leaves or goes into".to_owned());
             return Err(Refusal::Way { bone, other, short, share: 100.0 });
         }
         Ok(())
     }
 
-    fn guide(&self, stages: &[Stage]) -> Option<Guide> {
-        Guide::to_end_of(self.clearance.mechanism, stages, self.guide)
+    fn guides(&self, stages: &[Stage]) -> impl Iterator<Item = Guide> + use<> {
+        let (mechanism, [out, into]) = (self.clearance.mechanism, self.lines);
+        let leaving = Guide::of_leaving(mechanism, stages, out);
+        leaving.into_iter().chain(Guide::of_approach(mechanism, stages, into))
     }
 
     /// The distances that count at an instant of these stages, and how much of them is kept, m.

@@ -33,6 +33,11 @@ impl Form {
         Self { width, height, flat: Some(Flat { length, turn }) }
     }
 
+    /// Half its largest extent across its axis, m.
+    pub fn half_width(&self) -> f64 {
+        0.5 * self.flat.map_or(self.width, |flat| flat.length.hypot(self.width))
+    }
+
     /// Half its extent across the direction in which the fingers close, m.
     pub(crate) fn half_length(&self) -> f64 {
         0.5 * self.flat.map_or(self.width, |flat| flat.length)

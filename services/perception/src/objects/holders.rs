@@ -20,8 +20,11 @@ const SETTLED: u32 = 60;
 const LEFT: f64 = 0.035;
 /// Force that tells that the robot's fingers hold something, N.
 pub(crate) const TOUCH: f64 = 0.2;
-/// Distance of the robot's grasp point from the axis of the part that it holds, m; beyond twice that, it holds it not.
+/// Distance of the robot's hand from the axis of the part that it holds, m; beyond twice that, it holds it not.
 const GRASPED: f64 = 0.045;
+
+/// Pieces of the hand's axis at whose ends that is measured.
+const ALONG: u32 = 8;
 
 /// What a track's kind is like.
 #[derive(Debug, Clone, Copy)]
@@ -55,8 +58,8 @@ impl PartTrack {
             self.holder |= BY_PERSON;
         }
         let reached = around
-            .grasp_point
-            .map_or(airborne && self.holder == FREE, |point| self.distance_to_axis(body, point) < GRASPED);
+            .hand_axis
+            .map_or(airborne && self.holder == FREE, |axis| self.distance_to_hand(body, axis) < GRASPED);
         if free & BY_ROBOT != 0 && around.touch > TOUCH && reached {
             self.holder |= BY_ROBOT;
         }
@@ -76,12 +79,23 @@ impl PartTrack {
     }
 
     fn stays_with_robot(&self, body: Body, around: &Surroundings) -> bool {
-        let near = around.grasp_point.is_none_or(|point| self.distance_to_axis(body, point) < 2.0 * GRASPED);
+        let near = around.hand_axis.is_none_or(|axis| self.distance_to_hand(body, axis) < 2.0 * GRASPED);
         around.touch > TOUCH && near
     }
 
     fn away_from(&self, body: Body, hand: &PersonHand) -> f64 {
         (self.above_underside(0.5 * body.height) - hand.centre).norm()
+    }
+
+    /// Whether the robot's hand is around it, open or closed.
+    pub fn is_in_robot_hand(&self, body: Body, around: &Surroundings) -> bool {
+        around.hand_axis.is_some_and(|axis| self.distance_to_hand(body, axis) < GRASPED)
+    }
+
+    /// Distance of the part's axis from that of the robot's hand, m.
+    pub fn distance_to_hand(&self, body: Body, [palm, grasp_point]: [Vector3<f64>; 2]) -> f64 {
+        let points = (0..=ALONG).map(|step| palm.lerp(&grasp_point, f64::from(step) / f64::from(ALONG)));
+        points.map(|point| self.distance_to_axis(body, point)).fold(f64::INFINITY, f64::min)
     }
 
     /// Distance of `point` from the part's axis, between its underside and its top, m.

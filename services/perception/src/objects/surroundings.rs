@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 pub(crate) struct Surroundings {
     /// The person's hand, while it is tracked.
     pub person: Option<PersonHand>,
-    /// The robot's grasp point, m, when its kinematics are known.
-    pub grasp_point: Option<Vector3<f64>>,
+    /// The middle of the robot's hand, from its palm to its grasp point, m, when its kinematics are known.
+    pub hand_axis: Option<[Vector3<f64>; 2]>,
     /// Force at the robot's finger tips, N.
     pub touch: f64,
 }

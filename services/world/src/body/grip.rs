@@ -10,7 +10,7 @@ const FRICTION: f64 = 0.85;
 pub(crate) struct Grip {
     /// The part that is squeezed most.
     pub part: Option<usize>,
-    /// How hard, N: what of their forces on it opposes each other. A push from one side alone is no grip.
+    /// How hard, N: what of their forces on it opposes each other. Without fingers on both sides it is no grip.
     pub force: f64,
     forces: [f64; MAX_PARTS],
 }
@@ -33,7 +33,9 @@ impl Grip {
         let forces = contacts.pushes.map(|pushes| {
             let all: f32 = pushes.iter().map(|push| push.length()).sum();
             let unopposed = pushes.iter().copied().sum::<Vector>().length();
-            f64::from(0.5 * (all - unopposed))
+            let [one, two, three, _palm] = pushes.map(Vector::length);
+            let both_sides = one.max(two) > 0.0 && three > 0.0;
+            if both_sides { f64::from(0.5 * (all - unopposed)) } else { 0.0 }
         });
         let most = (0..MAX_PARTS).max_by(|one, other| forces[*one].total_cmp(&forces[*other]));
         let part = most.filter(|&part| forces[part] > 0.0);
