@@ -66,9 +66,7 @@ impl Perception {
         if let Some(sample) = sample {
             self.sense(tick, sample);
             let followed = self.memory.hand.is_followed(tick);
-            let around = surroundings(tick, &self.memory.hand, self.robot.as_ref(), &sample.joints);
-            let objects = &self.memory.objects;
-            self.places.report(tick, objects, &sample.scene, followed, &around, &mut self.state);
+            self.places.report(tick, &self.memory.objects, &sample.scene, followed, &mut self.state);
         }
         self.classifier.learn(&mut self.memory.preshape);
         let heard = self.words.heard(tick);

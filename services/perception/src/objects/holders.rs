@@ -87,11 +87,6 @@ impl PartTrack {
         (self.above_underside(0.5 * body.height) - hand.centre).norm()
     }
 
-    /// Whether the robot's hand is around it, open or closed.
-    pub fn is_in_robot_hand(&self, body: Body, around: &Surroundings) -> bool {
-        around.hand_axis.is_some_and(|axis| self.distance_to_hand(body, axis) < GRASPED)
-    }
-
     /// Distance of the part's axis from that of the robot's hand, m.
     pub fn distance_to_hand(&self, body: Body, [palm, grasp_point]: [Vector3<f64>; 2]) -> f64 {
         let points = (0..=ALONG).map(|step| palm.lerp(&grasp_point, f64::from(step) / f64::from(ALONG)));

@@ -1,6 +1,6 @@
+use super::ObjectsMemory;
 use super::holders::Body;
 use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack};
-use super::{ObjectsMemory, Surroundings};
 use crate::evidence::approach;
 use coact_joint_task::{Scene, Subgoal, Task};
 use coact_messages::{MAX_SUBGOALS, PERSON, Percept, ROBOT, SceneView, WORKSPACES};
@@ -98,7 +98,6 @@ impl Places {
         objects: &ObjectsMemory,
         view: &SceneView,
         followed: bool,
-        around: &Surroundings,
         out: &mut Percept,
     ) {
         if !objects.is_seeing(tick) {
@@ -111,7 +110,7 @@ impl Places {
             approach(&mut out.person_holds[kind], holds(BY_PERSON), RAMP);
         }
         (0..self.subgoals.len().min(MAX_SUBGOALS))
-            .for_each(|goal| self.report_subgoal(goal, objects, view, followed, around, out));
+            .for_each(|goal| self.report_subgoal(goal, objects, view, followed, out));
     }
 
     fn report_workspace(
@@ -161,15 +160,13 @@ impl Places {
         objects: &ObjectsMemory,
         view: &SceneView,
         followed: bool,
-        around: &Surroundings,
         out: &mut Percept,
     ) {
         let Subgoal { kind, socket, .. } = self.subgoals[goal];
         let away = |part: &PartTrack| (Vector3::from(socket) - Vector3::from(part.position)).norm();
         let own = objects.parts().filter(|(own, _)| *own == kind);
         let settled = if followed { SETTLED } else { SETTLED_UNSEEN };
-        let left = |part: &PartTrack| !part.is_held() && !part.is_in_robot_hand(self.bodies[kind], around);
-        let mounted = |part: &PartTrack| away(part) < IN_PLACE && left(part) && part.still >= settled;
+        let mounted = |part: &PartTrack| away(part) < IN_PLACE && !part.is_held() && part.still >= settled;
         let achieved = own.clone().any(|(_, part)| mounted(part));
         let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !self.is_hidden(socket, view);
         approach(&mut out.achieved[goal], achieved, RAMP);
