@@ -1,8 +1,9 @@
 use crate::errand::Errand;
 use crate::senses::Senses;
-use crate::{Memory, Settings};
+use crate::{Memory, Settings, memory};
 use coact_joint_task::{Action, Motion};
 use coact_messages::{Decision, NONE, ROBOT};
+use nalgebra::Isometry3;
 
 /// What the robot shall be about now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,25 +82,32 @@ pub(crate) fn age(memory: &mut Memory, senses: &Senses, actions: &[Action], sett
     }
 }
 
-/// Notices a part in the hand that memory does not know of, and one that was lost.
-pub(crate) fn feel(memory: &mut Memory, senses: &Senses) {
+/// Notices a part in the hand that memory does not know of, as it is seen there, and one that was lost. `palm` is where
+/// the palm is.
+pub(crate) fn feel(memory: &mut Memory, senses: &Senses, palm: impl Fn() -> Isometry3<f64>) {
     /// Cycles for which the touch must say so.
     const CERTAIN: u64 = 100;
+    /// A part that is in the hand is seen this near to the palm, m.
+    const IN_HAND: f64 = 0.3;
     if memory.leg().is_firm() {
         return;
     }
-    let changed = match memory.held() {
-        Some(_) => senses.touch() == Some(false),
-        None => senses.in_robot_hand().is_some(),
-    };
+    let found = senses.in_robot_hand().filter(|_| memory.held().is_none());
+    let lost = memory.held().is_some() && senses.touch() == Some(false);
+    let changed = lost || found.is_some();
     memory.touched = if changed { memory.touched + 1 } else { 0 };
     if memory.touched > CERTAIN {
         memory.touched = 0;
         memory.taken = 0;
-        memory.held = match memory.held() {
-            Some(_) => NONE.into(),
-            None => senses.in_robot_hand().map_or(u64::from(NONE), |kind| kind as u64),
+        memory.held = NONE.into();
+        let palm = palm();
+        let seen = |kind: usize| {
+            let (_, frame) = senses.sighting(kind, &palm.translation.vector.into(), IN_HAND)?;
+            Some((kind, palm.inverse() * frame))
         };
+        if let Some((kind, in_palm)) = found.and_then(seen) {
+            (memory.held, memory.in_palm) = (kind as u64, memory::words(&in_palm));
+        }
     }
 }
 

@@ -141,7 +141,8 @@ impl Control {
     /// Begins another errand when the decision asks for one, as soon as the present leg allows it.
     fn decide(&mut self, senses: &Senses) {
         choice::age(&mut self.memory, senses, &self.actions, &self.settings);
-        choice::feel(&mut self.memory, senses);
+        let posture = self.servo.posture();
+        choice::feel(&mut self.memory, senses, || self.body.robot.palm(&posture));
         if let Some(decision) = senses.decision().filter(|d| u64::from(d.action) == self.memory.action) {
             self.memory.since = decision.since;
         }

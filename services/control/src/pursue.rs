@@ -217,7 +217,7 @@ impl Control {
         if let Some((frame, at)) = seen.filter(|(frame, _)| *frame >= since && *frame != self.memory.seen_in)
         {
             let in_palm = self.body.robot.palm(&self.servo.posture()).inverse() * at;
-            let sum = Vector3::from(self.memory.seen) + in_palm.coords;
+            let sum = Vector3::from(self.memory.seen) + in_palm.translation.vector;
             self.memory.seen = sum.into();
             self.memory.sightings += 1;
             self.memory.seen_in = frame;

@@ -127,17 +127,25 @@ impl<'a> Senses<'a> {
         Some((x * x + y * y + z * z).sqrt()).filter(|force| force.is_finite())
     }
 
-    /// Where the recogniser's newest frame has the part of this kind that is nearest to `expected`, within `within` m; and
-    /// the cycle of that frame.
-    pub fn sighting(&self, kind: usize, expected: &Point3<f64>, within: f64) -> Option<(u64, Point3<f64>)> {
+    /// Frame of the part of this kind that the recogniser's newest camera frame has nearest to `expected`, within
+    /// `within` m; and the cycle of that camera frame.
+    pub fn sighting(
+        &self,
+        kind: usize,
+        expected: &Point3<f64>,
+        within: f64,
+    ) -> Option<(u64, Isometry3<f64>)> {
         let scene = &self.sample?.scene;
         let sightings = &scene.sighting[..(scene.sightings as usize).min(scene.sighting.len())];
         let places = sightings.iter().filter(|sighting| sighting.kind as usize == kind);
-        let near =
-            places.map(|sighting| Point3::from(sighting.position)).map(|at| ((at - expected).norm(), at));
+        let near = places.map(|sighting| ((Point3::from(sighting.position) - expected).norm(), sighting));
         let nearest =
             near.filter(|(distance, _)| *distance < within).min_by(|one, other| one.0.total_cmp(&other.0));
-        nearest.map(|(_, at)| (scene.captured_cycle, at))
+        let (_, sighting) = nearest?;
+        let [x, y, z, w] = sighting.orientation;
+        let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-3)?;
+        let frame = Isometry3::from_parts(Translation3::from(sighting.position), turn);
+        Some((scene.captured_cycle, frame))
     }
 
     /// All parts and screens in sight, into a request.
