@@ -1,8 +1,8 @@
 use coact_joint_task::Task;
 use coact_messages::{PartnerPhase, Truth};
 
-/// A rest that is shorter belongs to what the person did before, ms.
-const SHORTEST_REST: f64 = 3000.0;
+/// A rest that is shorter belongs to what the person did before, ms: so long the person waits while the robot inserts a part.
+const SHORTEST_REST: f64 = 4000.0;
 
 /// A time in which the person does one thing.
 #[derive(Debug, Clone, PartialEq)]
