@@ -10,6 +10,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 const NUT: &str = "nut on the robot's side";
 const WHEEL: &str = "wheel on the robot's side";
+const COLUMN_3: &str = "column 3 in its hole";
 const COLUMN_2: &str = "column 2 in its hole";
 
 /// Gives the robot a part of this subgoal's kind, free in its workspace.
@@ -268,6 +269,27 @@ fn an_unwanted_part_is_kept_for_a_while_and_then_put_back_where_it_was() {
     world.until(8.0, "put back", |world| world.held().is_none());
     let place = world.parts[part].frame.translation.vector;
     assert!((place.x - from[0]).hypot(place.y - from[1]) < 0.01, "{place}, taken from {from:?}");
+}
+
+#[test]
+fn a_part_that_cannot_be_put_back_upright_is_laid_down() {
+    let mut world = KinematicWorld::new();
+    let part = lay_down(&mut world, COLUMN_3);
+    world.decide(Some(world.action(Motion::Insert, COLUMN_3)));
+    world.until(5.0, "taken", |world| world.held().is_some());
+    world.decide(None);
+    world.until(4.0, "at rest", |world| world.phase() == MotionPhase::Rest);
+    // To a new control that knows nothing, somebody has pushed the column into the fingers with its underside to the palm:
+    // to stand, it would need the hand below the table.
+    world.give(part, Isometry3::translation(0.0, 0.0, 0.08));
+    world.control = KinematicWorld::new().control;
+    world.command.memory.fill(0.0);
+    world.run(3.0);
+    assert!(world.held().is_some(), "kept");
+    world.until(20.0, "laid down", |world| world.held().is_none());
+    let highest = world.grasp_point().z - world.task.scene.table_height;
+    assert!(highest < 0.15, "let go {highest} m above the table");
+    world.until(6.0, "at rest", |world| world.phase() == MotionPhase::Rest);
 }
 
 #[test]

@@ -129,6 +129,12 @@ impl KinematicWorld {
         self.robot.grasp_point(&self.command.position)
     }
 
+    /// Puts a part into the robot's hand, however it lies in there.
+    pub fn give(&mut self, part: usize, in_palm: Isometry3<f64>) {
+        self.parts[part].holder = Holder::Robot;
+        self.in_hand = in_palm;
+    }
+
     pub fn held(&self) -> Option<&Part> {
         self.parts.iter().find(|part| part.holder == Holder::Robot)
     }
