@@ -30,14 +30,12 @@ impl Control {
     /// Asks for the movement that the errand needs: from rest at once, in motion from where the arm will be a moment
     /// later. An arm that is neither at rest nor at its full pace comes to rest first.
     pub(crate) fn ask(&mut self, senses: &Senses) {
-        let standing = self.stands();
-        let steady = self.memory.arm_halted == 0 && self.memory.pace == 1.0 && self.memory.pace_change == 0.0;
         (self.memory.begins, self.memory.ready) = (0, 0);
-        if !standing && !steady {
+        if !self.can_ask() {
             (self.memory.asking, self.memory.waited) = (0, AGAIN);
             return;
         }
-        let start = if standing {
+        let start = if self.stands() {
             self.servo.posture().map(MotionState::at_rest)
         } else {
             self.memory.begins = senses.tick() + self.memory.lead;
@@ -47,6 +45,12 @@ impl Control {
         (self.memory.asking, self.memory.waited) = (1, 0);
         let request = self.request(senses, start);
         self.planning.ask(&request);
+    }
+
+    /// Whether it is known in which state a movement that is asked for now would begin.
+    pub(crate) fn can_ask(&self) -> bool {
+        let steady = self.memory.arm_halted == 0 && self.memory.pace == 1.0 && self.memory.pace_change == 0.0;
+        steady || self.stands()
     }
 
     /// Asks again what was refused.

@@ -3,7 +3,7 @@ use crate::senses::Senses;
 use crate::{Memory, Settings, memory};
 use coact_joint_task::{Action, Motion};
 use coact_messages::{Decision, NONE, ROBOT};
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Point3};
 
 /// What the robot shall be about now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,13 +82,13 @@ pub(crate) fn age(memory: &mut Memory, senses: &Senses, actions: &[Action], sett
     }
 }
 
-/// Notices a part in the hand that memory does not know of, as it is seen there, and one that was lost. `palm` is where
-/// the palm is.
-pub(crate) fn feel(memory: &mut Memory, senses: &Senses, palm: impl Fn() -> Isometry3<f64>) {
+/// Notices a part in the hand that memory does not know of, as it is seen there, and one that was lost. `hand` tells
+/// where the palm and the grasp point are.
+pub(crate) fn feel(memory: &mut Memory, senses: &Senses, hand: impl Fn() -> (Isometry3<f64>, Point3<f64>)) {
     /// Cycles for which the touch must say so.
     const CERTAIN: u64 = 100;
-    /// A part that is in the hand is seen this near to the palm, m.
-    const IN_HAND: f64 = 0.3;
+    /// A part that is in the hand is seen this near to the grasp point, m.
+    const IN_HAND: f64 = 0.15;
     if memory.leg().is_firm() {
         return;
     }
@@ -100,9 +100,9 @@ pub(crate) fn feel(memory: &mut Memory, senses: &Senses, palm: impl Fn() -> Isom
         memory.touched = 0;
         memory.taken = 0;
         memory.held = NONE.into();
-        let palm = palm();
+        let (palm, grasp_point) = hand();
         let seen = |kind: usize| {
-            let (_, frame) = senses.sighting(kind, &palm.translation.vector.into(), IN_HAND)?;
+            let (_, frame) = senses.sighting(kind, &grasp_point, IN_HAND)?;
             Some((kind, palm.inverse() * frame))
         };
         if let Some((kind, in_palm)) = found.and_then(seen) {

@@ -142,7 +142,8 @@ impl Control {
     fn decide(&mut self, senses: &Senses) {
         choice::age(&mut self.memory, senses, &self.actions, &self.settings);
         let posture = self.servo.posture();
-        choice::feel(&mut self.memory, senses, || self.body.robot.palm(&posture));
+        let robot = &self.body.robot;
+        choice::feel(&mut self.memory, senses, || (robot.palm(&posture), robot.grasp_point(&posture)));
         if let Some(decision) = senses.decision().filter(|d| u64::from(d.action) == self.memory.action) {
             self.memory.since = decision.since;
         }

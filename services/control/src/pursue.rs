@@ -97,7 +97,8 @@ impl Control {
             self.memory.enter(Leg::Plan);
         } else if self.memory.arrived() && self.memory.fingers_arrived() {
             self.arrive(senses);
-        } else if self.memory.elapsed < self.memory.course.approaches && self.target_has_moved(senses) {
+        } else if let Some(place) = self.moved_target(senses).filter(|_| self.can_ask()) {
+            self.memory.place = memory::words(&place);
             self.ask(senses);
         } else if self.memory.blocked > BLOCKED && self.memory.pace == 0.0 {
             self.memory.blocked = 0;
@@ -115,17 +116,14 @@ impl Control {
         }
     }
 
-    /// Whether the part that is reached for lies elsewhere than it did; then that is where the errand leads.
-    fn target_has_moved(&mut self, senses: &Senses) -> bool {
-        if self.memory.errand() != Errand::Take {
-            return false;
+    /// Where the part lies that is reached for, if that is elsewhere than it was and the hand is not yet going into it.
+    fn moved_target(&self, senses: &Senses) -> Option<Isometry3<f64>> {
+        if self.memory.errand() != Errand::Take || self.memory.elapsed >= self.memory.course.approaches {
+            return None;
         }
-        let Some(place) = self.place(senses) else { return false };
+        let place = self.place(senses)?;
         let way = (place.translation.vector - pose(self.memory.place).translation.vector).norm();
-        if way > MOVED {
-            self.memory.place = memory::words(&place);
-        }
-        way > MOVED
+        (way > MOVED).then_some(place)
     }
 
     fn arrive(&mut self, senses: &Senses) {
