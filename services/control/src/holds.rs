@@ -1,5 +1,6 @@
 use crate::ControlError;
-use coact_joint_task::{Shape, Task};
+use coact_joint_task::Task;
+use coact_motion::workplace;
 use coact_robot::{Form, Grip, GripSide, Grips, HAND_JOINTS, Hand, HandGoal, Next};
 use nalgebra::Isometry3;
 
@@ -28,14 +29,9 @@ impl Holds {
     /// # Errors
     /// [`ControlError::Ungraspable`] when the hand has no grip for a kind of part.
     pub fn new(hand: &Hand, task: &Task) -> Result<Self, ControlError> {
-        let of_kind = |kind: &coact_joint_task::Kind| {
-            let form = match kind.shape {
-                Shape::Cylinder { height, .. } => Form::round(kind.width, height),
-                Shape::Box { size } => Form::brick(size, kind.width),
-            };
-            Grips::of(hand, form, Next::Anything)
-        };
-        let grips: Vec<Grips> = task.kinds.iter().map(of_kind).collect();
+        let of_kinds =
+            task.kinds.iter().map(|kind| Grips::of(hand, workplace::grasped(kind), Next::Anything));
+        let grips: Vec<Grips> = of_kinds.collect();
         if let Some(kind) = grips.iter().position(|grips| grips.all.is_empty()) {
             let (name, width) = (task.kinds[kind].name.clone(), task.kinds[kind].width);
             return Err(ControlError::Ungraspable { name, width });
@@ -82,12 +78,9 @@ impl Holds {
         floor: f64,
     ) -> impl Iterator<Item = (HandGoal, usize)> {
         let (grips, first) = (&self.grips[kind], self.first(kind));
-        let serves = move |grip: &Grip| grip.serves(&grips.form, next);
-        let any = grips.all.iter().any(serves);
         let goals = grips.goals(frame, back, floor).into_iter();
-        goals
-            .filter(move |(grip, _)| !any || serves(&grips.all[*grip]))
-            .map(move |(grip, goal)| (goal, first + grip))
+        let suiting = goals.filter(move |(grip, _)| grips.suits(&grips.all[*grip], next));
+        suiting.map(move |(grip, goal)| (goal, first + grip))
     }
 
     /// How a part of this kind is taken out of a person's hand: from above, where that is not.

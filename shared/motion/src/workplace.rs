@@ -1,7 +1,8 @@
-//! The fixed things and the parts of a task as obstacles.
+//! The fixed things and the parts of a task as obstacles, and the parts as what is gripped.
 
 use crate::{Capsule, Obstacle, Solid};
-use coact_joint_task::{FixtureForm, Shape, Task};
+use coact_joint_task::{FixtureForm, Kind, Shape, Task};
+use coact_robot::Form;
 use nalgebra::Isometry3;
 
 /// Table, base, foot and axles.
@@ -22,6 +23,14 @@ pub fn fixtures(task: &Task) -> Vec<Obstacle> {
 pub fn upright(name: &str, shape: Shape, frame: &Isometry3<f64>) -> Obstacle {
     let (solid, centre) = form(shape);
     Obstacle::new(name, solid, &(frame * centre))
+}
+
+/// A kind of part as something that a hand grips.
+pub fn grasped(kind: &Kind) -> Form {
+    match kind.shape {
+        Shape::Cylinder { height, .. } => Form::round(kind.width, height),
+        Shape::Box { size } => Form::brick(size, kind.width),
+    }
 }
 
 /// The form of a shape, and its place in the shape's frame.

@@ -86,16 +86,19 @@ impl Grips {
         let fits = form.width + 2.0 * GAP <= hand.width(hand.joints[1].limits.lower);
         let found =
             [Grip::from_above(hand, &form), Grip::pinching(hand, &form), Grip::enclosing(hand, &form)];
-        let mut all: Vec<Grip> = found.into_iter().flatten().filter(|_| fits).collect();
-        if all.iter().any(|grip| grip.serves(&form, next)) {
-            all.retain(|grip| grip.serves(&form, next));
-        }
+        let found: Vec<Grip> = found.into_iter().flatten().filter(|_| fits).collect();
+        let all: Vec<Grip> = found.iter().filter(|grip| grip.suits(&found, &form, next)).copied().collect();
         let opened = all.iter().map(|grip| grip.open(hand, &form));
         let wider = |one: [f64; HAND_JOINTS], other: [f64; HAND_JOINTS]| {
             std::array::from_fn(|joint| one[joint].min(other[joint]))
         };
         let open = opened.reduce(wider).unwrap_or_else(|| hand.grasp(form.width, GAP).angles);
         Self { form, open, all, grasp_distance: hand.grasp_distance }
+    }
+
+    /// Whether one of these grips may be used where this follows: it serves that, or none of them does.
+    pub fn suits(&self, grip: &Grip, next: Next) -> bool {
+        grip.suits(&self.all, &self.form, next)
     }
 
     /// Goals of the hand for all grips, each with the index of its grip, for a form whose frame (centre of its underside,
@@ -197,8 +200,13 @@ impl Grip {
         Some(Self { kind: GripKind::WholeHand, side: GripSide::Beside, height, depth, covers })
     }
 
+    /// Whether it may be used among these: what follows can be done with it, or with none of them.
+    fn suits(&self, all: &[Self], form: &Form, next: Next) -> bool {
+        self.serves(form, next) || !all.iter().any(|grip| grip.serves(form, next))
+    }
+
     /// Whether what follows can be done with it.
-    pub fn serves(&self, form: &Form, next: Next) -> bool {
+    fn serves(&self, form: &Form, next: Next) -> bool {
         let [from, to] = self.covers;
         match next {
             Next::Anything => true,

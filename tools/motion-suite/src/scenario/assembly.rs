@@ -1,7 +1,7 @@
 //! Movements of a robot that builds something: pick, insert, park.
 
 use crate::{Case, Setting};
-use coact_joint_task::{Agent, Fixture, Shape, Task};
+use coact_joint_task::{Agent, Fixture, Task};
 use coact_motion::{Aim, Scene, workplace};
 use coact_robot::{Form, Grip, Grips, HandGoal, MotionState, Next, Posture};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -36,10 +36,7 @@ fn pick_of(setting: &Setting, next: Next, random: &mut Pcg64) -> Option<Pick> {
         (0..task.parts.len()).filter(|part| task.parts[*part].workspace == Agent::Robot).collect();
     let part = own[random.random_range(0..own.len())];
     let kind = &task.kinds[task.parts[part].kind];
-    let form = match kind.shape {
-        Shape::Cylinder { height, .. } => Form::round(kind.width, height),
-        Shape::Box { size } => Form::brick(size, kind.width),
-    };
+    let form = workplace::grasped(kind);
     let grips = Grips::of(setting.hand.as_ref()?, form, next);
     let body = setting.with_fingers(&grips.open)?;
     let start = near_park(setting, random);
@@ -109,7 +106,7 @@ pub(super) fn park(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
         start: plan.end().map(MotionState::at_rest),
         leave: Some((palm.rotation * -Vector3::z(), BEFORE)),
         aim: Aim::Posture(setting.mechanism.park),
-        guide: DEEP,
+        guide: 0.0,
     })
 }
 

@@ -3,11 +3,11 @@ use crate::body::Body;
 use crate::staging::Staging;
 use crate::{BodyKind, Partner, Script, Settings, World};
 use bytemuck::zeroed_box;
-use coact_joint_task::{Agent, Part, Shape, Subgoal, Task};
+use coact_joint_task::{Agent, Part, Subgoal, Task};
 use coact_messages::{ARM_JOINTS, Command};
-use coact_motion::{Aim, Margin, Mechanism, Problem, Scene};
+use coact_motion::{Aim, Margin, Mechanism, Problem, Scene, workplace};
 use coact_robot::{
-    Form, Grip, GripKind, GripSide, Grips, HandGoal, JointLimits, MotionState, Movement, Next, Posture,
+    Grip, GripKind, GripSide, Grips, HandGoal, JointLimits, MotionState, Movement, Next, Posture,
     ROBOT_JOINTS, Robot,
 };
 use glam::{DQuat, DVec3};
@@ -116,11 +116,7 @@ impl Manipulator {
     /// The grips for the part.
     fn grips(&self) -> Grips {
         let kind = &self.world.task.kinds[self.world.parts.kind(0)];
-        let form = match kind.shape {
-            Shape::Cylinder { height, .. } => Form::round(kind.width, height),
-            Shape::Box { size } => Form::brick(size, kind.width),
-        };
-        Grips::of(&self.robot.hand, form, Next::Anything)
+        Grips::of(&self.robot.hand, workplace::grasped(kind), Next::Anything)
     }
 
     /// Whether this is the grip that it uses.
