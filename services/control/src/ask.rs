@@ -161,6 +161,7 @@ impl Control {
             loosely: self.memory.refusals >= LOOSELY,
             start,
             fingers: std::array::from_fn(|joint| self.servo.joints[ARM_JOINTS + joint].position),
+            heading: std::array::from_fn(|joint| self.memory.finger_target[joint]),
             leave: self.leave(start),
             held,
             hold: self.hold(),
@@ -168,7 +169,7 @@ impl Control {
             seen: 0,
             screens: [[0.0; 6]; 4],
             screened: 0,
-            person: senses.person_arm(),
+            person: senses.person_arm(&self.body.hulls),
         };
         senses.surroundings(&mut request);
         request

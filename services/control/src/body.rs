@@ -2,9 +2,11 @@ use crate::ControlError;
 use crate::errand::Errand;
 use crate::holds::Holds;
 use crate::memory::FINGER_JOINTS;
-use coact_joint_task::Task;
+use coact_joint_task::{Kind, Task};
 use coact_messages::{ARM_JOINTS, JOINTS};
+use coact_motion::{Capsule, workplace};
 use coact_robot::{HAND_JOINTS, JointLimits, Robot};
+use nalgebra::Isometry3;
 
 /// Clear width of the resting hand, m.
 const RELAXED: f64 = 0.10;
@@ -35,6 +37,8 @@ pub(crate) enum Fingers {
 pub(crate) struct Body {
     pub robot: Robot,
     pub holds: Holds,
+    /// Capsules around the kinds of parts, in the parts' own frames.
+    pub hulls: Vec<Capsule>,
     /// Angles of the hand's joints (message order) at rest and pressed together, rad: known beforehand, for the servo has
     /// no time to look for them.
     relaxed: [f64; HAND_JOINTS],
@@ -47,7 +51,9 @@ impl Body {
     pub fn new(robot: Robot, task: &Task) -> Result<Self, ControlError> {
         let clear = |width: f64| robot.hand.posture(robot.hand.base_for_width(width));
         let (relaxed, slender) = (clear(RELAXED), clear(SLENDER));
-        Ok(Self { holds: Holds::new(&robot.hand, task)?, relaxed, slender, robot })
+        let hull = |kind: &Kind| workplace::upright(&kind.name, kind.shape, &Isometry3::identity()).hull;
+        let hulls = task.kinds.iter().map(hull).collect();
+        Ok(Self { holds: Holds::new(&robot.hand, task)?, hulls, relaxed, slender, robot })
     }
 
     /// Limits in message order; the reserved joint stays at zero.

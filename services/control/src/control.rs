@@ -1,4 +1,4 @@
-use crate::body::{Body, Fingers};
+use crate::body::Body;
 use crate::choice::{self, Choice};
 use crate::errand::{Errand, Leg};
 use crate::guard::Guard;
@@ -11,7 +11,9 @@ use crate::{ControlError, Memory, PlanningThread, Settings};
 use coact_joint_task::{Action, Motion, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
 use coact_robot::{Next, Robot};
-use nalgebra::Isometry3;
+
+/// Pace below which the person is in the way: less than that at which the arm gets away from somebody.
+const SLOW: f64 = 0.3;
 
 /// The control stage: decisions in, setpoints out, one period of 1 ms at each step.
 #[derive(Debug)]
@@ -60,16 +62,8 @@ impl Control {
         let places = Places::new(&body, task);
         let planner = Planner::new(body.clone(), places.clone(), task)?;
         check(&planner, &places, task)?;
-        let mut bodies = vec![planner.figure(&body.fingers(Fingers::Relaxed), None)?];
-        for (index, hold) in body.holds.all().iter().enumerate() {
-            let mut goals = places.takes(hold.kind, Next::Anything, &Isometry3::identity()).into_iter();
-            let Some((goal, _)) = goals.find(|(_, of)| *of == Some(index)) else { continue };
-            let palm = body.robot.hand.palm_at(&goal.point, &goal.approach, &goal.closing, 0.0);
-            let held = Some((hold.kind, palm.inverse()));
-            bodies.push(planner.figure(&body.fingers(Fingers::On(index)), held)?);
-        }
+        let guard = Guard::new(&body, &places, &planner)?;
         let park = body.park();
-        let guard = Guard::new(planner.mechanism().clone(), bodies);
         let (planning, thread) = planning(planner);
         let control = Self {
             servo: Servo::new(body.limits(), park),
@@ -163,11 +157,13 @@ impl Control {
 
     /// How fast the arm may go on: slower, or not at all, where the person comes near.
     fn pace(&mut self, senses: &Senses) -> f64 {
-        let Some(person) = senses.person_arm().filter(|_| !self.memory.arrived()) else { return 1.0 };
-        let Memory { course, elapsed, .. } = &self.memory;
-        let meets = self.memory.errand().meets();
-        let pace = self.guard.pace(course, *elapsed, self.hold(), &person, meets);
-        self.memory.blocked = if pace < 0.1 { self.memory.blocked + 1 } else { 0 };
+        let Some(person) = senses.person_arm(&self.body.hulls).filter(|_| !self.memory.arrived()) else {
+            return 1.0;
+        };
+        let (hold, closing) = (self.hold(), coact_messages::closing(&self.servo.position()));
+        let pace = self.guard.pace(&self.memory, hold, closing, &person);
+        let blocked = self.memory.blocked;
+        self.memory.blocked = if pace < SLOW { blocked + 1 } else { blocked.saturating_sub(1) };
         pace
     }
 

@@ -9,8 +9,9 @@ pub(crate) struct Course {
     /// Its knots, the first `count` of them.
     knots: [Knot; Plan::KNOTS],
     count: u64,
-    /// When leaving has ended, and when the approach begins, s.
+    /// When leaving has ended, when the fingers begin to take their shape for the goal, and when the approach begins, s.
     pub left: f64,
+    pub preshapes: f64,
     pub approaches: f64,
 }
 
@@ -29,6 +30,7 @@ impl Course {
         let end_of =
             |kind: StageKind| plan.stages.iter().rev().find(|(stage, _)| *stage == kind).map(|(_, end)| *end);
         course.left = end_of(StageKind::Leave).unwrap_or(0.0);
+        course.preshapes = course.left;
         course.approaches = match end_of(StageKind::Approach) {
             Some(_) => end_of(StageKind::Reach).unwrap_or(course.left),
             None => plan.duration(),

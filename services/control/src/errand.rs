@@ -61,11 +61,6 @@ impl Errand {
     pub fn from_word(word: u64) -> Option<Self> {
         Self::ALL.into_iter().find(|errand| *errand as u64 == word)
     }
-
-    /// Whether the robot's hand and the person's shall meet in it.
-    pub fn meets(self) -> bool {
-        matches!(self, Self::Ask | Self::Receive | Self::Offer)
-    }
 }
 
 impl Leg {

@@ -1,77 +1,108 @@
-use crate::course::Course;
+use crate::body::{self, Fingers};
+use crate::memory::Memory;
 use crate::person::PersonArm;
+use crate::places::Places;
+use crate::planner::Planner;
 use coact_motion::{Body, Capsule, Mechanism};
-use coact_robot::Posture;
+use coact_robot::{JointLimits, Next, Posture, RobotError};
+use nalgebra::Isometry3;
 
 /// Keeps arm, hand and held part clear of the person: says how fast the movement under way may go on.
 #[derive(Debug)]
 pub(crate) struct Guard {
     mechanism: Mechanism,
-    /// Bodies with an empty hand, then with a part in it in each of the holds.
+    /// Bodies with an empty hand, the fingers ever farther closed; then with a part in it in each of the holds.
     bodies: Vec<Body>,
+    /// Limits of the fingers' bases.
+    bases: JointLimits,
     hulls: Vec<Capsule>,
 }
 
 /// Distance that is kept, m.
-const MARGIN: f64 = 0.04;
+pub(crate) const MARGIN: f64 = 0.04;
+/// Shapes of the empty hand.
+const SHAPES: usize = 13;
 /// How far ahead the movement is looked at, s, and in how many steps.
 const AHEAD: (f64, u32) = (0.4, 8);
 /// Time within which the arm stands, s: with less to go it may not move on.
 const STANDING: f64 = 0.1;
 /// Pace at which the arm may get away from somebody who is too near.
 const ESCAPE: f64 = 0.4;
-/// A distance that grows by at least this in a step is one of getting away, m.
-const GROWS: f64 = 1e-3;
+/// It gets away if it is at last farther from the person than if it stood, by this, and on the way hardly nearer, m.
+const GAIN: f64 = 1e-3;
+const LOSS: f64 = 1e-5;
 
 impl Guard {
-    pub fn new(mechanism: Mechanism, bodies: Vec<Body>) -> Self {
+    /// # Errors
+    /// [`RobotError`] when the robot's collision geometry cannot be used.
+    pub fn new(own: &body::Body, places: &Places, planner: &Planner) -> Result<Self, RobotError> {
+        let (hand, bases) = (&own.robot.hand, own.robot.hand.joints[1].limits);
+        let base =
+            |shape: usize| bases.lower + (bases.upper - bases.lower) * shape as f64 / (SHAPES - 1) as f64;
+        let empty = (0..SHAPES).map(|shape| planner.figure(&[hand.posture(base(shape))], None));
+        let holding = own.holds.all().iter().enumerate().map(|(index, hold)| {
+            let mut goals = places.takes(hold.kind, Next::Anything, &Isometry3::identity()).into_iter();
+            let goal = goals.find(|(_, of)| *of == Some(index)).map(|(goal, _)| goal);
+            let palm = goal.map(|goal| hand.palm_at(&goal.point, &goal.approach, &goal.closing, 0.0));
+            let in_palm = palm.map_or_else(Isometry3::identity, |palm| palm.inverse());
+            planner.figure(&[own.fingers(Fingers::On(index))], Some((hold.kind, in_palm)))
+        });
+        let bodies: Vec<Body> = empty.chain(holding).collect::<Result<_, _>>()?;
         let hulls = Vec::with_capacity(bodies.iter().map(|body| body.bones().len()).max().unwrap_or(0));
-        Self { mechanism, bodies, hulls }
+        Ok(Self { mechanism: planner.mechanism().clone(), bodies, bases, hulls })
     }
 
-    /// Share of its own speed at which the movement may go on, 0 to 1. `meets`: hand and person shall touch each other
-    /// now, so that only the rest of the arm is watched.
-    pub fn pace(
-        &mut self,
-        course: &Course,
-        t: f64,
-        hold: Option<usize>,
-        person: &PersonArm,
-        meets: bool,
-    ) -> f64 {
+    /// Share of its own speed at which the movement under way may go on, 0 to 1, with a part in `hold`, or with the
+    /// fingers' bases of an empty hand at `closing` rad.
+    pub fn pace(&mut self, memory: &Memory, hold: Option<usize>, closing: f64, person: &PersonArm) -> f64 {
+        let body = hold.map_or_else(|| self.shape(closing), |hold| SHAPES + hold);
         let (horizon, steps) = AHEAD;
-        let step = horizon / f64::from(steps);
-        let now = self.distance(&course.posture(t), hold, &person.after(0.0), meets);
-        if now < MARGIN {
-            let next = self.distance(&course.posture(t + step), hold, &person.after(step), meets);
-            return if next > now + GROWS { ESCAPE } else { 0.0 };
+        let ahead = |step: u32| horizon / f64::from(steps) * f64::from(step);
+        // Distance after this time when the movement goes on, or stops, now.
+        let mut distance = |ahead: f64, goes_on: bool| {
+            let t = memory.elapsed + if goes_on { ahead } else { 0.0 };
+            self.distance(body, &memory.course.posture(t), person.after(ahead), memory.meets(t))
+        };
+        if distance(0.0, true) < MARGIN {
+            let gains =
+                [1, 2, 4, steps].map(ahead).map(|ahead| distance(ahead, true) - distance(ahead, false));
+            let (least, last) =
+                gains.into_iter().fold((0.0, 0.0), |(least, _): (f64, f64), gain| (least.min(gain), gain));
+            return if least > -LOSS && last > GAIN { ESCAPE } else { 0.0 };
         }
-        let blocked = (1..=steps).map(|index| step * f64::from(index)).find(|ahead| {
-            let posture = course.posture(t + ahead);
-            self.distance(&posture, hold, &person.after(*ahead), meets) < MARGIN
-        });
+        let blocked = (1..=steps).map(ahead).find(|ahead| distance(*ahead, true) < MARGIN);
         blocked.map_or(1.0, |ahead| ((ahead - STANDING) / (horizon - STANDING)).clamp(0.0, 1.0))
     }
 
-    /// Distance of the robot from the person, m.
+    /// The body with an empty hand that is most like one with the fingers' bases at this angle, rad.
+    fn shape(&self, closing: f64) -> usize {
+        let share = (closing - self.bases.lower) / (self.bases.upper - self.bases.lower);
+        (share * (SHAPES - 1) as f64).round().clamp(0.0, (SHAPES - 1) as f64) as usize
+    }
+
+    /// Distance of the robot from the person, m; of the robot without its hand where the hands shall meet.
     fn distance(
         &mut self,
+        body: usize,
         posture: &Posture,
-        hold: Option<usize>,
-        person: &[Capsule; 3],
+        person: impl Iterator<Item = Capsule> + Clone,
         meets: bool,
     ) -> f64 {
-        let body = &self.bodies[hold.map_or(0, |hold| hold + 1).min(self.bodies.len() - 1)];
+        let body = &self.bodies[body.min(self.bodies.len() - 1)];
         body.hulls_into(&self.mechanism, posture, &mut self.hulls);
         let watched = body
             .bones()
             .iter()
             .zip(&self.hulls)
             .filter(|(bone, _)| bone.carriers > 0 && !(meets && bone.hand));
-        let pairs = watched.flat_map(|(_, hull)| person.iter().map(move |capsule| (hull, capsule)));
+        let pairs = watched.flat_map(|(_, hull)| person.clone().map(move |capsule| (hull, capsule)));
         pairs.fold(f64::INFINITY, |nearest, (hull, capsule)| {
             // Most pairs are certainly farther apart than the nearest one so far.
-            if hull.least_distance(capsule) < nearest { nearest.min(hull.distance(capsule)) } else { nearest }
+            if hull.least_distance(&capsule) < nearest {
+                nearest.min(hull.distance(&capsule))
+            } else {
+                nearest
+            }
         })
     }
 }

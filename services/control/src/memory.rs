@@ -101,7 +101,7 @@ pub(crate) struct Memory {
 }
 
 /// Marks the words as control's, of this layout: to be changed with it.
-pub(crate) const MARK: u64 = 0x636f_6163_7403;
+pub(crate) const MARK: u64 = 0x636f_6163_7404;
 
 const WORDS: usize = size_of::<Memory>() / 8;
 /// Cycles ahead at which a movement begins that is asked for in motion, at first and at most.
@@ -176,6 +176,16 @@ impl Memory {
     /// Kind of part that the errand is about.
     pub fn kind(&self) -> Option<usize> {
         index(self.kind)
+    }
+
+    /// Whether the robot's hand shall touch the person's `t` s after the start of the course: where it takes what the
+    /// person holds out, and where it brings a part to the person's hand. On the way there it keeps clear of it.
+    pub fn meets(&self, t: f64) -> bool {
+        match self.errand() {
+            Errand::Receive => self.before == 0,
+            Errand::Offer => self.course.is_approach(t),
+            _ => false,
+        }
     }
 
     /// Whether the arm has come to the end of its course.

@@ -1,8 +1,10 @@
 use crate::body::Body;
 use crate::errand::Errand;
 use crate::holds::Holds;
+use crate::person::PersonArm;
 use crate::request::Request;
 use coact_joint_task::{Scene, Task};
+use coact_motion::Capsule;
 use coact_robot::{Hand, HandGoal, Next};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
@@ -16,6 +18,8 @@ const TURNS: [u32; 2] = [12, 4];
 const RAISED: f64 = 0.262;
 /// Distance from the palm to the middle of the held-out hand, m.
 const HOLLOW: f64 = 0.065;
+/// How far before the handover place the open hand is held out: the person's comes there, m.
+const SHORT: f64 = 0.22;
 /// How far a part falls at most that is laid down as it comes, m.
 const DROPPED: f64 = 0.02;
 /// How far the pointing hand stays from what it points to, and how far it goes at most, m.
@@ -134,6 +138,12 @@ impl Places {
         self.sockets[subgoal]
     }
 
+    /// A part's frame as it is seen; it stands on the table at the lowest.
+    pub fn above_table(&self, mut seen: Isometry3<f64>) -> Isometry3<f64> {
+        seen.translation.z = seen.translation.z.max(self.scene.table_height);
+        seen
+    }
+
     /// A place for a part on the table.
     pub fn on_table(&self, at: [f64; 2]) -> Isometry3<f64> {
         Isometry3::translation(at[0], at[1], self.scene.table_height)
@@ -149,14 +159,28 @@ impl Places {
         Isometry3::from_parts(self.handover().into(), UnitQuaternion::identity())
     }
 
-    /// The open hand held out to the handover place: away from the shoulder, raised, so that what lies in the hand
-    /// lies at the handover place.
+    /// The open hand held out to the handover place, and short of it: away from the shoulder, raised.
     pub fn held_out(&self) -> HandGoal {
-        let out = self.handover() - self.shoulder;
-        let level = Vector3::new(out.x, out.y, 0.0).try_normalize(1e-6).unwrap_or_else(Vector3::x);
+        let level = self.outwards();
         let approach = level * RAISED.cos() + Vector3::z() * RAISED.sin();
-        let point = self.handover() + approach * (self.hand.grasp_distance - HOLLOW);
+        let point = self.handover() - level * SHORT + approach * (self.hand.grasp_distance - HOLLOW);
         self.free(point, approach, 0.0)
+    }
+
+    /// Where the person's hand will come with a part in it: capsules around the hand and the part. `hull`: the part's, in its
+    /// own frame.
+    pub fn coming(&self, hull: &Capsule) -> [Capsule; 2] {
+        let part = hull.within(&self.meeting());
+        let start = nalgebra::center(&part.start, &part.end);
+        let hand =
+            Capsule { start, end: start + self.outwards() * PersonArm::HAND, radius: PersonArm::RADII[2] };
+        [hand, part]
+    }
+
+    /// From the robot's shoulder to the person, on the level.
+    fn outwards(&self) -> Vector3<f64> {
+        let out = self.handover() - self.shoulder;
+        Vector3::new(out.x, out.y, 0.0).try_normalize(1e-6).unwrap_or_else(Vector3::x)
     }
 
     /// Pressing on the base from above.

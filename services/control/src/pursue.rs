@@ -27,7 +27,7 @@ const MISSES: u64 = 3;
 const REFUSALS: u64 = 10;
 /// A part that has moved farther than this while the hand reaches for it is followed, m.
 const MOVED: f64 = 0.008;
-/// Cycles for which the person may be in the way before another way is looked for.
+/// Cycles for which the person may be in the way before the arm stops and another way is looked for.
 const BLOCKED: u64 = 250;
 
 impl Control {
@@ -53,7 +53,7 @@ impl Control {
         let kind = self.memory.kind();
         match self.memory.errand() {
             Errand::Park => None,
-            Errand::Take => senses.part(ROBOT, kind?),
+            Errand::Take => senses.part(ROBOT, kind?).map(|seen| self.places.above_table(seen)),
             Errand::Place => {
                 Some(self.places.socket(self.actions.get(self.memory.action as usize)?.subgoal?))
             }
@@ -75,6 +75,11 @@ impl Control {
         self.take_up_movement(senses);
         match self.memory.leg() {
             Leg::Rest => {}
+            Leg::Plan | Leg::Move if self.servo.arm_stands() && self.is_taken(senses) => {
+                // The person comes to meet a hand that does not get on.
+                self.memory.arm_halted = 1;
+                self.grip(Leg::Open);
+            }
             Leg::Plan => self.ask_again(senses),
             Leg::Move => self.go_on(senses),
             Leg::Await => self.await_part(senses),
@@ -100,18 +105,18 @@ impl Control {
         } else if let Some(place) = self.moved_target(senses).filter(|_| self.can_ask()) {
             self.memory.place = memory::words(&place);
             self.ask(senses);
-        } else if self.memory.blocked > BLOCKED && self.memory.pace == 0.0 {
-            self.memory.blocked = 0;
-            self.ask(senses);
+        } else if self.memory.blocked > BLOCKED {
+            (self.memory.blocked, self.memory.arm_halted) = (0, 1);
         }
     }
 
-    /// The fingers take the shape that the errand needs, from when the hand has left the place where it was.
+    /// The fingers take the shape that the errand needs, from when the hand has left the place where it was, or where there
+    /// is room for that.
     fn shape_fingers(&mut self) {
         let (errand, kind) = (self.memory.errand(), self.memory.kind());
         let wanted = self.body.finger_joints(self.body.on_the_way(errand, kind, self.hold()));
-        let left = self.memory.begins == 0 && self.memory.elapsed >= self.memory.course.left;
-        if left && self.memory.finger_target != wanted {
+        let may_move = self.memory.begins == 0 && self.memory.elapsed >= self.memory.course.preshapes;
+        if may_move && self.memory.finger_target != wanted {
             self.servo.launch_fingers(&mut self.memory, wanted);
         }
     }
@@ -158,16 +163,20 @@ impl Control {
 
     /// Stays at the goal; a part held out is let go when the person pulls at it.
     fn stay(&mut self, senses: &Senses) {
-        let offers = self.memory.errand() == Errand::Offer;
-        let kind = self.memory.kind().unwrap_or_default();
-        let takes =
-            offers && senses.person_can_take(kind) && senses.pull().is_some_and(|force| force > PULL[0]);
-        self.memory.pulled = if takes { self.memory.pulled + 1 } else { 0 };
-        if self.memory.pulled >= PULLED {
+        if self.is_taken(senses) {
             self.grip(Leg::Open);
-        } else if offers && self.memory.leg_age > PATIENCE {
+        } else if self.memory.errand() == Errand::Offer && self.memory.leg_age > PATIENCE {
             self.give_up();
         }
+    }
+
+    /// Whether the person has pulled for a while at the part that the robot is about to give.
+    fn is_taken(&mut self, senses: &Senses) -> bool {
+        let offered = self.memory.held().filter(|_| self.memory.errand() == Errand::Offer);
+        let can_take = offered.is_some_and(|kind| senses.person_can_take(kind));
+        let pulls = can_take && senses.pull().is_some_and(|force| force > PULL[0]);
+        self.memory.pulled = if pulls { self.memory.pulled + 1 } else { 0 };
+        self.memory.pulled >= PULLED
     }
 
     fn feel_part(&mut self, senses: &Senses) {

@@ -23,8 +23,9 @@ pub(crate) struct Request {
     pub loosely: bool,
     /// State of the arm in which the movement shall begin.
     pub start: [MotionState; 7],
-    /// Angles of the hand's joints now, rad.
+    /// Angles of the hand's joints now, and to which they are on their way, rad.
     pub fingers: [f64; HAND_JOINTS],
+    pub heading: [f64; HAND_JOINTS],
     /// First out of a narrow place: direction and distance, m.
     pub leave: Option<(Vector3<f64>, f64)>,
     /// Kind of the part in the hand, and its frame in that of the palm; and which of the holds it is in.

@@ -1,7 +1,9 @@
 use crate::Settings;
 use crate::person::PersonArm;
 use crate::request::Request;
-use coact_messages::{Decision, FieldFrame, Percept, ROBOT, SensorSample};
+use crate::servo::PERIOD;
+use coact_messages::{Decision, FieldFrame, Percept, ROBOT, SensorSample, Sighting};
+use coact_motion::Capsule;
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
 /// Touch below this is nothing, N.
@@ -96,7 +98,7 @@ impl<'a> Senses<'a> {
 
     /// Whether the person holds a part of this kind.
     pub fn in_person_hand(&self, kind: usize) -> bool {
-        self.percept.is_some_and(|percept| percept.person_holds[kind] > BELIEF)
+        self.percept.and_then(|percept| percept.person_holds.get(kind)).is_some_and(|holds| *holds > BELIEF)
     }
 
     /// Whether the person's hand holds nothing but perhaps a part of this kind.
@@ -116,9 +118,16 @@ impl<'a> Senses<'a> {
         })
     }
 
-    /// The person's arm, when it is tracked.
-    pub fn person_arm(&self) -> Option<PersonArm> {
-        PersonArm::of(&self.percept?.hand, &self.sample?.hand)
+    /// The person's arm with what the hand holds, when it is tracked. `hulls`: capsules around each kind of part.
+    pub fn person_arm(&self, hulls: &[Capsule]) -> Option<PersonArm> {
+        let scene = &self.sample?.scene;
+        let sightings = &scene.sighting[..(scene.sightings as usize).min(scene.sighting.len())];
+        let held = sightings.iter().enumerate().filter(|(_, seen)| self.in_person_hand(seen.kind as usize));
+        let hulls = held.filter_map(|(index, seen)| {
+            Some((index, hulls.get(seen.kind as usize)?.within(&frame_of(seen)?)))
+        });
+        let ago = self.tick.saturating_sub(scene.captured_cycle) as f64 * PERIOD;
+        Some(PersonArm::of(&self.percept?.hand, &self.sample?.hand)?.holding(hulls, ago))
     }
 
     /// Force with which somebody pulls or pushes at the hand and what it holds, N; `None` when it is not measured.
@@ -142,10 +151,7 @@ impl<'a> Senses<'a> {
         let nearest =
             near.filter(|(distance, _)| *distance < within).min_by(|one, other| one.0.total_cmp(&other.0));
         let (_, sighting) = nearest?;
-        let [x, y, z, w] = sighting.orientation;
-        let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-3)?;
-        let frame = Isometry3::from_parts(Translation3::from(sighting.position), turn);
-        Some((scene.captured_cycle, frame))
+        Some((scene.captured_cycle, frame_of(sighting)?))
     }
 
     /// All parts and screens in sight, into a request.
@@ -156,4 +162,12 @@ impl<'a> Senses<'a> {
         request.screened = (scene.occluders as usize).min(scene.occluder.len());
         request.screens[..request.screened].copy_from_slice(&scene.occluder[..request.screened]);
     }
+}
+
+/// Frame of a part as the recogniser has seen it; none when that is none.
+pub(crate) fn frame_of(sighting: &Sighting) -> Option<Isometry3<f64>> {
+    let [x, y, z, w] = sighting.orientation;
+    let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-3)?;
+    let frame = Isometry3::from_parts(Translation3::from(sighting.position), turn);
+    frame.translation.vector.iter().all(|value| value.is_finite()).then_some(frame)
 }

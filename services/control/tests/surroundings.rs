@@ -4,10 +4,10 @@
 mod kinematic_world;
 
 use coact_joint_task::Motion;
-use coact_messages::{Command, ROBOT};
+use coact_messages::{ARM_JOINTS, Command, MotionPhase, ROBOT};
 use coact_motion::{Capsule, Mechanism};
 use kinematic_world::{Holder, KinematicWorld};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 const NUT: &str = "nut on the robot's side";
 const WHEEL: &str = "wheel on the robot's side";
@@ -32,7 +32,8 @@ fn nut(world: &KinematicWorld) -> usize {
 
 /// Distance of arm and hand from a ball around the person's wrist, m, in a posture of all joints.
 fn distance(world: &KinematicWorld, mechanism: &Mechanism, position: &[f64]) -> f64 {
-    let body = mechanism.body(&|_| 0.8).unwrap();
+    let fingers = std::array::from_fn(|joint| position[ARM_JOINTS + joint]);
+    let body = mechanism.with_fingers(&world.robot.hand, &fingers).unwrap();
     let wrist = Point3::from(world.percept.hand.wrist);
     let hulls = body.hulls(mechanism, &std::array::from_fn(|joint| position[joint]));
     let moving = body.bones().iter().zip(&hulls).filter(|(bone, _)| bone.carriers > 0);
@@ -113,4 +114,57 @@ fn a_hand_that_comes_in_from_the_side_slows_the_arm_without_touching_it() {
             1e3 * (before - now)
         );
     }
+}
+
+#[test]
+fn the_hand_keeps_clear_of_the_one_that_brings_a_part_until_it_takes_the_part() {
+    let mut world = KinematicWorld::new();
+    world.decide(Some(world.action(Motion::Request, WHEEL)));
+    world.until(4.0, "held out", |world| world.phase() == MotionPhase::Hold);
+    let mechanism = Mechanism::of(&world.robot).unwrap();
+    let [x, y, z] = world.task.scene.handover;
+    let wheel = world.task.subgoals.iter().find(|goal| goal.name == WHEEL).unwrap().kind;
+    let part = world.parts.iter().position(|part| part.kind == wheel).unwrap();
+    world.parts[part].holder = Holder::Person;
+    world.parts[part].frame.translation.vector = [x, y, z].into();
+    // The hand beside it, in the middle of the way from where the robot holds its own out to where it waits.
+    world.hand_at([x + 0.10, y + 0.05, z + 0.10]);
+    world.decide(Some(world.action(Motion::Receive, WHEEL)));
+    let mut nearest = f64::INFINITY;
+    world.until(6.0, "ready", |world| {
+        nearest = nearest.min(distance(world, &mechanism, &world.command.position));
+        world.phase() == MotionPhase::Hold && world.command.action == world.action(Motion::Receive, WHEEL)
+    });
+    assert!(nearest > 0.03, "{nearest} m from the hand that brings the wheel");
+    world.until(3.0, "taken out of it", |world| world.held().is_some());
+}
+
+#[test]
+fn the_arm_gets_away_from_a_hand_that_has_come_too_near_while_it_stood() {
+    let mut world = KinematicWorld::new();
+    world.run(0.1);
+    let mechanism = Mechanism::of(&world.robot).unwrap();
+    // Somebody's hand beside the palm.
+    let (palm, aside) = (world.palm().translation.vector, world.palm().rotation * Vector3::y());
+    let gap = (0..300).map(|step| 0.3 - 1e-3 * f64::from(step)).find_map(|beside| {
+        world.hand_at((palm + beside * aside).into());
+        Some(distance(&world, &mechanism, &world.command.position)).filter(|gap| *gap < 0.03)
+    });
+    let gap = gap.unwrap();
+    world.decide(Some(world.action(Motion::Insert, NUT)));
+    let mut nearest = f64::INFINITY;
+    world.until(6.0, "at the nut", |world| {
+        nearest = nearest.min(distance(world, &mechanism, &world.command.position));
+        world.phase() == MotionPhase::Approach
+    });
+    assert!(nearest > gap - 0.005, "{nearest} m, from {gap} m");
+}
+
+#[test]
+fn a_part_that_is_seen_a_little_below_the_table_is_taken_from_it() {
+    let mut world = KinematicWorld::new();
+    let part = nut(&world);
+    world.parts[part].frame.translation.vector.z -= 0.003;
+    world.decide(Some(world.action(Motion::Insert, NUT)));
+    world.until(5.0, "taken", |world| world.held().is_some());
 }

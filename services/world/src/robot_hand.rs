@@ -20,7 +20,7 @@ const OPENED: f64 = 0.01;
 /// Clear width from which a hand without a part looks open, m.
 const LOOKS_OPEN: f64 = 0.06;
 /// Distance of the grasp point from a place within which the hand is seen as being there, m.
-const AT_PLACE: f64 = 0.12;
+const AT_PLACE: f64 = 0.18;
 /// Distance of the grasp point from where it took a part within which the part is not carried yet, m.
 const LIFTED: f64 = 0.03;
 /// Grip force when the fingers just touch, N, and its growth with the finger angle that the servo is held back, N/rad.

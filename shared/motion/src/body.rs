@@ -1,10 +1,11 @@
 use crate::solid::Shape;
-use crate::{Capsule, Clearance, Mechanism, Other, Scene, Solid};
+use crate::{Capsule, Clearance, Mechanism, Other, Scene, Solid, StageKind};
 use coact_robot::Posture;
 use nalgebra::{Isometry3, SMatrix, Vector3};
 use parry3d_f64::shape::SharedShape;
 
-/// Arm, hand and what it holds, as forms that move with the arm's joints. The fingers' angles are fixed in it.
+/// Arm, hand and what it holds, as forms that move with the arm's joints. The fingers stand still in it, or pass from one
+/// shape to another on the way.
 #[derive(Debug, Clone)]
 pub struct Body {
     pub(crate) bones: Vec<Bone>,
@@ -25,6 +26,9 @@ pub struct Bone {
     pub place: Isometry3<f64>,
     /// Whether it belongs to the hand, or to what the hand holds.
     pub hand: bool,
+    /// Whether it is there at each stage of a movement, in the order of [`StageKind`]: where fingers move with the arm,
+    /// they are there as they stand at first, on the way in all shapes that they pass, and at last as they shall stand.
+    pub(crate) stages: [bool; 3],
     /// A capsule around it, where `place` is.
     pub(crate) hull: Capsule,
     pub(crate) shape: SharedShape,
@@ -36,7 +40,7 @@ impl Bone {
     pub(crate) fn new(name: &str, carriers: usize, solid: Solid, place: Isometry3<f64>, hand: bool) -> Self {
         let Shape { shape, own } = solid.shape();
         let (name, hull) = (name.to_owned(), solid.hull(&place));
-        Self { name, carriers, solid, place, hand, hull, shape, own: place * own }
+        Self { name, carriers, solid, place, hand, stages: [true; 3], hull, shape, own: place * own }
     }
 }
 
@@ -108,8 +112,13 @@ impl Body {
             );
         }
         let (mut body, mut touching) = (Self { bones, pairs }, Vec::new());
-        let clearance = Clearance { mechanism, body: &body, scene: &Scene::default(), touching: false };
-        clearance.near(&mechanism.park, 0.0, &mut touching);
+        let scene = Scene::default();
+        let mut near = Vec::new();
+        for stage in StageKind::ALL {
+            let clearance = Clearance { mechanism, body: &body, scene: &scene, stage };
+            clearance.near(&mechanism.park, 0.0, &mut near);
+            touching.append(&mut near);
+        }
         let touches = |&(one, other): &(usize, usize)| {
             touching.iter().any(|near| near.bone == one && near.other == Other::Bone(other))
         };
@@ -133,6 +142,12 @@ impl Body {
         let place = mechanism.arm.tool * place;
         self.bones.push(Bone::new(name, mechanism.joints(), solid, place, true));
         Self::new(mechanism, self.bones)
+    }
+
+    /// Capsules around all bones that the arm's joints move, in the world, for a posture of the arm.
+    pub fn moving_hulls(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Capsule> {
+        let hulls = self.bones.iter().zip(self.hulls(mechanism, posture));
+        hulls.filter(|(bone, _)| bone.carriers > 0).map(|(_, hull)| hull).collect()
     }
 
     /// As [`hulls`](Self::hulls), into a list that is used again and again.

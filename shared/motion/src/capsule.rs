@@ -68,18 +68,23 @@ impl Capsule {
 
     /// Distance of the surfaces of two capsules, m; negative when they overlap.
     pub fn distance(&self, other: &Self) -> f64 {
+        let (mine, theirs) = self.nearest(other);
+        (mine - theirs).norm() - self.radius - other.radius
+    }
+
+    /// The points of the lines of two capsules at which they are nearest to each other.
+    pub fn nearest(&self, other: &Self) -> (Point3<f64>, Point3<f64>) {
         let segment = |capsule: &Self| {
             let [start, end] = [capsule.start, capsule.end].map(|at| Vector::new(at.x, at.y, at.z));
             Segment::new(start, end)
         };
         let (one, two) = (segment(self), segment(other));
-        let nearest = closest_points_segment_segment(&Pose::IDENTITY, &one, &two, f64::INFINITY);
-        let gap = match nearest {
-            ClosestPoints::WithinMargin(mine, theirs) => (mine - theirs).length(),
-            ClosestPoints::Intersecting => 0.0,
-            ClosestPoints::Disjoint => f64::INFINITY,
-        };
-        gap - self.radius - other.radius
+        let point = |at: Vector| Point3::new(at.x, at.y, at.z);
+        match closest_points_segment_segment(&Pose::IDENTITY, &one, &two, f64::INFINITY) {
+            ClosestPoints::WithinMargin(mine, theirs) => (point(mine), point(theirs)),
+            // With no bound on the distance there are always such points.
+            ClosestPoints::Intersecting | ClosestPoints::Disjoint => (self.start, other.start),
+        }
     }
 
     /// A distance, m, that two capsules have at least: from this line to a ball around the other.

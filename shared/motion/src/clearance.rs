@@ -1,6 +1,6 @@
 use crate::body::Frames;
 use crate::solid::pose;
-use crate::{Body, Capsule, Mechanism, Scene};
+use crate::{Body, Capsule, Mechanism, Scene, StageKind};
 use coact_robot::Posture;
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::Vector;
@@ -16,8 +16,9 @@ pub struct Clearance<'a> {
     pub body: &'a Body,
     /// The surroundings.
     pub scene: &'a Scene,
-    /// Whether the hand, and what it holds, may touch what the scene says.
-    pub touching: bool,
+    /// What the body is at: the hand, and what it holds, may touch what the scene says on leaving and on the approach, and
+    /// fingers that move with the arm stand differently at each stage.
+    pub stage: StageKind,
 }
 
 /// A bone near something.
@@ -43,6 +44,11 @@ pub enum Other {
 }
 
 impl Clearance<'_> {
+    /// The same at another stage.
+    pub(crate) fn at(self, stage: StageKind) -> Self {
+        Self { stage, ..self }
+    }
+
     /// Everything nearer than `within` m at this posture, into `found`.
     pub fn near(&self, posture: &Posture, within: f64, found: &mut Vec<Near>) {
         found.clear();
@@ -86,16 +92,18 @@ impl Clearance<'_> {
         let frames = Frames::of(self.mechanism, posture);
         let bones = &self.body.bones;
         let hulls: Vec<Capsule> = bones.iter().map(|bone| bone.hull.within(&frames.carrier(bone))).collect();
-        for bone in (0..bones.len()).filter(|bone| bones[*bone].carriers > 0) {
+        let is_there = |bone: usize| bones[bone].stages[self.stage as usize];
+        for bone in (0..bones.len()).filter(|bone| bones[*bone].carriers > 0 && is_there(*bone)) {
             for (index, obstacle) in self.scene.obstacles.iter().enumerate() {
                 let far = are_apart(&hulls[bone], &obstacle.hull, within);
-                if let Some(near) = (!far).then(|| self.obstacle_near(&frames, bone, index, within)).flatten()
-                {
+                let near = || self.obstacle_near(&frames, (bone, &hulls[bone]), index, within);
+                if let Some(near) = (!far).then(near).flatten() {
                     within = found(near)?;
                 }
             }
         }
-        for &(one, other) in &self.body.pairs {
+        for &(one, other) in self.body.pairs.iter().filter(|(one, other)| is_there(*one) && is_there(*other))
+        {
             let far = are_apart(&hulls[one], &hulls[other], within);
             if let Some(near) = (!far).then(|| self.bone_near(&frames, (one, other), within)).flatten() {
                 within = found(near)?;
@@ -104,17 +112,30 @@ impl Clearance<'_> {
         ControlFlow::Continue(())
     }
 
-    fn obstacle_near(&self, frames: &Frames, bone: usize, index: usize, within: f64) -> Option<Near> {
+    fn obstacle_near(
+        &self,
+        frames: &Frames,
+        (bone, hull): (usize, &Capsule),
+        index: usize,
+        within: f64,
+    ) -> Option<Near> {
         let (own, obstacle) = (&self.body.bones[bone], &self.scene.obstacles[index]);
-        if self.touching && own.hand && self.scene.hand_may_touch(index) {
+        if own.hand && self.scene.hand_may_touch(index, self.stage) {
             return None;
         }
-        let place = pose(&(frames.carrier(own) * own.own));
-        let contact = query::contact(&place, &*own.shape, &obstacle.pose, &*obstacle.shape, within);
-        let contact = contact.ok().flatten()?;
-        let (point, away) = first_side(&contact);
+        let (point, away, distance) = if obstacle.coarse {
+            let (mine, theirs) = hull.nearest(&obstacle.hull);
+            let away = (mine - theirs).try_normalize(APART).unwrap_or_else(Vector3::z);
+            (mine, away, (mine - theirs).norm() - hull.radius - obstacle.hull.radius)
+        } else {
+            let place = pose(&(frames.carrier(own) * own.own));
+            let contact = query::contact(&place, &*own.shape, &obstacle.pose, &*obstacle.shape, within);
+            let contact = contact.ok().flatten()?;
+            let (point, away) = first_side(&contact);
+            (point, away, contact.dist)
+        };
         let slope = frames.slope(&point, &away, own.carriers);
-        Some(Near { bone, other: Other::Obstacle(index), distance: contact.dist, slope })
+        (distance < within).then_some(Near { bone, other: Other::Obstacle(index), distance, slope })
     }
 
     fn bone_near(&self, frames: &Frames, (one, other): (usize, usize), within: f64) -> Option<Near> {

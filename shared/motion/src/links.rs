@@ -2,10 +2,13 @@
 
 use crate::body::Bone;
 use crate::{Capsule, Mechanism, Meshes, Solid};
-use coact_robot::{Joint, RobotError, Urdf, isometry};
+use coact_robot::{HAND_JOINTS, Joint, RobotError, Urdf, isometry};
 use nalgebra::{Isometry3, Point3, Vector3};
 use std::path::{Path, PathBuf};
 
+/// Turn of a finger joint from one shape that is held against the surroundings to the next, rad: no more than a few
+/// centimetres at the finger tip, of which the finger itself takes one or two.
+const TURN: f64 = 0.4;
 /// Share of an arm link's stand-in radius that stands in for a finger.
 const FINGER: f64 = 1.0 / 6.0;
 
@@ -65,6 +68,20 @@ pub(crate) fn hand_bones(
         }
     }
     Ok(bones)
+}
+
+/// These shapes of a hand, and those between them, so many that no joint turns by more than 0.4 rad from one to the next.
+pub(crate) fn passed(shapes: &[[f64; HAND_JOINTS]]) -> Vec<[f64; HAND_JOINTS]> {
+    let mut passed: Vec<_> = shapes.first().copied().into_iter().collect();
+    for pair in shapes.windows(2) {
+        let turn = |joint: usize| pair[1][joint] - pair[0][joint];
+        let most = (0..HAND_JOINTS).map(|joint| turn(joint).abs()).fold(0.0, f64::max);
+        let steps = (most / TURN).ceil();
+        passed.extend((1..=steps as u32).map(|step| -> [f64; HAND_JOINTS] {
+            std::array::from_fn(|joint| pair[0][joint] + turn(joint) * f64::from(step) / steps)
+        }));
+    }
+    passed
 }
 
 /// Whether these are the arm's own first joints.

@@ -1,3 +1,4 @@
+use crate::body::Bone;
 use crate::{Body, links};
 use coact_robot::{
     Arm, HAND_JOINTS, Hand, HandGoal, JointLimits, Posture, Robot, RobotError, Srs, Urdf, grip,
@@ -132,10 +133,33 @@ impl Mechanism {
     /// # Errors
     /// As [`body`](Self::body).
     pub fn with_fingers(&self, hand: &Hand, angles: &[f64; HAND_JOINTS]) -> Result<Body, RobotError> {
-        self.body(&|name| {
-            let index = hand.joints.iter().position(|joint| joint.name == name);
-            index.map_or(0.0, |index| angles[index])
-        })
+        self.with_moving_fingers(hand, &[*angles])
+    }
+
+    /// The same with fingers that pass through all of these shapes while the arm reaches: on leaving the hand has the
+    /// first, on the approach the last. Between one shape and the next the fingers are thought to be wherever they are on
+    /// the way.
+    ///
+    /// # Errors
+    /// As [`body`](Self::body).
+    pub fn with_moving_fingers(
+        &self,
+        hand: &Hand,
+        shapes: &[[f64; HAND_JOINTS]],
+    ) -> Result<Body, RobotError> {
+        let passed = links::passed(shapes);
+        let hands = passed.iter().map(|angles| links::hand_bones(self, &named(hand, angles)));
+        let hands: Vec<Vec<Bone>> = hands.collect::<Result<_, _>>()?;
+        let mut bones = links::arm_bones(self)?;
+        for number in 0..hands.first().map_or(0, Vec::len) {
+            let stands = hands.iter().all(|hand| hand[number].place == hands[0][number].place);
+            let count = if stands { 1 } else { hands.len() };
+            bones.extend(hands[..count].iter().enumerate().map(|(index, hand)| {
+                let stages = [index == 0, true, index + 1 == count];
+                Bone { stages, ..hand[number].clone() }
+            }));
+        }
+        Ok(Body::new(self, bones))
     }
 
     /// The grasp point in the palm frame.
@@ -162,6 +186,11 @@ impl Mechanism {
         let grip = grip::frame(&point, &goal.approach, &goal.closing, roll);
         grip * Translation3::new(0.0, 0.0, -self.grasp_distance)
     }
+}
+
+/// Angles by the names of the hand's joints, rad; 0 for a joint that is not the hand's.
+fn named<'a>(hand: &'a Hand, angles: &'a [f64; HAND_JOINTS]) -> impl Fn(&str) -> f64 + 'a {
+    |name| hand.joints.iter().position(|joint| joint.name == name).map_or(0.0, |index| angles[index])
 }
 
 /// Refuses what has too few or too many joints before its palm.

@@ -15,6 +15,9 @@ pub struct Obstacle {
     pub place: Isometry3<f64>,
     /// A capsule around it, world.
     pub hull: Capsule,
+    /// Whether the capsules around the bones keep clear of its capsule, and not form of form: as coarse as somebody who
+    /// moves is known.
+    pub coarse: bool,
     pub(crate) shape: SharedShape,
     pub(crate) pose: Pose,
 }
@@ -24,7 +27,12 @@ impl Obstacle {
     pub fn new(name: impl Into<String>, solid: Solid, place: &Isometry3<f64>) -> Self {
         let Shape { shape, own } = solid.shape();
         let (hull, pose) = (solid.hull(place), pose(&(place * own)));
-        Self { name: name.into(), solid, place: *place, hull, shape, pose }
+        Self { name: name.into(), solid, place: *place, hull, coarse: false, shape, pose }
+    }
+
+    /// Somebody, or something, that moves: a capsule of which the capsules around the bones keep clear.
+    pub fn moving(name: impl Into<String>, capsule: Capsule) -> Self {
+        Self { coarse: true, ..Self::new(name, Solid::Capsule(capsule), &Isometry3::identity()) }
     }
 }
 

@@ -3,7 +3,7 @@ use crate::search::Search;
 use crate::solver::Solver;
 use crate::target::{Target, TargetSearch};
 use crate::work::Work;
-use crate::{Body, Clearance, Mechanism, Plan, Refusal, Scene};
+use crate::{Body, Clearance, Mechanism, Plan, Refusal, Scene, StageKind};
 use coact_robot::{HandGoal, MotionState, Posture};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
@@ -95,27 +95,23 @@ impl Problem<'_> {
         self.targets(from).unwrap_or_default()
     }
 
-    /// Distances where nothing may be touched.
-    pub(crate) fn clearance(&self) -> Clearance<'_> {
-        Clearance { mechanism: self.mechanism, body: self.body, scene: self.scene, touching: false }
-    }
-
-    /// Distances where the hand may touch what it is about.
-    pub(crate) fn touching(&self) -> Clearance<'_> {
-        Clearance { touching: true, ..self.clearance() }
+    /// Distances at a stage of the movement.
+    pub(crate) fn clearance(&self, stage: StageKind) -> Clearance<'_> {
+        Clearance { mechanism: self.mechanism, body: self.body, scene: self.scene, stage }
     }
 
     /// The posture after leaving; none when the hand is not to leave first.
     fn away(&self) -> Result<Option<Posture>, Refusal> {
         let posture = self.start.map(|state| state.position);
-        if let Some(near) = self.touching().nearest(&posture, 0.0) {
-            let (bone, other) = self.touching().names(&near);
+        let clearance = self.clearance(StageKind::Leave);
+        if let Some(near) = clearance.nearest(&posture, 0.0) {
+            let (bone, other) = clearance.names(&near);
             return Err(Refusal::Start { bone, other, short: -near.distance });
         }
         let Some((direction, distance)) = self.leave else { return Ok(None) };
         let palm = self.mechanism.arm.palm(&posture);
         let goal = self.mechanism.goal_of(&(Translation3::from(direction * distance) * palm));
-        let solver = Solver { clearance: self.touching(), from: &posture, margin: 0.0 };
+        let solver = Solver { clearance, from: &posture, margin: 0.0 };
         let away = solver.reach(&goal, 0.0, 0.0, &posture);
         away.map(Some).ok_or(Refusal::OutOfReach { point: goal.point.coords.into() })
     }
@@ -125,8 +121,8 @@ impl Problem<'_> {
             Aim::Posture(at) => Ok(vec![Target { goal: 0, roll: 0.0, before: *at, at: *at, cost: 0.0 }]),
             Aim::Hand(goals) => {
                 let margin = [self.margin.way, self.margin.goal];
-                let (clearance, touching) = (self.clearance(), self.touching());
-                TargetSearch { clearance, touching, goals, from, then: &self.then, margin }.best()
+                let clearance = self.clearance(StageKind::Approach);
+                TargetSearch { clearance, goals, from, then: &self.then, margin }.best()
             }
         }
     }

@@ -138,8 +138,12 @@ impl<'a> Search<'a> {
     fn detour(&mut self, target: &Target) {
         for room in ROOM {
             let margin = self.problem.margin.way + room;
-            let found =
-                detour::find(&self.problem.clearance(), [&self.from(), &target.before], margin, self.work);
+            let found = detour::find(
+                &self.problem.clearance(StageKind::Reach),
+                [&self.from(), &target.before],
+                margin,
+                self.work,
+            );
             let Some(corners) = found else { continue };
             let mut vias = corners.clone();
             let way = self.way(target, &[], Passing::Smooth);
@@ -191,10 +195,8 @@ impl<'a> Search<'a> {
         let approach = (target.before != target.at).then_some((StageKind::Approach, target.at));
         let legs = leave.into_iter().chain(reaches).chain(approach).collect();
         let route = Route::new(mechanism, start, legs, passing).smoothest(mechanism, &limits);
-        let (clearance, touching) = (self.problem.clearance(), self.problem.touching());
         Way {
-            clearance,
-            touching,
+            clearance: self.problem.clearance(StageKind::Reach),
             limits,
             route,
             margin,

@@ -19,3 +19,8 @@ pub enum StageKind {
     /// To the goal from the pose before it.
     Approach,
 }
+
+impl StageKind {
+    /// All of them.
+    pub(crate) const ALL: [Self; 3] = [Self::Leave, Self::Reach, Self::Approach];
+}

@@ -1,6 +1,6 @@
 use crate::comfort::cost;
 use crate::solver::Solver;
-use crate::{Clearance, Mechanism, Refusal};
+use crate::{Clearance, Mechanism, Refusal, StageKind};
 use coact_robot::{HandGoal, Posture};
 use nalgebra::Isometry3;
 use std::f64::consts::TAU;
@@ -22,9 +22,8 @@ pub struct Target {
 
 /// The search for postures at which people would end: those of the smallest weighted way of the joints.
 pub(crate) struct TargetSearch<'a> {
+    /// Distances at the goal.
     pub clearance: Clearance<'a>,
-    /// The same, where the hand may touch what it is about.
-    pub touching: Clearance<'a>,
     pub goals: &'a [HandGoal],
     pub from: &'a Posture,
     /// Motions that the hand makes next, one of them, with what it has grasped.
@@ -124,7 +123,7 @@ impl TargetSearch<'_> {
 
     /// Postures of the numerical solver, from several places.
     fn solved(&self, goal: usize, roll: f64) -> impl Iterator<Item = Candidate> + use<'_> {
-        let solver = Solver { clearance: self.touching, from: self.from, margin: self.margin[1] };
+        let solver = Solver { clearance: self.clearance, from: self.from, margin: self.margin[1] };
         let starts = solver.starts(STARTS);
         starts.into_iter().filter_map(move |start| {
             let at = solver.reach(&self.goals[goal], roll, 0.0, &start)?;
@@ -136,11 +135,12 @@ impl TargetSearch<'_> {
     fn check(&self, candidate: &Candidate) -> Option<Target> {
         let Candidate { cost, goal, roll, at, .. } = *candidate;
         let back = self.goals[goal].back;
-        if !self.touching.is_clear(&at, self.margin[1]) {
+        if !self.clearance.is_clear(&at, self.margin[1]) {
             return None;
         }
         let before = if back > 0.0 { self.before(candidate)? } else { at };
-        self.clearance.is_clear(&before, self.margin[0]).then_some(Target { goal, roll, before, at, cost })
+        let on_the_way = self.clearance.at(StageKind::Reach);
+        on_the_way.is_clear(&before, self.margin[0]).then_some(Target { goal, roll, before, at, cost })
     }
 
     /// The posture from which the approach begins: that nearest to the goal's.
@@ -163,7 +163,7 @@ impl TargetSearch<'_> {
         let mut next: Vec<Posture> =
             self.then.iter().flat_map(|then| self.postures_at(&(then * palm), at)).collect();
         next.sort_by(|one, other| cost(one, at).total_cmp(&cost(other, at)));
-        let clear = next.iter().take(NEXT).find(|next| self.touching.is_clear(next, self.margin[1]));
+        let clear = next.iter().take(NEXT).find(|next| self.clearance.is_clear(next, self.margin[1]));
         clear.map_or(f64::INFINITY, |next| cost(next, at))
     }
 
@@ -173,7 +173,7 @@ impl TargetSearch<'_> {
             let branches = (0..SWIVELS).map(|step| srs.solve(palm, angle(step, SWIVELS), MARGIN));
             return branches.flat_map(|branches| branches.as_slice().to_vec()).collect();
         }
-        let solver = Solver { clearance: self.touching, from, margin: self.margin[1] };
+        let solver = Solver { clearance: self.clearance, from, margin: self.margin[1] };
         let goal = self.mechanism().goal_of(palm);
         solver.starts(STARTS).iter().filter_map(|start| solver.reach(&goal, 0.0, 0.0, start)).collect()
     }
@@ -206,15 +206,12 @@ impl TargetSearch<'_> {
     fn refusal(&self, candidates: &[Candidate]) -> Refusal {
         let mut least: Option<(f64, String, String)> = None;
         for candidate in candidates.iter().step_by(candidates.len() / 200 + 1) {
-            let at = self
-                .touching
-                .nearest(&candidate.at, self.margin[1])
-                .map(|near| (near, self.margin[1], &self.touching));
-            let before = || {
-                let before = self.before(candidate)?;
-                let near = self.clearance.nearest(&before, self.margin[0])?;
-                Some((near, self.margin[0], &self.clearance))
+            let near = |posture: &Posture, stage: StageKind, margin: f64| {
+                let clearance = self.clearance.at(stage);
+                Some((clearance.nearest(posture, margin)?, margin, clearance))
             };
+            let at = near(&candidate.at, StageKind::Approach, self.margin[1]);
+            let before = || near(&self.before(candidate)?, StageKind::Reach, self.margin[0]);
             let Some((near, margin, clearance)) = at.or_else(before) else { continue };
             let short = margin - near.distance;
             if least.as_ref().is_none_or(|(known, ..)| short < *known) {

@@ -17,9 +17,8 @@ use std::ops::Range;
 /// The search for a movement along a route that stays clear of everything: the direct one, or the one with the smallest
 /// excursion on the reach.
 pub(crate) struct Way<'a> {
+    /// Distances on the reach.
     pub clearance: Clearance<'a>,
-    /// The same, where the hand may touch what it is about.
-    pub touching: Clearance<'a>,
     pub limits: [JointLimits; 7],
     pub route: Route,
     pub margin: Margin,
@@ -142,7 +141,7 @@ impl<'a> Way<'a> {
         let s = t / stage.trajectory.duration;
         match stage.kind {
             StageKind::Reach => (self.clearance, self.reach_margin(stages, stage, s)),
-            kind => (self.touching, self.straight_margin(kind, s)),
+            kind => (self.clearance.at(kind), self.straight_margin(kind, s)),
         }
     }
 
@@ -159,16 +158,17 @@ impl<'a> Way<'a> {
         let straight = stages.iter().filter(|stage| stage.kind != StageKind::Reach);
         let near = straight.flat_map(|stage| {
             let postures = (0..=WATCHED).map(|point| f64::from(point) / f64::from(WATCHED));
-            postures.filter_map(|s| {
+            let clearance = self.clearance.at(stage.kind);
+            postures.filter_map(move |s| {
                 let margin = self.straight_margin(stage.kind, s);
-                let near = self.touching.nearest(&stage.trajectory.posture(s), margin)?;
+                let near = clearance.nearest(&stage.trajectory.posture(s), margin)?;
                 Some((margin - near.distance, near))
             })
         });
         match near.max_by(|one, other| one.0.total_cmp(&other.0)) {
             None => Ok(()),
             Some((short, near)) => {
-                let (bone, other) = self.touching.names(&near);
+                let (bone, other) = self.clearance.names(&near);
                 Err(Refusal::Blocked { bone, other, short })
             }
         }

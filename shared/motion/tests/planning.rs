@@ -5,15 +5,18 @@ use coact_motion::{
     Aim, Body, Capsule, Clearance, Margin, Mechanism, Obstacle, Other, Plan, Problem, Refusal, Scene, Solid,
     StageKind,
 };
-use coact_robot::{HandGoal, MotionState, Posture, Robot};
+use coact_robot::{HAND_JOINTS, HandGoal, MotionState, Posture, Robot};
 use nalgebra::{Isometry3, Point3, Vector3};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 
-static AROS: LazyLock<(Mechanism, Body)> = LazyLock::new(|| {
+fn aros() -> Robot {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let robot = Robot::load(&root.join("../../rt-config/robots/aros.toml")).unwrap();
-    let mechanism = Mechanism::of(&robot).unwrap();
+    Robot::load(&root.join("../../rt-config/robots/aros.toml")).unwrap()
+}
+
+static AROS: LazyLock<(Mechanism, Body)> = LazyLock::new(|| {
+    let mechanism = Mechanism::of(&aros()).unwrap();
     let body = mechanism.body(&|name| if name.ends_with("base") { 1.2 } else { 0.0 }).unwrap();
     (mechanism, body)
 });
@@ -67,8 +70,12 @@ fn what_stands_in_the_way_is_passed_at_the_margin() {
     let problem = problem(&scene, parked(), goal);
     let plan = problem.plan().unwrap();
     assert!(plan.bounces, "a direct movement cannot be clear");
-    let clearance =
-        Clearance { mechanism: problem.mechanism, body: problem.body, scene: &scene, touching: false };
+    let clearance = Clearance {
+        mechanism: problem.mechanism,
+        body: problem.body,
+        scene: &scene,
+        stage: StageKind::Reach,
+    };
     for step in 0..=500 {
         let near = clearance.nearest(&posture(&plan, f64::from(step) / 500.0), 0.02);
         let distance = near.map_or(0.02, |near| near.distance);
@@ -207,7 +214,7 @@ proptest! {
         let ball = Capsule { start: Point3::origin(), end: Point3::origin(), radius: 0.05 };
         let place = Isometry3::translation(hand.x + 0.15, hand.y, hand.z);
         let scene = Scene { obstacles: vec![Obstacle::new("ball", Solid::Capsule(ball), &place)], ..Scene::default() };
-        let clearance = Clearance { mechanism, body, scene: &scene, touching: false };
+        let clearance = Clearance { mechanism, body, scene: &scene, stage: StageKind::Reach };
         let mut found = Vec::new();
         clearance.near(&posture, 0.3, &mut found);
         for near in found.iter().filter(|near| near.distance > 0.01) {
@@ -240,7 +247,7 @@ proptest! {
         let ball = Solid::Capsule(Capsule { start: centre, end: centre, radius: 0.05 });
         let scene = Scene { obstacles: vec![Obstacle::new("ball", ball, &Isometry3::identity())], ..Scene::default() };
         let mut found = Vec::new();
-        Clearance { mechanism, body, scene: &scene, touching: false }.near(&posture, 0.5, &mut found);
+        Clearance { mechanism, body, scene: &scene, stage: StageKind::Reach }.near(&posture, 0.5, &mut found);
         for near in found.iter().filter(|near| near.other == Other::Obstacle(0) && near.distance > 0.0) {
             let bone = &body.bones()[near.bone];
             let Solid::Box(size) = bone.solid else { continue };
@@ -249,4 +256,26 @@ proptest! {
             prop_assert!((near.distance - (beyond.norm() - 0.05)).abs() < 1e-4);
         }
     }
+}
+
+#[test]
+fn what_only_passing_fingers_would_touch_counts_on_the_way_alone() {
+    let (robot, mechanism) = (aros(), &AROS.0);
+    let [closed, between, open] = [1.5, 1.05, 0.6].map(|base| robot.hand.posture(base));
+    let tip = |fingers: &[f64; HAND_JOINTS]| {
+        let body = mechanism.with_fingers(&robot.hand, fingers).unwrap();
+        let of_tip = body.bones().iter().position(|bone| bone.name == "finger_3_distal").unwrap();
+        body.hulls(mechanism, &mechanism.park)[of_tip].end
+    };
+    let body = mechanism.with_moving_fingers(&robot.hand, &[closed, open]).unwrap();
+    let near = |fingers: &[f64; HAND_JOINTS], stage: StageKind| {
+        let ball = Capsule { start: tip(fingers), end: tip(fingers), radius: 0.005 };
+        let thing = Obstacle::new("thing", Solid::Capsule(ball), &Isometry3::identity());
+        let scene = Scene { obstacles: vec![thing], ..Scene::default() };
+        Clearance { mechanism, body: &body, scene: &scene, stage }.nearest(&mechanism.park, 0.015).is_some()
+    };
+    let stages = [StageKind::Leave, StageKind::Reach, StageKind::Approach];
+    assert_eq!(stages.map(|stage| near(&closed, stage)), [true, true, false]);
+    assert_eq!(stages.map(|stage| near(&between, stage)), [false, true, false]);
+    assert_eq!(stages.map(|stage| near(&open, stage)), [false, true, true]);
 }

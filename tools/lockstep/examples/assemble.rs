@@ -1,7 +1,7 @@
 //! One assembly in lockstep, told line by line: `cargo run -p coact-lockstep --example assemble -- [SEED] [PARTNER] [SECONDS] [WORLD]`.
 
 use coact_lockstep::Lockstep;
-use coact_messages::{LayerKind, NONE};
+use coact_messages::{ARM_JOINTS, LayerKind, NONE};
 use coact_pipeline::{RunSettings, WorldMode};
 use std::path::Path;
 
@@ -24,9 +24,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         world,
     })?;
     let mut last = String::new();
+    let mut errors = Vec::new();
     let started = std::time::Instant::now();
     while stages.ticks() < seconds * 1000 && !stages.complete() {
         stages.step();
+        errors.push(tracking_error(&stages));
         let now = describe(&stages);
         if now != last {
             println!("{:8.3} {now}", stages.ticks() as f64 / 1000.0);
@@ -41,8 +43,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
     let (ticks, elapsed) = (stages.ticks(), started.elapsed().as_secs_f64());
+    let largest = (0..errors.len()).max_by(|one, other| errors[*one].total_cmp(&errors[*other])).unwrap_or(0);
+    println!(
+        "tracking error: more than 20 mrad for {} ms, largest {:.1} mrad at {:.3} s",
+        errors.iter().filter(|error| **error > 0.02).count(),
+        1e3 * errors.get(largest).copied().unwrap_or(0.0),
+        largest as f64 / 1000.0
+    );
     println!("{} ms in {elapsed:.2} s: {:.1} times real time", ticks, ticks as f64 / 1000.0 / elapsed);
     Ok(())
+}
+
+/// Largest difference of an arm joint's measured angle from its setpoint in this tick, rad.
+fn tracking_error(stages: &Lockstep) -> f64 {
+    let errors = &stages.command.tracking_error[..ARM_JOINTS];
+    errors.iter().fold(0.0, |largest: f64, error| largest.max(error.abs()))
 }
 
 /// Everything that a person watching would want to know of this tick, in one line.

@@ -1,4 +1,4 @@
-use coact_motion::{Aim, Body, Clearance, Margin, Mechanism, Problem, Scene};
+use coact_motion::{Aim, Body, Clearance, Margin, Mechanism, Problem, Scene, StageKind};
 use coact_robot::MotionState;
 use nalgebra::Vector3;
 
@@ -37,7 +37,8 @@ impl Case {
 
     /// Whether it starts clear of everything.
     pub(crate) fn starts_clear(&self, mechanism: &Mechanism) -> bool {
-        let clearance = Clearance { mechanism, body: &self.body, scene: &self.scene, touching: false };
+        let clearance =
+            Clearance { mechanism, body: &self.body, scene: &self.scene, stage: StageKind::Reach };
         clearance.is_clear(&self.start.map(|state| state.position), ROOM)
     }
 }

@@ -1,5 +1,5 @@
 use crate::{Case, Quality, Scenario, Setting};
-use coact_motion::{Aim, Clearance, Margin, Mechanism, Plan, Refusal, way_exists};
+use coact_motion::{Aim, Clearance, Margin, Mechanism, Plan, Refusal, StageKind, way_exists};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use rustix::time::{ClockId, clock_gettime};
@@ -80,7 +80,8 @@ fn judged(mechanism: &Mechanism, case: &Case) -> Outcome {
                 Aim::Posture(at) => vec![*at],
                 Aim::Hand(_) => problem.targets_from(&from).iter().map(|target| target.before).collect(),
             };
-            let clearance = Clearance { mechanism, body: &case.body, scene: &case.scene, touching: false };
+            let clearance =
+                Clearance { mechanism, body: &case.body, scene: &case.scene, stage: StageKind::Reach };
             ends.iter().any(|end| way_exists(&clearance, &from, end, Margin::default().way))
         }
         Err(_) => false,

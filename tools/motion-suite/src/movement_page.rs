@@ -1,7 +1,7 @@
 use crate::chart::Chart;
 use crate::{FAR, Quality, path};
 use coact_figures::{Anchor, Sheet, TELLING};
-use coact_motion::{Capsule, Clearance, Plan, Problem};
+use coact_motion::{Capsule, Clearance, Plan, Problem, StageKind};
 use coact_pictures::{ARM, HAND, THINGS, View, paint};
 use nalgebra::Vector3;
 use plotters::prelude::RGBColor;
@@ -101,7 +101,7 @@ impl MovementPage<'_> {
             mechanism: problem.mechanism,
             body: problem.body,
             scene: problem.scene,
-            touching: true,
+            stage: StageKind::Approach,
         };
         let distance = |t: &f64| clearance.nearest(&self.posture(*t), FAR).map_or(FAR, |near| near.distance);
         let mut marks: Vec<f64> = self.plan.stages.iter().map(|(_, end)| *end).collect();

@@ -55,7 +55,7 @@ fn position_error(problem: &Problem, plan: &Plan) -> f64 {
 /// Smallest distance while the hand is on its way.
 fn clearance(problem: &Problem, plan: &Plan) -> f64 {
     let Problem { mechanism, body, scene, .. } = *problem;
-    let clearance = Clearance { mechanism, body, scene, touching: false };
+    let clearance = Clearance { mechanism, body, scene, stage: StageKind::Reach };
     let ends = plan.stages.iter().map(|(_, end)| *end);
     let begins = std::iter::once(0.0).chain(ends);
     let ways = plan.stages.iter().zip(begins).filter(|((kind, _), _)| *kind == StageKind::Reach);

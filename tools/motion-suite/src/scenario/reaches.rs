@@ -1,7 +1,7 @@
 //! Reaches from anywhere to anywhere, that any arm can make.
 
 use crate::{Case, Setting};
-use coact_motion::{Aim, Clearance, Obstacle, Scene, Solid};
+use coact_motion::{Aim, Clearance, Obstacle, Scene, Solid, StageKind};
 use coact_robot::{HandGoal, MotionState, Posture};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::RngExt;
@@ -102,7 +102,7 @@ fn hand_at(setting: &Setting, posture: &Posture) -> HandGoal {
 /// A posture in the middle of the joint ranges, clear of itself.
 fn comfortable(setting: &Setting, random: &mut Pcg64) -> Posture {
     let (mechanism, scene) = (&setting.mechanism, Scene::default());
-    let clearance = Clearance { mechanism, body: &setting.open, scene: &scene, touching: false };
+    let clearance = Clearance { mechanism, body: &setting.open, scene: &scene, stage: StageKind::Reach };
     loop {
         let mut posture = [0.0; 7];
         for (angle, joint) in posture.iter_mut().zip(&mechanism.arm.joints) {
