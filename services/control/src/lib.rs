@@ -54,6 +54,7 @@ mod request;
 mod senses;
 mod servo;
 mod settings;
+mod surroundings;
 
 pub use control::Control;
 pub use control_error::ControlError;

@@ -42,6 +42,11 @@ pub(crate) struct Request {
 }
 
 impl Request {
+    /// Whether the hand goes to where the person will bring something, and keeps clear of that.
+    pub fn awaits(&self) -> bool {
+        self.errand == Errand::Ask || (self.errand == Errand::Receive && self.before)
+    }
+
     /// Whether the arm moves when the movement begins.
     pub fn is_in_motion(&self) -> bool {
         self.start.iter().any(|state| !state.is_at_rest())
