@@ -24,7 +24,9 @@ pub(crate) struct Planner {
 /// Distances that are kept: fingers around something low stand hardly higher than what it lies on.
 pub(crate) const MARGIN: Margin = Margin { way: 0.01, goal: 0.001 };
 /// Postures that a search looks at, in motion and at rest: it ends before the person wonders.
-const EFFORT: (u32, u32) = (1_000, 10_000);
+const EFFORT: (u32, u32) = (1_000, 4_000);
+/// And where the person waits for the hand, which shall not go as far as it can and stop there.
+const PATIENT: u32 = 10_000;
 /// How deep parts go into their places at most, m.
 pub(crate) const GUIDE: f64 = 0.03;
 /// A person nearer than this to a hand at rest is one from whom it gets away first, m.
@@ -81,7 +83,8 @@ impl Planner {
         let (gap, away) = self.gap(request, &person);
         let alone = self.scene(request, &offers);
         let scene = alone.with(surroundings::stout(&person, gap));
-        let is_near = gap < NEAR && request.leave.is_none() && !request.is_in_motion();
+        let (moves, awaits) = (request.is_in_motion(), request.awaits());
+        let is_near = gap < NEAR && request.leave.is_none() && !moves;
         let from_person = Scene { left: vec![surroundings::PERSON.to_owned()], ..scene.clone() };
         let passed = [request.fingers, request.heading, self.body.fingers(wanted)];
         // From a person who is near the hand gets away first. Where the person leaves no way, the arm goes as far as the
@@ -90,8 +93,8 @@ impl Planner {
         let attempts = [
             (is_near, &passed[..], &from_person, Some((away, WITHDRAWAL))),
             (true, &passed, &scene, request.leave),
-            (!request.awaits(), &passed, &alone, request.leave),
-            (true, &passed[..1], if request.awaits() { &scene } else { &alone }, request.leave),
+            (!awaits, &passed, &alone, request.leave),
+            (!moves, &passed[..1], if awaits { &scene } else { &alone }, request.leave),
         ];
         for (_, shapes, scene, leave) in attempts.into_iter().filter(|attempt| attempt.0) {
             let Ok(figure) = self.figure(shapes, request.held) else { return refused };
@@ -104,7 +107,7 @@ impl Planner {
                 return Answer { course, hold, ..refused };
             }
         }
-        if request.is_in_motion() {
+        if moves {
             return refused;
         }
         let Ok(figure) = self.figure(&[request.fingers], request.held) else { return refused };
@@ -128,7 +131,11 @@ impl Planner {
         let then = request.next.map(|next| next * request.frame.inverse()).into_iter().collect();
         let problem = self.problem(figure, scene, request.start, aim);
         let problem = Problem { leave: request.leave, then, guide, ..problem };
-        problem.plan_within(if request.is_in_motion() { EFFORT.0 } else { EFFORT.1 })
+        problem.plan_within(match request.is_in_motion() {
+            true => EFFORT.0,
+            false if request.awaits() => PATIENT,
+            false => EFFORT.1,
+        })
     }
 
     /// Straight back out of a place that no movement leaves, or up.

@@ -1,7 +1,7 @@
 use crate::solid::Shape;
 use crate::{Capsule, Clearance, Mechanism, Other, Scene, Solid, StageKind};
 use coact_robot::Posture;
-use nalgebra::{Isometry3, SMatrix, Vector3};
+use nalgebra::{Isometry3, Point3, SMatrix, Vector3};
 use parry3d_f64::shape::SharedShape;
 
 /// Arm, hand and what it holds, as forms that move with the arm's joints. The fingers stand still in it, or pass from one
@@ -11,6 +11,8 @@ pub struct Body {
     pub(crate) bones: Vec<Bone>,
     /// Pairs of bones that could touch each other.
     pub(crate) pairs: Vec<(usize, usize)>,
+    /// A ball around all bones of the hand, in the frame of the arm's last joint.
+    pub(crate) hand: Option<Capsule>,
 }
 
 /// A form that is carried by a joint of the arm.
@@ -111,7 +113,17 @@ impl Body {
                 (0..one).filter(|&other| apart(&bones[one], &bones[other])).map(|other| (one, other)),
             );
         }
-        let (mut body, mut touching) = (Self { bones, pairs }, Vec::new());
+        let of_hand = || bones.iter().filter(|bone| bone.hand);
+        let ends: Vec<Point3<f64>> = of_hand().flat_map(|bone| [bone.hull.start, bone.hull.end]).collect();
+        let hand = Capsule::around_points(&ends).map(|around| {
+            let centre = nalgebra::center(&around.start, &around.end);
+            let reach = |bone: &Bone| {
+                let ends = [bone.hull.start, bone.hull.end];
+                bone.hull.radius + ends.iter().map(|end| (end - centre).norm()).fold(0.0, f64::max)
+            };
+            Capsule { start: centre, end: centre, radius: of_hand().map(reach).fold(0.0, f64::max) }
+        });
+        let (mut body, mut touching) = (Self { bones, pairs, hand }, Vec::new());
         let scene = Scene::default();
         let mut near = Vec::new();
         for stage in StageKind::ALL {

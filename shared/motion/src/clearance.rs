@@ -93,9 +93,16 @@ impl Clearance<'_> {
         let bones = &self.body.bones;
         let hulls: Vec<Capsule> = bones.iter().map(|bone| bone.hull.within(&frames.carrier(bone))).collect();
         let is_there = |bone: usize| bones[bone].stages[self.stage as usize];
+        // What is far from a ball around the hand is far from all of its many bones.
+        let ball = self.body.hand.map(|ball| ball.within(&frames.pose[self.mechanism.joints() - 1]));
+        let far_from_hand = |hull: &Capsule| ball.is_some_and(|ball| are_apart(&ball, hull, within));
+        let obstacles = self.scene.obstacles.iter();
+        let far_obstacles: Vec<bool> = obstacles.map(|obstacle| far_from_hand(&obstacle.hull)).collect();
+        let far_bones: Vec<bool> = hulls.iter().map(far_from_hand).collect();
         for bone in (0..bones.len()).filter(|bone| bones[*bone].carriers > 0 && is_there(*bone)) {
             for (index, obstacle) in self.scene.obstacles.iter().enumerate() {
-                let far = are_apart(&hulls[bone], &obstacle.hull, within);
+                let far = (bones[bone].hand && far_obstacles[index])
+                    || are_apart(&hulls[bone], &obstacle.hull, within);
                 let near = || self.obstacle_near(&frames, (bone, &hulls[bone]), index, within);
                 if let Some(near) = (!far).then(near).flatten() {
                     within = found(near)?;
@@ -104,7 +111,9 @@ impl Clearance<'_> {
         }
         for &(one, other) in self.body.pairs.iter().filter(|(one, other)| is_there(*one) && is_there(*other))
         {
-            let far = are_apart(&hulls[one], &hulls[other], within);
+            let far = (bones[one].hand && far_bones[other])
+                || (bones[other].hand && far_bones[one])
+                || are_apart(&hulls[one], &hulls[other], within);
             if let Some(near) = (!far).then(|| self.bone_near(&frames, (one, other), within)).flatten() {
                 within = found(near)?;
             }
