@@ -68,6 +68,7 @@ pub(crate) fn age(memory: &mut Memory, senses: &Senses, actions: &[Action], sett
     let decided = senses.decision().is_some_and(|decision| (decision.action as usize) < actions.len());
     memory.undecided =
         if decided || memory.held().is_none() { 0 } else { memory.undecided.saturating_add(1) };
+    memory.silent = if decided { 0 } else { memory.silent.saturating_add(1) };
     memory.finished_age = memory.finished_age.saturating_add(1);
     let action = actions.get(memory.finished as usize);
     let undone = action.and_then(|action| action.subgoal).is_some_and(|subgoal| senses.open(subgoal));

@@ -15,6 +15,9 @@ use coact_robot::{Next, Robot};
 /// Pace below which the person is in the way: less than that at which the arm gets away from somebody.
 const SLOW: f64 = 0.3;
 
+/// Cycles without a decision after which an errand is given up: between one decision and the next there is none for some.
+const HESITATION: u64 = 120;
+
 /// The control stage: decisions in, setpoints out, one period of 1 ms at each step.
 #[derive(Debug)]
 pub struct Control {
@@ -144,7 +147,8 @@ impl Control {
         let choice = Choice::of(&self.memory, senses, &self.actions, &self.settings);
         let leg = self.memory.leg();
         let resting = leg == Leg::Rest && self.memory.errand() != Errand::Park;
-        if leg.is_firm() || (choice.is_under_way(&self.memory) && !resting) {
+        let hesitates = choice.errand == Errand::Park && (1..HESITATION).contains(&self.memory.silent);
+        if leg.is_firm() || (choice.is_under_way(&self.memory) && !resting) || (hesitates && !resting) {
             return;
         }
         if choice::can_begin(&choice, senses) {

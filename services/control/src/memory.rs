@@ -66,8 +66,9 @@ pub(crate) struct Memory {
     /// Grasps in a row that closed on nothing, and movements in a row that the planner refused.
     pub misses: u64,
     pub refusals: u64,
-    /// Cycles for which no decision has concerned the held part.
+    /// Cycles for which no decision has concerned the held part, and for which there has been none at all.
     pub undecided: u64,
+    pub silent: u64,
     /// Action that was carried out (or given up) last, or [`NONE`]: not repeated for the same decision.
     pub finished: u64,
     /// Its `since`.
@@ -101,7 +102,7 @@ pub(crate) struct Memory {
 }
 
 /// Marks the words as control's, of this layout: to be changed with it.
-pub(crate) const MARK: u64 = 0x636f_6163_7404;
+pub(crate) const MARK: u64 = 0x636f_6163_7405;
 
 const WORDS: usize = size_of::<Memory>() / 8;
 /// Cycles ahead at which a movement begins that is asked for in motion, at first and at most.

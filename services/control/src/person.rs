@@ -54,7 +54,7 @@ impl PersonArm {
     /// The same with whichever of these is nearest to the hand in it, if one is near enough: capsules around what was seen
     /// `ago` s before now, each with the index of its sighting.
     pub fn holding(mut self, seen: impl Iterator<Item = (usize, Capsule)>, ago: f64) -> Self {
-        let way = self.velocity * ago;
+        let way = self.velocity * ago.min(GOES_ON);
         let [.., hand] = self.capsules;
         let parts = seen.map(|(index, part)| (index, moved(&part, &way)));
         let gaps = parts.map(|(index, part)| (hand.distance(&part), (index, part)));

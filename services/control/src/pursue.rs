@@ -76,7 +76,8 @@ impl Control {
         match self.memory.leg() {
             Leg::Rest => {}
             Leg::Plan | Leg::Move if self.servo.arm_stands() && self.is_taken(senses) => {
-                // The person comes to meet a hand that does not get on.
+                // The person comes to meet a hand that does not get on: no movement begins any more.
+                (self.memory.asking, self.memory.begins, self.memory.ready) = (0, 0, 0);
                 self.memory.arm_halted = 1;
                 self.grip(Leg::Open);
             }

@@ -214,6 +214,24 @@ fn a_hand_that_holds_something_else_is_given_nothing() {
 }
 
 #[test]
+fn a_part_is_given_where_the_person_comes_to_meet_the_hand() {
+    let mut world = KinematicWorld::new();
+    let part = lay_down(&mut world, COLUMN_2);
+    world.decide(Some(world.action(Motion::Give, COLUMN_2)));
+    world.until(8.0, "taken", |world| world.held().is_some());
+    // The person's hand comes to where the robot's would begin its approach.
+    let [x, y, z] = world.task.scene.handover;
+    world.hand_at([x, y, z + 0.20]);
+    world.run(6.0);
+    assert!(world.held().is_some() && world.phase() == MotionPhase::Transport, "{:?}", world.phases);
+    world.pull([-3.0, 0.0, 0.0]);
+    world.until(1.0, "let go", |world| world.phase() == MotionPhase::Release);
+    let place = world.grasp_point();
+    world.until(1.0, "given", |world| world.parts[part].holder == Holder::Person);
+    assert!((world.grasp_point() - place).norm() < 1e-3, "the hand that opens stays where it is");
+}
+
+#[test]
 fn the_base_is_steadied_until_the_decision_ends() {
     let mut world = KinematicWorld::new();
     let action =
