@@ -161,9 +161,10 @@ impl Control {
 
     /// How fast the arm may go on: slower, or not at all, where the person comes near.
     fn pace(&mut self, senses: &Senses) -> f64 {
-        let Some(person) = senses.person_arm(&self.body.hulls).filter(|_| !self.memory.arrived()) else {
+        if self.memory.arrived() {
             return 1.0;
-        };
+        }
+        let Some(person) = senses.person_arm(&self.body.hulls) else { return 1.0 };
         let (hold, closing) = (self.hold(), coact_messages::closing(&self.servo.position()));
         let pace = self.guard.pace(&self.memory, hold, closing, &person);
         let blocked = self.memory.blocked;

@@ -79,29 +79,30 @@ impl Planner {
         let refused = Answer { id: request.id, course: None, hold: None, withdraws: false };
         let wanted = self.body.on_the_way(request.errand, request.kind, request.hold);
         let offers = self.places.goals(request);
+        let passed = [request.fingers, request.heading, self.body.fingers(wanted)];
+        let Ok(moving) = self.figure(&passed, request.held) else { return refused };
+        let Ok(still) = self.figure(&passed[..1], request.held) else { return refused };
         let person = self.person(request);
-        let (gap, away) = self.gap(request, &person);
+        let (gap, away) = self.gap(request, &still, &person);
         let alone = self.scene(request, &offers);
         let scene = alone.with(surroundings::stout(&person, gap));
         let (moves, awaits) = (request.is_in_motion(), request.awaits());
         let is_near = gap < NEAR && request.leave.is_none() && !moves;
         let from_person = Scene { left: vec![surroundings::PERSON.to_owned()], ..scene.clone() };
-        let passed = [request.fingers, request.heading, self.body.fingers(wanted)];
         // From a person who is near the hand gets away first. Where the person leaves no way, the arm goes as far as the
         // guard lets it, but not to where the person comes; where there is no room for the fingers to move with the arm, they
         // move when it has arrived.
         let attempts = [
-            (is_near, &passed[..], &from_person, Some((away, WITHDRAWAL))),
-            (true, &passed, &scene, request.leave),
-            (!awaits, &passed, &alone, request.leave),
-            (!moves, &passed[..1], if awaits { &scene } else { &alone }, request.leave),
+            (is_near, &moving, &from_person, Some((away, WITHDRAWAL))),
+            (true, &moving, &scene, request.leave),
+            (!awaits, &moving, &alone, request.leave),
+            (!moves, &still, if awaits { &scene } else { &alone }, request.leave),
         ];
-        for (_, shapes, scene, leave) in attempts.into_iter().filter(|attempt| attempt.0) {
-            let Ok(figure) = self.figure(shapes, request.held) else { return refused };
-            if let Ok(plan) = self.plan(&Request { leave, ..*request }, &figure, scene, &offers) {
+        for (_, figure, scene, leave) in attempts.into_iter().filter(|attempt| attempt.0) {
+            if let Ok(plan) = self.plan(&Request { leave, ..*request }, figure, scene, &offers) {
                 let hold = plan.target.and_then(|target| offers.get(target.goal)?.1);
                 let mut course = Course::of(&plan);
-                if let Some(course) = course.as_mut().filter(|_| shapes.len() == 1) {
+                if let Some(course) = course.as_mut().filter(|_| std::ptr::eq(figure, &still)) {
                     course.preshapes = course.duration();
                 }
                 return Answer { course, hold, ..refused };
@@ -110,8 +111,7 @@ impl Planner {
         if moves {
             return refused;
         }
-        let Ok(figure) = self.figure(&[request.fingers], request.held) else { return refused };
-        let withdrawn = self.withdraw(request, &figure, &scene);
+        let withdrawn = self.withdraw(request, &still, &scene);
         Answer { course: withdrawn.as_ref().and_then(Course::of), withdraws: true, ..refused }
     }
 

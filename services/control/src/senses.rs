@@ -2,7 +2,7 @@ use crate::Settings;
 use crate::person::PersonArm;
 use crate::request::Request;
 use crate::servo::PERIOD;
-use coact_messages::{Decision, FieldFrame, Percept, ROBOT, SensorSample, Sighting};
+use coact_messages::{Decision, FieldFrame, Percept, ROBOT, SceneView, SensorSample, Sighting};
 use coact_motion::Capsule;
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
@@ -121,8 +121,8 @@ impl<'a> Senses<'a> {
     /// The person's arm with what the hand holds, when it is tracked. `hulls`: capsules around each kind of part.
     pub fn person_arm(&self, hulls: &[Capsule]) -> Option<PersonArm> {
         let scene = &self.sample?.scene;
-        let sightings = &scene.sighting[..(scene.sightings as usize).min(scene.sighting.len())];
-        let held = sightings.iter().enumerate().filter(|(_, seen)| self.in_person_hand(seen.kind as usize));
+        let held =
+            parts_in(scene).iter().enumerate().filter(|(_, seen)| self.in_person_hand(seen.kind as usize));
         let hulls = held.filter_map(|(index, seen)| {
             Some((index, hulls.get(seen.kind as usize)?.within(&frame_of(seen)?)))
         });
@@ -145,8 +145,7 @@ impl<'a> Senses<'a> {
         within: f64,
     ) -> Option<(u64, Isometry3<f64>)> {
         let scene = &self.sample?.scene;
-        let sightings = &scene.sighting[..(scene.sightings as usize).min(scene.sighting.len())];
-        let places = sightings.iter().filter(|sighting| sighting.kind as usize == kind);
+        let places = parts_in(scene).iter().filter(|sighting| sighting.kind as usize == kind);
         let near = places.map(|sighting| ((Point3::from(sighting.position) - expected).norm(), sighting));
         let nearest =
             near.filter(|(distance, _)| *distance < within).min_by(|one, other| one.0.total_cmp(&other.0));
@@ -157,8 +156,9 @@ impl<'a> Senses<'a> {
     /// All parts and screens in sight, into a request.
     pub fn surroundings(&self, request: &mut Request) {
         let Some(scene) = self.sample.map(|sample| &sample.scene) else { return };
-        request.seen = (scene.sightings as usize).min(scene.sighting.len());
-        request.parts[..request.seen].copy_from_slice(&scene.sighting[..request.seen]);
+        let parts = parts_in(scene);
+        request.seen = parts.len();
+        request.parts[..request.seen].copy_from_slice(parts);
         request.screened = (scene.occluders as usize).min(scene.occluder.len());
         request.screens[..request.screened].copy_from_slice(&scene.occluder[..request.screened]);
     }
@@ -170,4 +170,9 @@ pub(crate) fn frame_of(sighting: &Sighting) -> Option<Isometry3<f64>> {
     let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-3)?;
     let frame = Isometry3::from_parts(Translation3::from(sighting.position), turn);
     frame.translation.vector.iter().all(|value| value.is_finite()).then_some(frame)
+}
+
+/// The parts that the recogniser has seen, as many as a message can hold.
+fn parts_in(scene: &SceneView) -> &[Sighting] {
+    &scene.sighting[..(scene.sightings as usize).min(scene.sighting.len())]
 }

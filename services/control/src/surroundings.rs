@@ -7,7 +7,7 @@ use crate::planner::{MARGIN, Planner};
 use crate::request::Request;
 use crate::senses::frame_of;
 use coact_joint_task::Fixture;
-use coact_motion::{Capsule, Obstacle, Scene, Solid, workplace};
+use coact_motion::{Body, Capsule, Obstacle, Scene, Solid, workplace};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// Name of the person's arm among the obstacles.
@@ -45,10 +45,8 @@ impl Planner {
     }
 
     /// Distance of arm, hand and held part from the person, m, and the direction away from there.
-    pub(crate) fn gap(&self, request: &Request, person: &[Capsule]) -> (f64, Vector3<f64>) {
-        let start = request.start.map(|state| state.position);
-        let figure = self.figure(&[request.fingers], request.held).ok();
-        let hulls = figure.map_or_else(Vec::new, |figure| figure.moving_hulls(&self.mechanism, &start));
+    pub(crate) fn gap(&self, request: &Request, figure: &Body, person: &[Capsule]) -> (f64, Vector3<f64>) {
+        let hulls = figure.moving_hulls(&self.mechanism, &request.start.map(|state| state.position));
         let pairs = hulls.iter().flat_map(|hull| person.iter().map(move |capsule| (hull, capsule)));
         let gaps = pairs.map(|(hull, capsule)| (hull.distance(capsule), hull.nearest(capsule)));
         let nearest = gaps.min_by(|one, other| one.0.total_cmp(&other.0));
