@@ -58,19 +58,20 @@ impl Guard {
         let body = hold.map_or_else(|| self.shape(closing), |hold| SHAPES + hold);
         let (horizon, steps) = AHEAD;
         let ahead = |step: u32| horizon / f64::from(steps) * f64::from(step);
-        // Distance after this time when the movement goes on, or stops, now.
-        let mut distance = |ahead: f64, goes_on: bool| {
+        // Distance after this time when the movement goes on, or stops, now; `most` when it is more.
+        let mut distance = |ahead: f64, goes_on: bool, most: f64| {
             let t = memory.elapsed + if goes_on { ahead } else { 0.0 };
-            self.distance(body, &memory.course.posture(t), person.after(ahead), memory.meets(t))
+            self.distance(body, &memory.course.posture(t), person.after(ahead), memory.meets(t), most)
         };
-        if distance(0.0, true) < MARGIN {
-            let gains =
-                [1, 2, 4, steps].map(ahead).map(|ahead| distance(ahead, true) - distance(ahead, false));
+        if distance(0.0, true, MARGIN) < MARGIN {
+            let gains = [1, 2, 4, steps]
+                .map(ahead)
+                .map(|ahead| distance(ahead, true, f64::INFINITY) - distance(ahead, false, f64::INFINITY));
             let (least, last) =
                 gains.into_iter().fold((0.0, 0.0), |(least, _): (f64, f64), gain| (least.min(gain), gain));
             return if least > -LOSS && last > GAIN { ESCAPE } else { 0.0 };
         }
-        let blocked = (1..=steps).map(ahead).find(|ahead| distance(*ahead, true) < MARGIN);
+        let blocked = (1..=steps).map(ahead).find(|ahead| distance(*ahead, true, MARGIN) < MARGIN);
         blocked.map_or(1.0, |ahead| ((ahead - STANDING) / (horizon - STANDING)).clamp(0.0, 1.0))
     }
 
@@ -80,13 +81,15 @@ impl Guard {
         (share * (SHAPES - 1) as f64).round().clamp(0.0, (SHAPES - 1) as f64) as usize
     }
 
-    /// Distance of the robot from the person, m; of the robot without its hand where the hands shall meet.
+    /// Distance of the robot from the person, m, `most` when it is more; of the robot without its hand where the hands
+    /// shall meet.
     fn distance(
         &mut self,
         body: usize,
         posture: &Posture,
-        person: impl Iterator<Item = Capsule> + Clone,
+        person: impl Iterator<Item = Capsule>,
         meets: bool,
+        most: f64,
     ) -> f64 {
         let body = &self.bodies[body.min(self.bodies.len() - 1)];
         body.hulls_into(&self.mechanism, posture, &mut self.hulls);
@@ -95,8 +98,8 @@ impl Guard {
             .iter()
             .zip(&self.hulls)
             .filter(|(bone, _)| bone.carriers > 0 && !(meets && bone.hand));
-        let pairs = watched.flat_map(|(_, hull)| person.clone().map(move |capsule| (hull, capsule)));
-        pairs.fold(f64::INFINITY, |nearest, (hull, capsule)| {
+        let pairs = person.flat_map(|capsule| watched.clone().map(move |(_, hull)| (hull, capsule)));
+        pairs.fold(most, |nearest, (hull, capsule)| {
             // Most pairs are certainly farther apart than the nearest one so far.
             if hull.least_distance(&capsule) < nearest {
                 nearest.min(hull.distance(&capsule))

@@ -69,7 +69,7 @@ impl PersonArm {
     }
 
     /// Upper arm, forearm, hand and what it holds `ahead` s from now.
-    pub fn after(&self, ahead: f64) -> impl Iterator<Item = Capsule> + Clone + use<> {
+    pub fn after(&self, ahead: f64) -> impl Iterator<Item = Capsule> + use<> {
         let way = self.velocity * ahead.min(GOES_ON);
         let [upper, fore, hand] = self.capsules;
         let arm = [
