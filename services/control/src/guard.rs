@@ -4,7 +4,7 @@ use crate::person::PersonArm;
 use crate::places::Places;
 use crate::planner::Planner;
 use coact_motion::{Body, Capsule, Mechanism};
-use coact_robot::{JointLimits, Next, Posture, RobotError};
+use coact_robot::{JointLimits, Next, RobotError};
 use nalgebra::Isometry3;
 
 /// Keeps arm, hand and held part clear of the person: says how fast the movement under way may go on.
@@ -15,7 +15,8 @@ pub(crate) struct Guard {
     bodies: Vec<Body>,
     /// Limits of the fingers' bases.
     bases: JointLimits,
-    hulls: Vec<Capsule>,
+    /// Where the person is at the moment looked at.
+    person: Vec<Capsule>,
 }
 
 /// Distance that is kept, m.
@@ -48,20 +49,24 @@ impl Guard {
             planner.figure(&[own.fingers(Fingers::On(index))], Some((hold.kind, in_palm)))
         });
         let bodies: Vec<Body> = empty.chain(holding).collect::<Result<_, _>>()?;
-        let hulls = Vec::with_capacity(bodies.iter().map(|body| body.bones().len()).max().unwrap_or(0));
-        Ok(Self { mechanism: planner.mechanism().clone(), bodies, bases, hulls })
+        let person = Vec::with_capacity(PersonArm::CAPSULES);
+        Ok(Self { mechanism: planner.mechanism().clone(), bodies, bases, person })
     }
 
     /// Share of its own speed at which the movement under way may go on, 0 to 1, with a part in `hold`, or with the
     /// fingers' bases of an empty hand at `closing` rad.
     pub fn pace(&mut self, memory: &Memory, hold: Option<usize>, closing: f64, person: &PersonArm) -> f64 {
-        let body = hold.map_or_else(|| self.shape(closing), |hold| SHAPES + hold);
+        let shape = hold.map_or_else(|| self.shape(closing), |hold| SHAPES + hold);
+        let body = &self.bodies[shape.min(self.bodies.len() - 1)];
         let (horizon, steps) = AHEAD;
         let ahead = |step: u32| horizon / f64::from(steps) * f64::from(step);
-        // Distance after this time when the movement goes on, or stops, now; `most` when it is more.
+        // Distance after this time when the movement goes on, or stops, now, without the hand where the hands shall meet;
+        // `most` when it is more.
         let mut distance = |ahead: f64, goes_on: bool, most: f64| {
             let t = memory.elapsed + if goes_on { ahead } else { 0.0 };
-            self.distance(body, &memory.course.posture(t), person.after(ahead), memory.meets(t), most)
+            self.person.clear();
+            self.person.extend(person.after(ahead));
+            body.distance(&self.mechanism, &memory.course.posture(t), &self.person, !memory.meets(t), most)
         };
         if distance(0.0, true, MARGIN) < MARGIN {
             let gains = [1, 2, 4, steps]
@@ -79,33 +84,5 @@ impl Guard {
     fn shape(&self, closing: f64) -> usize {
         let share = (closing - self.bases.lower) / (self.bases.upper - self.bases.lower);
         (share * (SHAPES - 1) as f64).round().clamp(0.0, (SHAPES - 1) as f64) as usize
-    }
-
-    /// Distance of the robot from the person, m, `most` when it is more; of the robot without its hand where the hands
-    /// shall meet.
-    fn distance(
-        &mut self,
-        body: usize,
-        posture: &Posture,
-        person: impl Iterator<Item = Capsule>,
-        meets: bool,
-        most: f64,
-    ) -> f64 {
-        let body = &self.bodies[body.min(self.bodies.len() - 1)];
-        body.hulls_into(&self.mechanism, posture, &mut self.hulls);
-        let watched = body
-            .bones()
-            .iter()
-            .zip(&self.hulls)
-            .filter(|(bone, _)| bone.carriers > 0 && !(meets && bone.hand));
-        let pairs = person.flat_map(|capsule| watched.clone().map(move |(_, hull)| (hull, capsule)));
-        pairs.fold(most, |nearest, (hull, capsule)| {
-            // Most pairs are certainly farther apart than the nearest one so far.
-            if hull.least_distance(&capsule) < nearest {
-                nearest.min(hull.distance(&capsule))
-            } else {
-                nearest
-            }
-        })
     }
 }

@@ -21,6 +21,8 @@ const GOES_ON: f64 = 0.3;
 impl PersonArm {
     /// Radii of upper arm, forearm and hand, m.
     pub const RADII: [f64; 3] = [0.06, 0.05, 0.045];
+    /// Most capsules that there are of a person: these, and what the hand holds.
+    pub const CAPSULES: usize = Self::RADII.len() + 1;
     /// Length of a hand of which only the wrist is known, m.
     pub const HAND: f64 = 0.18;
 

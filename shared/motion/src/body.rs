@@ -162,17 +162,38 @@ impl Body {
         hulls.filter(|(bone, _)| bone.carriers > 0).map(|(_, hull)| hull).collect()
     }
 
-    /// As [`hulls`](Self::hulls), into a list that is used again and again.
-    pub fn hulls_into(&self, mechanism: &Mechanism, posture: &Posture, hulls: &mut Vec<Capsule>) {
+    /// Distance of what the arm's joints move, with or without the hand and what it holds, from the nearest of `others`
+    /// (world), for a posture of the arm, m, measured between capsules; `most` when it is more. Nothing is allocated.
+    pub fn distance(
+        &self,
+        mechanism: &Mechanism,
+        posture: &Posture,
+        others: &[Capsule],
+        with_hand: bool,
+        most: f64,
+    ) -> f64 {
         let frames = Frames::of(mechanism, posture);
-        hulls.clear();
-        hulls.extend(self.bones.iter().map(|bone| bone.hull.within(&frames.carrier(bone))));
+        let nearer = |nearest: f64, bone: &Bone| {
+            let hull = bone.hull.within(&frames.carrier(bone));
+            others.iter().fold(nearest, |nearest, other| {
+                // Most pairs are certainly farther apart than the nearest one so far.
+                if hull.least_distance(other) < nearest { nearest.min(hull.distance(other)) } else { nearest }
+            })
+        };
+        let moving = self.bones.iter().filter(|bone| bone.carriers > 0);
+        let nearest = moving.clone().filter(|bone| !bone.hand).fold(most, nearer);
+        // What is far from a ball around the hand is far from all of its many bones.
+        let ball = self.hand.map(|ball| ball.within(&frames.pose[mechanism.joints() - 1]));
+        let far = |ball: &Capsule| others.iter().all(|other| other.least_distance(ball) >= nearest);
+        if !with_hand || ball.is_some_and(|ball| far(&ball)) {
+            return nearest;
+        }
+        moving.filter(|bone| bone.hand).fold(nearest, nearer)
     }
 
     /// Capsules around all bones in the world, for a posture of the arm.
     pub fn hulls(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Capsule> {
-        let mut hulls = Vec::with_capacity(self.bones.len());
-        self.hulls_into(mechanism, posture, &mut hulls);
-        hulls
+        let frames = Frames::of(mechanism, posture);
+        self.bones.iter().map(|bone| bone.hull.within(&frames.carrier(bone))).collect()
     }
 }
