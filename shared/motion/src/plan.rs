@@ -59,10 +59,7 @@ impl Plan {
 
     /// How many times slower it must be to keep the limits of speed, acceleration and jerk.
     pub(crate) fn load(&self, limits: &[JointLimits; 7]) -> f64 {
-        let loads = self.samples().flat_map(|(states, jerk)| {
-            (0..7).map(move |joint| load(&states[joint], jerk[joint], &limits[joint]))
-        });
-        loads.fold(0.0, f64::max)
+        load(self.samples(), limits)
     }
 
     /// The same way, `factor` times slower; only for one that starts at rest.
@@ -109,11 +106,20 @@ pub fn state_at(knots: &[Knot], t: f64) -> [MotionState; 7] {
     }
 }
 
-/// How many times slower a movement must be for this instant to keep the limits, with a little room.
-pub(crate) fn load(state: &MotionState, jerk: f64, limit: &JointLimits) -> f64 {
-    (state.velocity.abs() / (USE * limit.velocity))
-        .max((state.acceleration.abs() / (USE * limit.acceleration)).sqrt())
-        .max((jerk.abs() / (USE * limit.jerk)).cbrt())
+/// How many times slower a movement with these states and jerks must be to keep the limits, with a little room.
+pub(crate) fn load(
+    samples: impl Iterator<Item = ([MotionState; 7], Posture)>,
+    limits: &[JointLimits; 7],
+) -> f64 {
+    let [mut velocity, mut acceleration, mut jerk] = [0.0f64; 3];
+    for (states, jerks) in samples {
+        for ((state, joint_jerk), limit) in states.iter().zip(jerks).zip(limits) {
+            velocity = velocity.max(state.velocity.abs() / (USE * limit.velocity));
+            acceleration = acceleration.max(state.acceleration.abs() / (USE * limit.acceleration));
+            jerk = jerk.max(joint_jerk.abs() / (USE * limit.jerk));
+        }
+    }
+    velocity.max(acceleration.sqrt()).max(jerk.cbrt())
 }
 
 fn pieces(from: &Knot, to: &Knot) -> [Quintic; 7] {

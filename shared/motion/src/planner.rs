@@ -86,7 +86,8 @@ impl Problem<'_> {
         let from = away.unwrap_or_else(|| self.start.map(|state| state.position));
         let targets = self.targets(&from)?;
         let work = Work::of(postures);
-        Search { problem: self, away, work: &work, choice: Choice::default() }.run(&targets)
+        Search { problem: self, away, work: &work, choice: Choice::default(), routes: Vec::new() }
+            .run(&targets)
     }
 
     /// The postures that serve as an end, best first; none when there are none. `from`: the posture from which the way

@@ -1,7 +1,6 @@
 use crate::guide::Guide;
 use crate::plan::load;
 use crate::straight::Change;
-use crate::trajectory::CHECKED;
 use crate::{Clearance, HandPath, Mechanism, Stage, StageKind, Trajectory, bell, straight};
 use coact_robot::{JointLimits, MotionState, Posture};
 use nalgebra::{DMatrix, DVector};
@@ -281,17 +280,8 @@ fn time_of_bell(covered: f64) -> f64 {
 
 /// Duration of a movement of which these stages are the shape, in 1 s: derivatives scale with 1/T, 1/T², 1/T³.
 fn shortest(stages: &[Stage], limits: &[JointLimits; 7]) -> f64 {
-    let mut duration = SHORTEST;
-    for Stage { trajectory, .. } in stages {
-        for step in 0..=CHECKED {
-            let t = trajectory.duration * step as f64 / CHECKED as f64;
-            let (states, jerk) = (trajectory.at(t), trajectory.jerk(t));
-            for (joint, (state, limit)) in states.iter().zip(limits).enumerate() {
-                duration = duration.max(load(state, jerk[joint], limit));
-            }
-        }
-    }
-    duration
+    let samples = stages.iter().flat_map(|stage| stage.trajectory.samples());
+    load(samples, limits).max(SHORTEST)
 }
 
 fn broken(stages: &[Stage], limits: &[JointLimits; 7], room: f64) -> Option<usize> {

@@ -14,6 +14,8 @@ pub(crate) struct Search<'a> {
     /// What it may do.
     pub work: &'a Work,
     pub choice: Choice,
+    /// Routes that were looked at.
+    pub routes: Vec<Route>,
 }
 
 /// How stages are joined where they cannot be joined smoothly: ever more straightly and slowly.
@@ -187,31 +189,40 @@ impl<'a> Search<'a> {
     }
 
     /// The way to a target through these postures.
-    fn way(&self, target: &Target, vias: &[Posture], passing: Passing) -> Way<'a> {
-        let Problem { mechanism, start, margin, .. } = *self.problem;
-        let limits = mechanism.limits();
-        let leave = self.away.map(|away| (StageKind::Leave, away));
-        let reaches = vias.iter().chain([&target.before]).map(|posture| (StageKind::Reach, *posture));
-        let approach = (target.before != target.at).then_some((StageKind::Approach, target.at));
-        let legs = leave.into_iter().chain(reaches).chain(approach).collect();
-        let route = Route::new(mechanism, start, legs, passing).smoothest(mechanism, &limits);
+    fn way(&mut self, target: &Target, vias: &[Posture], passing: Passing) -> Way<'a> {
         Way {
             clearance: self.problem.clearance(StageKind::Reach),
-            limits,
-            route,
-            margin,
-            lines: [self.out(), self.into(target)],
+            limits: self.problem.mechanism.limits(),
+            route: self.route(target, vias, passing),
+            margin: self.problem.margin,
+            lines: [self.line_out(), self.line_in(target)],
             work: self.work,
         }
     }
 
+    /// The smoothest route to a target through these postures, looked for once.
+    fn route(&mut self, target: &Target, vias: &[Posture], passing: Passing) -> Route {
+        let leave = self.away.map(|away| (StageKind::Leave, away));
+        let reaches = vias.iter().chain([&target.before]).map(|posture| (StageKind::Reach, *posture));
+        let approach = (target.before != target.at).then_some((StageKind::Approach, target.at));
+        let legs: Vec<_> = leave.into_iter().chain(reaches).chain(approach).collect();
+        let known = self.routes.iter().find(|route| route.legs == legs && route.passing == passing);
+        known.cloned().unwrap_or_else(|| {
+            let Problem { mechanism, start, .. } = *self.problem;
+            let route = Route::new(mechanism, start, legs, passing);
+            let route = route.smoothest(mechanism, &mechanism.limits());
+            self.routes.push(route.clone());
+            route
+        })
+    }
+
     /// The first part of leaving, on which the hand keeps to its line, m.
-    fn out(&self) -> Vector3<f64> {
+    fn line_out(&self) -> Vector3<f64> {
         self.problem.leave.map_or_else(Vector3::zeros, |(out, distance)| out * distance * LEAVING)
     }
 
     /// The last part of the approach to a target on which it does, m, from the goal outwards.
-    fn into(&self, target: &Target) -> Vector3<f64> {
+    fn line_in(&self, target: &Target) -> Vector3<f64> {
         let goal = if let Aim::Hand(goals) = &self.problem.aim { goals.get(target.goal) } else { None };
         goal.map_or_else(Vector3::zeros, |goal| -goal.along * self.problem.guide)
     }

@@ -18,38 +18,62 @@ pub struct Trajectory {
 }
 
 /// Instants at which a movement is held against the limits.
-pub(crate) const CHECKED: usize = 64;
+const CHECKED: usize = 64;
 
 impl Trajectory {
     /// Positions at the share `s` of the time, rad.
     pub fn posture(&self, s: f64) -> Posture {
+        let direct = |joint: usize| self.direct(joint).position(s * self.duration);
+        if !self.bounces() {
+            return std::array::from_fn(direct);
+        }
         let [g, ..] = excursion(s);
-        std::array::from_fn(|joint| {
-            self.direct(joint).at(s * self.duration).position + g * self.bounce[joint]
-        })
+        std::array::from_fn(|joint| direct(joint) + g * self.bounce[joint])
     }
 
     /// State of all joints `t` s after the start; outside the movement the nearer end.
     pub fn at(&self, t: f64) -> [MotionState; 7] {
-        let t = t.clamp(0.0, self.duration);
-        let [g, slope, curve, _] = excursion(t / self.duration);
-        std::array::from_fn(|joint| {
-            let (direct, bounce) = (self.direct(joint).at(t), self.bounce[joint]);
-            MotionState {
-                position: direct.position + bounce * g,
-                velocity: direct.velocity + bounce * slope / self.duration,
-                acceleration: direct.acceleration + bounce * curve / self.duration.powi(2),
-            }
-        })
+        self.states(&self.all_direct(), t)
     }
 
     /// Jerk of all joints `t` s after the start, rad/s³.
     pub fn jerk(&self, t: f64) -> Posture {
-        let t = t.clamp(0.0, self.duration);
-        let [.., third] = excursion(t / self.duration);
-        std::array::from_fn(|joint| {
-            self.direct(joint).jerk(t) + self.bounce[joint] * third / self.duration.powi(3)
+        self.jerks(&self.all_direct(), t)
+    }
+
+    /// States and jerks of all joints at equal steps of time, from the start to the end.
+    pub(crate) fn samples(&self) -> impl Iterator<Item = ([MotionState; 7], Posture)> + '_ {
+        let direct = self.all_direct();
+        (0..=CHECKED).map(move |step| {
+            let t = self.duration * step as f64 / CHECKED as f64;
+            (self.states(&direct, t), self.jerks(&direct, t))
         })
+    }
+
+    fn states(&self, direct: &[Quintic; 7], t: f64) -> [MotionState; 7] {
+        let t = t.clamp(0.0, self.duration);
+        let mut states = direct.map(|direct| direct.at(t));
+        if self.bounces() {
+            let [g, slope, curve, _] = excursion(t / self.duration);
+            for (state, bounce) in states.iter_mut().zip(self.bounce) {
+                state.position += bounce * g;
+                state.velocity += bounce * slope / self.duration;
+                state.acceleration += bounce * curve / self.duration.powi(2);
+            }
+        }
+        states
+    }
+
+    fn jerks(&self, direct: &[Quintic; 7], t: f64) -> Posture {
+        let t = t.clamp(0.0, self.duration);
+        let mut jerks = direct.map(|direct| direct.jerk(t));
+        if self.bounces() {
+            let [.., third] = excursion(t / self.duration);
+            for (jerk, bounce) in jerks.iter_mut().zip(self.bounce) {
+                *jerk += bounce * third / self.duration.powi(3);
+            }
+        }
+        jerks
     }
 
     /// Whether anything but the direct movement is needed.
@@ -61,11 +85,13 @@ impl Trajectory {
         Quintic::new(self.start[joint], self.end[joint], self.duration)
     }
 
+    fn all_direct(&self) -> [Quintic; 7] {
+        std::array::from_fn(|joint| self.direct(joint))
+    }
+
     /// A joint that breaks a limit on the way.
     pub(crate) fn broken(&self, limits: &[JointLimits; 7]) -> Option<usize> {
-        (0..=CHECKED).find_map(|step| {
-            let t = self.duration * step as f64 / CHECKED as f64;
-            let (states, jerk) = (self.at(t), self.jerk(t));
+        self.samples().find_map(|(states, jerk)| {
             (0..7).find(|&joint| !limits[joint].allows(&states[joint], jerk[joint]))
         })
     }

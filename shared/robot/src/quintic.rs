@@ -51,15 +51,22 @@ impl Quintic {
         Self { duration, coefficients }
     }
 
+    /// Position `t` s after the start, as in [`at`](Self::at).
+    #[inline]
+    pub fn position(&self, t: f64) -> f64 {
+        let s = (t / self.duration).clamp(0.0, 1.0);
+        let [c0, c1, c2, c3, c4, c5] = self.coefficients;
+        c0 + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5))))
+    }
+
     /// State `t` s after the start; before the start and after the end it is that of start and end.
     pub fn at(&self, t: f64) -> MotionState {
         let s = (t / self.duration).clamp(0.0, 1.0);
-        let [c0, c1, c2, c3, c4, c5] = self.coefficients;
-        let position = c0 + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5))));
+        let [_, c1, c2, c3, c4, c5] = self.coefficients;
         let slope = c1 + s * (2.0 * c2 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)));
         let bend = 2.0 * c2 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5));
         MotionState {
-            position,
+            position: self.position(t),
             velocity: slope / self.duration,
             acceleration: bend / (self.duration * self.duration),
         }
