@@ -52,9 +52,7 @@ impl Plan {
 
     /// A joint that breaks a limit on the way, if one does.
     pub fn broken(&self, limits: &[JointLimits; 7]) -> Option<usize> {
-        self.samples().find_map(|(states, jerk)| {
-            (0..7).find(|&joint| !limits[joint].allows(&states[joint], jerk[joint]))
-        })
+        broken(self.samples(), limits)
     }
 
     /// How many times slower it must be to keep the limits of speed, acceleration and jerk.
@@ -104,6 +102,15 @@ pub fn state_at(knots: &[Knot], t: f64) -> [MotionState; 7] {
         (Some(last), None) => last.states,
         (None, None) => [MotionState::default(); 7],
     }
+}
+
+/// The first joint that breaks a limit in these states and jerks.
+pub(crate) fn broken(
+    mut samples: impl Iterator<Item = ([MotionState; 7], Posture)>,
+    limits: &[JointLimits; 7],
+) -> Option<usize> {
+    samples
+        .find_map(|(states, jerks)| (0..7).find(|&joint| !limits[joint].allows(&states[joint], jerks[joint])))
 }
 
 /// How many times slower a movement with these states and jerks must be to keep the limits, with a little room.

@@ -1,3 +1,4 @@
+use crate::plan::broken;
 use coact_robot::{JointLimits, MotionState, Posture, Quintic};
 use std::f64::consts::{PI, TAU};
 
@@ -91,9 +92,7 @@ impl Trajectory {
 
     /// A joint that breaks a limit on the way.
     pub(crate) fn broken(&self, limits: &[JointLimits; 7]) -> Option<usize> {
-        self.samples().find_map(|(states, jerk)| {
-            (0..7).find(|&joint| !limits[joint].allows(&states[joint], jerk[joint]))
-        })
+        broken(self.samples(), limits)
     }
 }
 
