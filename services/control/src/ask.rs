@@ -7,7 +7,7 @@ use crate::planner::GUIDE;
 use crate::request::Request;
 use crate::senses::Senses;
 use crate::servo::PERIOD;
-use coact_joint_task::Motion;
+use coact_joint_task::ActionType;
 use coact_messages::{ARM_JOINTS, MAX_PARTS};
 use coact_robot::{MotionState, Next};
 use nalgebra::{Isometry3, Vector3};
@@ -179,11 +179,11 @@ impl Control {
     fn purpose(&self) -> (Next, Option<Isometry3<f64>>) {
         let taking = self.memory.errand() == Errand::Take;
         let action = self.actions.get(self.memory.action as usize).filter(|_| taking);
-        match action.map(|action| (action.motion, action.subgoal)) {
-            Some((Motion::Insert, Some(subgoal))) => {
+        match action.map(|action| (action.action_type, action.subgoal)) {
+            Some((ActionType::Insert, Some(subgoal))) => {
                 (Next::Insert { depth: GUIDE }, Some(self.places.socket(subgoal)))
             }
-            Some((Motion::Give, _)) => (Next::HandOver { room: ROOM }, Some(self.places.meeting())),
+            Some((ActionType::Give, _)) => (Next::HandOver { room: ROOM }, Some(self.places.meeting())),
             _ => (Next::Anything, None),
         }
     }

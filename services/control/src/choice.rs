@@ -1,7 +1,7 @@
 use crate::errand::Errand;
 use crate::senses::Senses;
 use crate::{Memory, Settings, memory};
-use coact_joint_task::{Action, Motion};
+use coact_joint_task::{Action, ActionType};
 use coact_messages::{Decision, NONE, ROBOT};
 use nalgebra::{Isometry3, Point3};
 
@@ -26,8 +26,8 @@ impl Choice {
         let decision = senses.decision().filter(|decision| !is_finished(memory, decision));
         let action =
             decision.and_then(|decision| Some((decision.action, actions.get(decision.action as usize)?)));
-        let Some((index, action)) =
-            action.filter(|(_, action)| !matches!(action.motion, Motion::Speak | Motion::Report))
+        let Some((index, action)) = action
+            .filter(|(_, action)| !matches!(action.action_type, ActionType::Speak | ActionType::Report))
         else {
             return match memory.held() {
                 Some(held) if memory.undecided > settings.put_back_after => Self::put_back(held),
@@ -35,17 +35,17 @@ impl Choice {
             };
         };
         let held = memory.held();
-        let errand = match (action.motion, action.kind) {
-            (Motion::Hold, _) => Errand::Steady,
-            (Motion::Point, Some(_)) => Errand::Point,
-            (Motion::Insert, Some(kind)) if held == Some(kind) => Errand::Place,
-            (Motion::Give, Some(kind)) if held == Some(kind) => Errand::Offer,
-            (Motion::Receive, kind) if held.is_some() && held == kind => Errand::Park,
-            (Motion::Speak | Motion::Report, _) | (_, None) => Errand::Park,
+        let errand = match (action.action_type, action.kind) {
+            (ActionType::Steady, _) => Errand::Steady,
+            (ActionType::Point, Some(_)) => Errand::Point,
+            (ActionType::Insert, Some(kind)) if held == Some(kind) => Errand::Place,
+            (ActionType::Give, Some(kind)) if held == Some(kind) => Errand::Offer,
+            (ActionType::Receive, kind) if held.is_some() && held == kind => Errand::Park,
+            (ActionType::Speak | ActionType::Report, _) | (_, None) => Errand::Park,
             _ if held.is_some() => return held.map_or(Self::PARK, Self::put_back),
-            (Motion::Insert | Motion::Give, Some(_)) => Errand::Take,
-            (Motion::Request, _) => Errand::Ask,
-            (Motion::Receive, Some(_)) => Errand::Receive,
+            (ActionType::Insert | ActionType::Give, Some(_)) => Errand::Take,
+            (ActionType::Request, _) => Errand::Ask,
+            (ActionType::Receive, Some(_)) => Errand::Receive,
         };
         let kind = action.kind.map_or(u64::from(NONE), |kind| kind as u64);
         Self { errand, action: index.into(), kind }
@@ -72,9 +72,9 @@ pub(crate) fn age(memory: &mut Memory, senses: &Senses, actions: &[Action], sett
     memory.finished_age = memory.finished_age.saturating_add(1);
     let action = actions.get(memory.finished as usize);
     let undone = action.and_then(|action| action.subgoal).is_some_and(|subgoal| senses.open(subgoal));
-    let in_vain = action.is_some_and(|action| match action.motion {
-        Motion::Insert => true,
-        Motion::Give => !action.kind.is_some_and(|kind| senses.in_person_hand(kind)),
+    let in_vain = action.is_some_and(|action| match action.action_type {
+        ActionType::Insert => true,
+        ActionType::Give => !action.kind.is_some_and(|kind| senses.in_person_hand(kind)),
         _ => false,
     });
     if memory.finished_age > settings.retry_after && (memory.failed == 1 || (in_vain && undone)) {

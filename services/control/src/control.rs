@@ -8,7 +8,7 @@ use crate::planning::Planning;
 use crate::senses::Senses;
 use crate::servo::Servo;
 use crate::{ControlError, Memory, PlanningThread, Settings};
-use coact_joint_task::{Action, Motion, Task};
+use coact_joint_task::{Action, ActionType, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
 use coact_robot::{Next, Robot};
 
@@ -165,7 +165,7 @@ impl Control {
             return 1.0;
         }
         let Some(person) = senses.person_arm(&self.body.hulls) else { return 1.0 };
-        let (hold, closing) = (self.hold(), coact_messages::closing(&self.servo.position()));
+        let (hold, closing) = (self.hold(), coact_messages::finger_closure(&self.servo.position()));
         let pace = self.guard.pace(&self.memory, hold, closing, &person);
         let blocked = self.memory.blocked;
         self.memory.blocked = if pace < SLOW { blocked + 1 } else { blocked.saturating_sub(1) };
@@ -219,15 +219,15 @@ impl Control {
 /// Refuses a task with a place that the hand needs and cannot reach.
 fn check(planner: &Planner, places: &Places, task: &Task) -> Result<(), ControlError> {
     for action in &task.actions {
-        let goals = match (action.motion, action.kind, action.subgoal) {
-            (Motion::Insert, Some(kind), Some(subgoal)) => {
+        let goals = match (action.action_type, action.kind, action.subgoal) {
+            (ActionType::Insert, Some(kind), Some(subgoal)) => {
                 places.takes(kind, Next::Insert { depth: GUIDE }, &places.socket(subgoal))
             }
-            (Motion::Receive | Motion::Give, Some(kind), _) => {
+            (ActionType::Receive | ActionType::Give, Some(kind), _) => {
                 places.takes(kind, Next::Anything, &places.meeting())
             }
-            (Motion::Request, ..) => vec![(places.held_out(), None)],
-            (Motion::Hold, ..) => vec![(places.steadying(), None)],
+            (ActionType::Request, ..) => vec![(places.held_out(), None)],
+            (ActionType::Steady, ..) => vec![(places.steadying(), None)],
             _ => continue,
         };
         let Some((goal, _)) = goals.first().copied() else { continue };

@@ -185,7 +185,7 @@ impl Places {
 
     /// Pressing on the base from above.
     pub fn steadying(&self) -> HandGoal {
-        self.free(Point3::from(self.scene.hold), -Vector3::z(), BACK)
+        self.free(Point3::from(self.scene.steady), -Vector3::z(), BACK)
     }
 
     /// Pointing to `target` from a distance.

@@ -47,7 +47,7 @@ proptest! {
     #[test]
     fn no_input_breaks_the_limits(disorders in prop::collection::vec(disorder(), 10..40)) {
         let mut world = KinematicWorld::new();
-        let nut = world.action(coact_joint_task::Motion::Insert, "nut on the robot's side");
+        let nut = world.action(coact_joint_task::ActionType::Insert, "nut on the robot's side");
         world.decide(Some(nut));
         world.run(0.5);
         prop_assert!(world.used[0] > 0.1, "disorder begins in the middle of a movement");
@@ -111,7 +111,7 @@ fn freeze(world: &mut KinematicWorld, cycles: u32, sample: bool, frame: bool) ->
 fn stale_input_brakes_within_the_limits_and_the_errand_goes_on_after() {
     for (sample, frame) in [(true, false), (false, true)] {
         let mut world = KinematicWorld::new();
-        let nut = world.action(coact_joint_task::Motion::Insert, "nut on the robot's side");
+        let nut = world.action(coact_joint_task::ActionType::Insert, "nut on the robot's side");
         world.decide(Some(nut));
         world.run(0.8);
         let frozen = freeze(&mut world, 600, sample, frame);

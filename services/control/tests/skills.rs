@@ -3,7 +3,7 @@
 
 mod kinematic_world;
 
-use coact_joint_task::Motion;
+use coact_joint_task::ActionType;
 use coact_messages::{Command, MotionPhase, NONE, ROBOT};
 use kinematic_world::{Holder, KinematicWorld};
 use nalgebra::{Isometry3, Point3, Vector3};
@@ -44,7 +44,7 @@ fn every_part_of_the_robots_side_is_inserted() {
         let mut world = KinematicWorld::new();
         lay_down(&mut world, &name);
         let goal = world.task.subgoals.iter().position(|goal| goal.name == name).unwrap();
-        let action = world.action(Motion::Insert, &name);
+        let action = world.action(ActionType::Insert, &name);
         world.run(0.1);
         world.decide(Some(action));
         let mut lowest = f64::INFINITY;
@@ -80,7 +80,7 @@ fn every_part_of_the_robots_side_is_inserted() {
 
 fn world_goals() -> Vec<String> {
     let task = kinematic_world::task();
-    let inserts = task.actions.iter().filter(|action| action.motion == Motion::Insert);
+    let inserts = task.actions.iter().filter(|action| action.action_type == ActionType::Insert);
     inserts.map(|action| task.subgoals[action.subgoal.unwrap()].name.clone()).collect()
 }
 
@@ -89,7 +89,7 @@ fn phases_of_an_insertion_come_in_order() {
     use MotionPhase::*;
     let mut world = KinematicWorld::new();
     world.run(0.05);
-    world.decide(Some(world.action(Motion::Insert, NUT)));
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
     world.until(8.0, "mounted", |world| {
         world.parts.iter().any(|part| matches!(part.holder, Holder::Socket(_)))
     });
@@ -102,7 +102,7 @@ fn phases_of_an_insertion_come_in_order() {
 #[test]
 fn without_the_part_in_sight_the_robot_does_not_reach() {
     let mut world = KinematicWorld::new();
-    world.decide(Some(world.action(Motion::Insert, WHEEL)));
+    world.decide(Some(world.action(ActionType::Insert, WHEEL)));
     world.run(2.0);
     assert_eq!(world.phases.iter().map(|phase| phase.0).collect::<Vec<_>>(), [MotionPhase::Rest]);
 }
@@ -110,7 +110,7 @@ fn without_the_part_in_sight_the_robot_does_not_reach() {
 #[test]
 fn a_request_holds_the_open_hand_out_to_the_person() {
     let mut world = KinematicWorld::new();
-    world.decide(Some(world.action(Motion::Request, WHEEL)));
+    world.decide(Some(world.action(ActionType::Request, WHEEL)));
     let time = world.until(4.0, "held out", |world| world.phase() == MotionPhase::Hold);
     assert!((0.6..2.5).contains(&time), "{time} s");
     let approach = world.palm().rotation * Vector3::z();
@@ -136,7 +136,7 @@ fn hold_out(world: &mut KinematicWorld) -> usize {
 #[test]
 fn a_part_is_received_and_inserted() {
     let mut world = KinematicWorld::new();
-    world.decide(Some(world.action(Motion::Receive, WHEEL)));
+    world.decide(Some(world.action(ActionType::Receive, WHEEL)));
     world.until(4.0, "ready", |world| world.phase() == MotionPhase::Hold);
     world.run(1.0);
     assert_eq!(world.phase(), MotionPhase::Hold, "waits for the person");
@@ -145,14 +145,14 @@ fn a_part_is_received_and_inserted() {
     assert!(time < 1.5, "{time} s");
     world.run(0.3);
     world.hand_at(world.task.scene.person_rest);
-    world.decide(Some(world.action(Motion::Insert, WHEEL)));
+    world.decide(Some(world.action(ActionType::Insert, WHEEL)));
     world.until(6.0, "mounted", |world| matches!(world.parts[part].holder, Holder::Socket(_)));
 }
 
 #[test]
 fn an_empty_offer_is_noticed_and_the_robot_waits_again() {
     let mut world = KinematicWorld::new();
-    world.decide(Some(world.action(Motion::Receive, WHEEL)));
+    world.decide(Some(world.action(ActionType::Receive, WHEEL)));
     world.until(4.0, "ready", |world| world.phase() == MotionPhase::Hold);
     let part = hold_out(&mut world);
     world.until(2.0, "approach", |world| world.phase() == MotionPhase::Approach);
@@ -168,7 +168,7 @@ fn an_empty_offer_is_noticed_and_the_robot_waits_again() {
 fn a_part_is_given_and_let_go_only_when_the_person_has_it() {
     let mut world = KinematicWorld::new();
     let part = lay_down(&mut world, COLUMN_2);
-    world.decide(Some(world.action(Motion::Give, COLUMN_2)));
+    world.decide(Some(world.action(ActionType::Give, COLUMN_2)));
     world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Hold);
     let place = world.parts[part].frame.translation.vector;
     assert!((place - Vector3::from(world.task.scene.handover)).norm() < 0.01, "{place}");
@@ -189,7 +189,7 @@ fn a_part_is_given_and_let_go_only_when_the_person_has_it() {
 fn a_part_that_the_person_lets_go_of_first_is_held_again() {
     let mut world = KinematicWorld::new();
     lay_down(&mut world, COLUMN_2);
-    world.decide(Some(world.action(Motion::Give, COLUMN_2)));
+    world.decide(Some(world.action(ActionType::Give, COLUMN_2)));
     world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Hold);
     let [x, y, z] = world.task.scene.handover;
     world.hand_at([x - 0.15, y, z]);
@@ -205,7 +205,7 @@ fn a_part_that_the_person_lets_go_of_first_is_held_again() {
 fn a_hand_that_holds_something_else_is_given_nothing() {
     let mut world = KinematicWorld::new();
     lay_down(&mut world, COLUMN_2);
-    world.decide(Some(world.action(Motion::Give, COLUMN_2)));
+    world.decide(Some(world.action(ActionType::Give, COLUMN_2)));
     world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Hold);
     hold_out(&mut world);
     world.pull([-3.0, 0.0, 0.0]);
@@ -217,7 +217,7 @@ fn a_hand_that_holds_something_else_is_given_nothing() {
 fn a_part_is_given_where_the_person_comes_to_meet_the_hand() {
     let mut world = KinematicWorld::new();
     let part = lay_down(&mut world, COLUMN_2);
-    world.decide(Some(world.action(Motion::Give, COLUMN_2)));
+    world.decide(Some(world.action(ActionType::Give, COLUMN_2)));
     world.until(8.0, "taken", |world| world.held().is_some());
     // The person's hand comes to where the robot's would begin its approach.
     let [x, y, z] = world.task.scene.handover;
@@ -234,11 +234,11 @@ fn a_part_is_given_where_the_person_comes_to_meet_the_hand() {
 #[test]
 fn the_base_is_steadied_until_the_decision_ends() {
     let mut world = KinematicWorld::new();
-    let action =
-        (0..world.task.actions.len()).find(|index| world.task.actions[*index].motion == Motion::Hold);
+    let action = (0..world.task.actions.len())
+        .find(|index| world.task.actions[*index].action_type == ActionType::Steady);
     world.decide(action.map(|action| action as u32));
     world.until(4.0, "steadied", |world| world.phase() == MotionPhase::Hold);
-    let off = world.grasp_point() - Point3::from(world.task.scene.hold);
+    let off = world.grasp_point() - Point3::from(world.task.scene.steady);
     assert!(off.norm() < 1e-6, "{off}");
     world.run(2.0);
     assert_eq!(world.phase(), MotionPhase::Hold);
@@ -249,11 +249,11 @@ fn the_base_is_steadied_until_the_decision_ends() {
 #[test]
 fn a_changed_decision_bends_the_movement_without_a_stop() {
     let mut world = KinematicWorld::new();
-    world.decide(Some(world.action(Motion::Insert, NUT)));
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
     world.run(0.7);
     let speed = |command: &Command| command.velocity[..7].iter().map(|v| v * v).sum::<f64>().sqrt();
     assert!(speed(&world.command) > 0.3, "under way");
-    world.decide(Some(world.action(Motion::Request, WHEEL)));
+    world.decide(Some(world.action(ActionType::Request, WHEEL)));
     let mut slowest = f64::INFINITY;
     for _ in 0..200 {
         world.step();
@@ -266,7 +266,7 @@ fn a_changed_decision_bends_the_movement_without_a_stop() {
 #[test]
 fn closing_fingers_finish_before_another_decision_counts() {
     let mut world = KinematicWorld::new();
-    world.decide(Some(world.action(Motion::Insert, NUT)));
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
     world.until(5.0, "closing", |world| world.phase() == MotionPhase::Grasp);
     world.decide(None);
     world.until(2.0, "lifted", |world| world.phase() == MotionPhase::Transport);
@@ -276,7 +276,7 @@ fn closing_fingers_finish_before_another_decision_counts() {
 #[test]
 fn an_unwanted_part_is_kept_for_a_while_and_then_put_back_where_it_was() {
     let mut world = KinematicWorld::new();
-    world.decide(Some(world.action(Motion::Insert, NUT)));
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
     world.until(5.0, "taken", |world| world.held().is_some());
     let part = world.parts.iter().position(|part| part.holder == Holder::Robot).unwrap();
     let from = world.task.parts[part].at;
@@ -292,7 +292,7 @@ fn an_unwanted_part_is_kept_for_a_while_and_then_put_back_where_it_was() {
 fn a_part_that_cannot_be_put_back_upright_is_laid_down() {
     let mut world = KinematicWorld::new();
     let part = lay_down(&mut world, COLUMN_3);
-    world.decide(Some(world.action(Motion::Insert, COLUMN_3)));
+    world.decide(Some(world.action(ActionType::Insert, COLUMN_3)));
     world.until(5.0, "taken", |world| world.held().is_some());
     world.decide(None);
     world.until(4.0, "at rest", |world| world.phase() == MotionPhase::Rest);
@@ -312,7 +312,7 @@ fn a_part_that_cannot_be_put_back_upright_is_laid_down() {
 #[test]
 fn a_lost_part_is_noticed_and_taken_again() {
     let mut world = KinematicWorld::new();
-    world.decide(Some(world.action(Motion::Insert, NUT)));
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
     world.until(5.0, "taken", |world| world.held().is_some());
     world.until(2.0, "transport", |world| world.phase() == MotionPhase::Transport);
     world.run(0.6);
@@ -327,7 +327,7 @@ fn a_lost_part_is_noticed_and_taken_again() {
 fn a_restarted_control_goes_on_with_the_same_bits() {
     let run = |restart_at: &[u64]| {
         let mut world = KinematicWorld::new();
-        world.decide(Some(world.action(Motion::Insert, NUT)));
+        world.decide(Some(world.action(ActionType::Insert, NUT)));
         let mut path = Vec::new();
         for step in 0..9000 {
             if restart_at.contains(&step) {

@@ -3,7 +3,7 @@
 
 mod kinematic_world;
 
-use coact_joint_task::Motion;
+use coact_joint_task::ActionType;
 use coact_messages::{ARM_JOINTS, Command, MotionPhase, ROBOT};
 use coact_motion::{Capsule, Mechanism};
 use kinematic_world::{Holder, KinematicWorld};
@@ -20,7 +20,7 @@ fn speed(command: &Command) -> f64 {
 /// Reaching for the nut, in the middle of the movement.
 fn reaching() -> KinematicWorld {
     let mut world = KinematicWorld::new();
-    world.decide(Some(world.action(Motion::Insert, NUT)));
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
     world.until(2.0, "under way", |world| speed(&world.command) > 0.5);
     world
 }
@@ -45,7 +45,7 @@ fn distance(world: &KinematicWorld, mechanism: &Mechanism, position: &[f64]) -> 
 fn another_decision_moves_the_arm_within_60_ms_and_without_a_stop() {
     let mut world = reaching();
     let begun = world.command.begun;
-    world.decide(Some(world.action(Motion::Request, WHEEL)));
+    world.decide(Some(world.action(ActionType::Request, WHEEL)));
     let mut slowest = f64::INFINITY;
     world.until(0.5, "the other movement", |world| {
         slowest = slowest.min(speed(&world.command));
@@ -119,7 +119,7 @@ fn a_hand_that_comes_in_from_the_side_slows_the_arm_without_touching_it() {
 #[test]
 fn the_hand_keeps_clear_of_the_one_that_brings_a_part_until_it_takes_the_part() {
     let mut world = KinematicWorld::new();
-    world.decide(Some(world.action(Motion::Request, WHEEL)));
+    world.decide(Some(world.action(ActionType::Request, WHEEL)));
     world.until(4.0, "held out", |world| world.phase() == MotionPhase::Hold);
     let mechanism = Mechanism::of(&world.robot).unwrap();
     let [x, y, z] = world.task.scene.handover;
@@ -129,11 +129,11 @@ fn the_hand_keeps_clear_of_the_one_that_brings_a_part_until_it_takes_the_part() 
     world.parts[part].frame.translation.vector = [x, y, z].into();
     // The hand beside it, in the middle of the way from where the robot holds its own out to where it waits.
     world.hand_at([x + 0.10, y + 0.05, z + 0.10]);
-    world.decide(Some(world.action(Motion::Receive, WHEEL)));
+    world.decide(Some(world.action(ActionType::Receive, WHEEL)));
     let mut nearest = f64::INFINITY;
     world.until(6.0, "ready", |world| {
         nearest = nearest.min(distance(world, &mechanism, &world.command.position));
-        world.phase() == MotionPhase::Hold && world.command.action == world.action(Motion::Receive, WHEEL)
+        world.phase() == MotionPhase::Hold && world.command.action == world.action(ActionType::Receive, WHEEL)
     });
     assert!(nearest > 0.03, "{nearest} m from the hand that brings the wheel");
     world.until(3.0, "taken out of it", |world| world.held().is_some());
@@ -151,7 +151,7 @@ fn the_arm_gets_away_from_a_hand_that_has_come_too_near_while_it_stood() {
         Some(distance(&world, &mechanism, &world.command.position)).filter(|gap| *gap < 0.03)
     });
     let gap = gap.unwrap();
-    world.decide(Some(world.action(Motion::Insert, NUT)));
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
     let mut nearest = f64::INFINITY;
     world.until(6.0, "at the nut", |world| {
         nearest = nearest.min(distance(world, &mechanism, &world.command.position));
@@ -165,6 +165,6 @@ fn a_part_that_is_seen_a_little_below_the_table_is_taken_from_it() {
     let mut world = KinematicWorld::new();
     let part = nut(&world);
     world.parts[part].frame.translation.vector.z -= 0.003;
-    world.decide(Some(world.action(Motion::Insert, NUT)));
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
     world.until(5.0, "taken", |world| world.held().is_some());
 }

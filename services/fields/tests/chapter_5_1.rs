@@ -46,7 +46,7 @@ fn grip_from_above_makes_the_robot_give_up_its_own_intention_and_hold_the_base()
     robot.act("top grip: wheel", 1.0);
     robot.run(150);
     assert_eq!(robot.intention().as_deref(), Some("insert: wheel on the person's side"));
-    assert_eq!(robot.decision().as_deref(), Some("hold the base: wheel on the person's side"));
+    assert_eq!(robot.decision().as_deref(), Some("steady the base: wheel on the person's side"));
 }
 
 #[test]

@@ -91,5 +91,5 @@ fn without_an_occluder_the_base_is_held() {
     robot.act("rest", 0.0);
     robot.act("top grip: wheel", 1.0);
     robot.run(200);
-    assert_eq!(robot.decision().as_deref(), Some("hold the base: wheel on the person's side"));
+    assert_eq!(robot.decision().as_deref(), Some("steady the base: wheel on the person's side"));
 }

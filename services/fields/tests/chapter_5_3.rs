@@ -74,7 +74,7 @@ fn a_request_that_names_nothing_is_understood_from_what_is_there_and_what_is_don
     rest(&mut robot, "open hand", 500);
     show(&mut robot, "top grip: column 4", 300);
     assert_eq!(robot.error(), None);
-    assert_eq!(robot.decision().as_deref(), Some("hold the base: column 4 in its hole"));
+    assert_eq!(robot.decision().as_deref(), Some("steady the base: column 4 in its hole"));
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn grip_from_above_means_insertion_and_the_base_is_held() {
     robot.act("top grip: wheel", 1.0);
     robot.run(150);
     assert_eq!(robot.intention().as_deref(), Some("insert: wheel on the person's side"));
-    assert_eq!(robot.decision().as_deref(), Some("hold the base: wheel on the person's side"));
+    assert_eq!(robot.decision().as_deref(), Some("steady the base: wheel on the person's side"));
 }
 
 #[test]

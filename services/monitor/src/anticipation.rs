@@ -1,6 +1,6 @@
 use crate::expectation::Expectation;
 use crate::{ActionEvent, Event, Intentions};
-use coact_joint_task::{Agent, Motion, Task};
+use coact_joint_task::{ActionType, Agent, Task};
 use coact_messages::{FieldFrame, PartnerPhase, Truth};
 
 /// Finds for each of the partner's actions whether the robot had decided on the right answer before the grasp
@@ -108,7 +108,8 @@ impl Anticipation {
     /// hand is full, so that it answers by understanding alone.
     fn is_served(&self, open: &OpenAction, frame: &FieldFrame) -> bool {
         let action = self.task.actions.get(frame.decision.action as usize);
-        let goal = action.filter(|action| action.motion == Motion::Give).and_then(|action| action.subgoal);
+        let goal =
+            action.filter(|action| action.action_type == ActionType::Give).and_then(|action| action.subgoal);
         let serves =
             |goal: usize| goal == open.subgoal || self.task.subgoals[goal].after.contains(&open.subgoal);
         goal.is_some_and(serves)

@@ -1,5 +1,5 @@
 use crate::Intentions;
-use coact_joint_task::{Motion, Task};
+use coact_joint_task::{ActionType, Task};
 use coact_messages::{FieldFrame, LayerKind, PartnerError};
 
 /// Which peak shows that the partner's action was understood.
@@ -27,12 +27,12 @@ impl Expectation {
         let kind = task.subgoals.get(subgoal)?.kind;
         let intention = [PartnerError::Early as u32, PartnerError::Done as u32].contains(&error);
         let at_hand = error == PartnerError::AtHand as u32;
-        let answers = |motion: Motion, of: Option<usize>, own: Option<usize>| match motion {
-            Motion::Speak => intention && of == Some(subgoal),
-            Motion::Point => at_hand && own == Some(kind),
+        let answers = |motion: ActionType, of: Option<usize>, own: Option<usize>| match motion {
+            ActionType::Speak => intention && of == Some(subgoal),
+            ActionType::Point => at_hand && own == Some(kind),
             _ => false,
         };
-        let action = task.actions.iter().position(|own| answers(own.motion, own.subgoal, own.kind));
+        let action = task.actions.iter().position(|own| answers(own.action_type, own.subgoal, own.kind));
         action.map(Self::Action)
     }
 

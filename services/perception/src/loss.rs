@@ -36,7 +36,7 @@ pub(crate) struct Loss {
 impl Loss {
     /// One cycle of proprioception.
     pub fn feel(&mut self, tick: u64, joints: &JointReading, objects: &ObjectsMemory, places: &Places) {
-        let closing = coact_messages::closing(&joints.position);
+        let closing = coact_messages::finger_closure(&joints.position);
         if joints.touch > TOUCH {
             self.suspected = 0;
             if let Some((track, kind)) = objects.with_the_robot() {

@@ -1,7 +1,7 @@
 //! Clauses, composed from the task's names and the robot's motor skills.
 
 use crate::Goal;
-use coact_joint_task::{Action, Motion, Task};
+use coact_joint_task::{Action, ActionType, Task};
 
 /// What the person is about to do: why the robot does what it does.
 pub(crate) fn inferred(task: &Task, goal: Goal) -> String {
@@ -32,18 +32,18 @@ pub(crate) fn lost(task: &Task, kind: usize) -> String {
 pub(crate) fn announced(task: &Task, action: &Action) -> Option<String> {
     let part = action.kind.map_or("part", |kind| task.kinds[kind].name.as_str());
     let goal = action.subgoal.map(|subgoal| task.subgoals[subgoal].name.as_str());
-    Some(match (action.motion, goal) {
-        (Motion::Insert, Some(goal)) => format!("I will put the {goal}."),
-        (Motion::Insert, None) => format!("I will put the {part} where it belongs."),
-        (Motion::Request, Some(goal)) => format!("Please give me the {part}: I want to put the {goal}."),
-        (Motion::Request, None) => format!("Please give me the {part}."),
-        (Motion::Receive, _) => format!("I will take the {part} from you."),
-        (Motion::Give, _) => format!("Here is the {part} for you."),
-        (Motion::Hold, Some(goal)) => format!("I will hold it steady for the {goal}."),
-        (Motion::Hold, None) => "I will hold it steady for you.".to_owned(),
-        (Motion::Point, _) => format!("Look, there is the {part}."),
-        (Motion::Report, _) => format!("I know of no other {part}."),
-        (Motion::Speak, _) => return None,
+    Some(match (action.action_type, goal) {
+        (ActionType::Insert, Some(goal)) => format!("I will put the {goal}."),
+        (ActionType::Insert, None) => format!("I will put the {part} where it belongs."),
+        (ActionType::Request, Some(goal)) => format!("Please give me the {part}: I want to put the {goal}."),
+        (ActionType::Request, None) => format!("Please give me the {part}."),
+        (ActionType::Receive, _) => format!("I will take the {part} from you."),
+        (ActionType::Give, _) => format!("Here is the {part} for you."),
+        (ActionType::Steady, Some(goal)) => format!("I will hold it steady for the {goal}."),
+        (ActionType::Steady, None) => "I will hold it steady for you.".to_owned(),
+        (ActionType::Point, _) => format!("Look, there is the {part}."),
+        (ActionType::Report, _) => format!("I know of no other {part}."),
+        (ActionType::Speak, _) => return None,
     })
 }
 

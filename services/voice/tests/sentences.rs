@@ -1,18 +1,18 @@
 //! What is said for hand-made frames of a hand-made task.
 
-use coact_joint_task::{Act, Action, Agent, Chain, Kind, Motion, Scene, Shape, Subgoal, Task};
+use coact_joint_task::{Act, Action, ActionType, Agent, Chain, Kind, Scene, Shape, Subgoal, Task};
 use coact_messages::{FieldFrame, LayerKind, NONE};
 use coact_voice::{Goal, Meanings, Mistake, Voice};
 
-const MOTIONS: [Motion; 8] = [
-    Motion::Insert,
-    Motion::Request,
-    Motion::Receive,
-    Motion::Give,
-    Motion::Hold,
-    Motion::Point,
-    Motion::Speak,
-    Motion::Report,
+const ACTION_TYPES: [ActionType; 8] = [
+    ActionType::Insert,
+    ActionType::Request,
+    ActionType::Receive,
+    ActionType::Give,
+    ActionType::Steady,
+    ActionType::Point,
+    ActionType::Speak,
+    ActionType::Report,
 ];
 const LAYERS: [LayerKind; 5] = [
     LayerKind::ActionObservation,
@@ -29,14 +29,14 @@ fn chain(name: &str, answer: &str) -> Chain {
 
 fn subgoal(name: &str) -> Subgoal {
     let (name, axis, side) = (name.into(), [0.0, 0.0, 1.0], Agent::Robot);
-    Subgoal { name, kind: 0, side, socket: [0.0; 3], axis, held: true, after: vec![] }
+    Subgoal { name, kind: 0, side, socket: [0.0; 3], axis, steadied: true, after: vec![] }
 }
 
 /// Three subgoals; one action for each motor skill, all for the first subgoal.
 fn task() -> Task {
-    let action = |motion: Motion| {
-        let rule = format!("{motion:?}");
-        Action { name: format!("{rule}: lid"), rule, motion, kind: Some(0), subgoal: Some(0) }
+    let action = |action_type: ActionType| {
+        let rule = format!("{action_type:?}");
+        Action { name: format!("{rule}: lid"), rule, action_type, kind: Some(0), subgoal: Some(0) }
     };
     Task {
         name: "box".into(),
@@ -51,8 +51,8 @@ fn task() -> Task {
         grips: vec![],
         gestures: vec![],
         acts: vec![],
-        chains: vec![chain("mount", "Hold"), chain("hand over", "Receive")],
-        actions: MOTIONS.map(action).into(),
+        chains: vec![chain("mount", "Steady"), chain("hand over", "Receive")],
+        actions: ACTION_TYPES.map(action).into(),
         scene: Scene {
             table_height: 0.0,
             table_centre: [0.0; 2],
@@ -60,7 +60,7 @@ fn task() -> Task {
             platform: [0.0; 3],
             platform_radius: 0.1,
             platform_height: 0.1,
-            hold: [0.0; 3],
+            steady: [0.0; 3],
             handover: [0.0; 3],
             person_rest: [0.0; 3],
             person_shoulder: [0.0; 3],
@@ -95,8 +95,8 @@ fn peak(frame: &mut FieldFrame, layer: LayerKind, index: usize, since: u64) {
     frame.since[first + index] = since;
 }
 
-fn decide(frame: &mut FieldFrame, motion: Motion, since: u64) {
-    let action = MOTIONS.iter().position(|&own| own == motion);
+fn decide(frame: &mut FieldFrame, action_type: ActionType, since: u64) {
+    let action = ACTION_TYPES.iter().position(|&own| own == action_type);
     frame.decision.action = action.map_or(NONE, |index| index as u32);
     frame.decision.since = since;
 }
@@ -116,8 +116,8 @@ fn said(set: impl Fn(&mut FieldFrame)) -> Vec<(u64, String)> {
 
 #[test]
 fn each_motor_skill_is_announced_once_when_its_decision_has_stood() {
-    let sentences = MOTIONS.map(|motion| {
-        let sentences = said(|frame| decide(frame, motion, 100));
+    let sentences = ACTION_TYPES.map(|action_type| {
+        let sentences = said(|frame| decide(frame, action_type, 100));
         assert!(sentences.iter().all(|(cycle, _)| *cycle == 250), "{sentences:?}");
         sentences.into_iter().map(|(_, text)| text).collect::<Vec<_>>().join(" | ")
     });
@@ -126,11 +126,11 @@ fn each_motor_skill_is_announced_once_when_its_decision_has_stood() {
 
 #[test]
 fn the_inferred_goal_is_the_reason_only_for_its_own_answer() {
-    let sentences = [Motion::Hold, Motion::Receive, Motion::Insert].map(|motion| {
-        let goal = usize::from(motion == Motion::Receive);
+    let sentences = [ActionType::Steady, ActionType::Receive, ActionType::Insert].map(|action_type| {
+        let goal = usize::from(action_type == ActionType::Receive);
         let sentences = said(|frame| {
             peak(frame, LayerKind::Intention, goal, 90);
-            decide(frame, motion, 100);
+            decide(frame, action_type, 100);
         });
         sentences[0].1.clone()
     });
@@ -145,7 +145,7 @@ fn errors_are_explained_by_what_the_fields_hold() {
             achieved.iter().for_each(|&index| peak(frame, LayerKind::SubgoalsAchieved, index, 1));
             available.iter().for_each(|&index| peak(frame, LayerKind::SubgoalsAvailable, index, 1));
             peak(frame, LayerKind::ErrorMonitoring, 0, 80);
-            decide(frame, Motion::Speak, 100);
+            decide(frame, ActionType::Speak, 100);
         });
         sentences[0].1.clone()
     });
@@ -158,20 +158,22 @@ fn an_error_of_the_inferred_goal_is_told_in_the_terms_of_that_goal() {
         peak(frame, LayerKind::SubgoalsAvailable, 1, 1);
         peak(frame, LayerKind::Intention, 1, 60);
         peak(frame, LayerKind::ErrorMonitoring, 0, 80);
-        decide(frame, Motion::Speak, 100);
+        decide(frame, ActionType::Speak, 100);
     });
     assert_eq!(sentences[0].1, "You cannot hand over the plate yet; first we need the hinge on the left.");
 }
 
 #[test]
 fn errors_in_means_and_losses_are_told_with_what_is_done_about_them() {
-    let sentences = [(1, Motion::Point), (2, Motion::Request), (2, Motion::Report)].map(|(error, motion)| {
-        let sentences = said(|frame| {
-            peak(frame, LayerKind::ErrorMonitoring, error, 80);
-            decide(frame, motion, 100);
-        });
-        sentences[0].1.clone()
-    });
+    let sentences = [(1, ActionType::Point), (2, ActionType::Request), (2, ActionType::Report)].map(
+        |(error, action_type)| {
+            let sentences = said(|frame| {
+                peak(frame, LayerKind::ErrorMonitoring, error, 80);
+                decide(frame, action_type, 100);
+            });
+            sentences[0].1.clone()
+        },
+    );
     insta::assert_snapshot!(sentences.join("\n"));
 }
 
@@ -193,8 +195,8 @@ fn a_short_change_of_mind_is_not_spoken_of() {
     let mut voice = voice();
     for cycle in 1..1000 {
         let mut frame = frame(cycle);
-        let motion = if cycle / 100 % 2 == 0 { Motion::Insert } else { Motion::Hold };
-        decide(&mut frame, motion, cycle / 100 * 100);
+        let action_type = if cycle / 100 % 2 == 0 { ActionType::Insert } else { ActionType::Steady };
+        decide(&mut frame, action_type, cycle / 100 * 100);
         assert_eq!(voice.observe(&frame), None, "{cycle}");
     }
 }
@@ -207,7 +209,7 @@ fn the_same_sentence_is_not_repeated_within_five_seconds() {
         let mut frame = frame(cycle);
         // The decision comes and goes every second.
         if cycle % 1000 >= 500 {
-            decide(&mut frame, Motion::Insert, cycle / 1000 * 1000 + 500);
+            decide(&mut frame, ActionType::Insert, cycle / 1000 * 1000 + 500);
         }
         cycles.extend(voice.observe(&frame).map(|said| said.cycle));
     }
@@ -219,18 +221,18 @@ fn a_restarted_voice_does_not_speak_of_old_decisions() {
     let mut voice = voice();
     for cycle in 5000..5400 {
         let mut frame = frame(cycle);
-        decide(&mut frame, Motion::Insert, 1000);
+        decide(&mut frame, ActionType::Insert, 1000);
         assert_eq!(voice.observe(&frame), None);
     }
     let mut frame = frame(5600);
-    decide(&mut frame, Motion::Hold, 5400);
+    decide(&mut frame, ActionType::Steady, 5400);
     assert!(voice.observe(&frame).is_some());
 }
 
 #[test]
 fn frames_of_another_task_are_not_spoken_of() {
     let sentences = said(|frame| {
-        decide(frame, Motion::Insert, 100);
+        decide(frame, ActionType::Insert, 100);
         frame.task = 43;
     });
     assert_eq!(sentences, []);

@@ -109,7 +109,7 @@ impl RobotHand {
             angles: angles.collect(),
             open: robot.hand.base_for_width(LOOKS_OPEN),
             handover: task.scene.handover.into(),
-            hold: task.scene.hold.into(),
+            hold: task.scene.steady.into(),
             robot: robot.clone(),
         }
     }
@@ -122,7 +122,7 @@ impl RobotHand {
         Palm {
             grasp_point: DVec3::new(point.x, point.y, point.z),
             orientation: DQuat::from_xyzw(turn.x, turn.y, turn.z, turn.w),
-            closing: coact_messages::closing(position),
+            closing: coact_messages::finger_closure(position),
         }
     }
 

@@ -90,7 +90,7 @@ impl World {
         state: &mut WorldState,
     ) {
         if let Some(command) = command {
-            self.memory.robot.wanted = coact_messages::closing(&command.position);
+            self.memory.robot.wanted = coact_messages::finger_closure(&command.position);
         }
         let influence = Influence {
             elapsed: self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, 1000)),

@@ -1,6 +1,6 @@
 //! The task file as it is written: names where [`Task`](crate::Task) has indices, degrees where it has radians.
 
-use crate::{Agent, Motion, Shape};
+use crate::{ActionType, Agent, Shape};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -49,7 +49,7 @@ pub(crate) struct SubgoalEntry {
     pub side: Agent,
     pub socket: SocketEntry,
     #[serde(default)]
-    pub held: bool,
+    pub steadied: bool,
     #[serde(default)]
     pub after: Vec<Name>,
 }
@@ -97,7 +97,8 @@ pub(crate) struct ChainEntry {
 #[serde(deny_unknown_fields)]
 pub(crate) struct ActionEntry {
     pub name: Name,
-    pub motion: Motion,
+    #[serde(rename = "type")]
+    pub action_type: ActionType,
     #[serde(rename = "for")]
     pub each: Each,
     pub side: Option<Agent>,
@@ -117,7 +118,7 @@ pub(crate) enum Each {
 pub(crate) struct SceneEntry {
     pub table: TableEntry,
     pub platform: PlatformEntry,
-    pub hold: [f64; 3],
+    pub steady: [f64; 3],
     pub handover: [f64; 3],
     pub person_rest: [f64; 3],
     pub person_shoulder: [f64; 3],

@@ -17,7 +17,9 @@ mod wiring;
 pub use check::{Finding, FindingKind, check};
 pub use error::TaskError;
 pub use fixture::{Fixture, FixtureForm};
-pub use model::{Act, Action, Agent, Chain, Fit, Gesture, Grip, Kind, Motion, Part, Scene, Shape, Subgoal};
+pub use model::{
+    Act, Action, ActionType, Agent, Chain, Fit, Gesture, Grip, Kind, Part, Scene, Shape, Subgoal,
+};
 pub use network_plan::{Channel, ChannelPlan, LayerPlan, NetworkPlan, Pool, Synapse};
 pub use population::Population;
 pub use task::Task;

@@ -136,7 +136,7 @@ impl Reader<'_> {
             side: entry.side,
             socket: *entry.socket.at.get_ref(),
             axis: entry.socket.axis.map(|x| x / length),
-            held: entry.held,
+            steadied: entry.steadied,
             after,
         })
     }
@@ -296,7 +296,7 @@ fn expand(entry: &ActionEntry, kinds: &[Kind], subgoals: &[Subgoal]) -> Vec<Acti
     let named = |object: &str, kind, subgoal| Action {
         name: format!("{rule}: {object}"),
         rule: rule.clone(),
-        motion: entry.motion,
+        action_type: entry.action_type,
         kind: Some(kind),
         subgoal,
     };
@@ -304,7 +304,7 @@ fn expand(entry: &ActionEntry, kinds: &[Kind], subgoals: &[Subgoal]) -> Vec<Acti
         Each::Once => vec![Action {
             name: rule.clone(),
             rule: rule.clone(),
-            motion: entry.motion,
+            action_type: entry.action_type,
             kind: None,
             subgoal: None,
         }],
@@ -343,7 +343,7 @@ fn scene(entry: &SceneEntry) -> Scene {
         platform: entry.platform.at,
         platform_radius: entry.platform.radius,
         platform_height: entry.platform.height,
-        hold: entry.hold,
+        steady: entry.steady,
         handover: entry.handover,
         person_rest: entry.person_rest,
         person_shoulder: entry.person_shoulder,

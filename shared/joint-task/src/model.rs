@@ -95,8 +95,8 @@ pub struct Subgoal {
     pub socket: [f64; 3],
     /// Where the part's own z axis points when it is in place; unit vector.
     pub axis: [f64; 3],
-    /// True if the other one steadies the base meanwhile.
-    pub held: bool,
+    /// Whether the other one steadies the base meanwhile.
+    pub steadied: bool,
     /// Indices of the subgoals that must be achieved before.
     pub after: Vec<usize>,
 }
@@ -169,28 +169,28 @@ pub struct Action {
     pub name: String,
     /// Name of the rule that made it, e.g. "insert".
     pub rule: String,
-    /// The motor skill.
-    pub motion: Motion,
+    /// What it does.
+    pub action_type: ActionType,
     /// Index of the kind of part that it handles.
     pub kind: Option<usize>,
     /// Index of the subgoal that it serves.
     pub subgoal: Option<usize>,
 }
 
-/// The robot's motor skills.
+/// What an action does, as the task file names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Motion {
-    /// Take a part from the robot's workspace (unless it is in the hand already) and put it into its socket.
+pub enum ActionType {
+    /// Pick a part from the robot's workspace (unless it is in the hand already) and insert it into its socket.
     Insert,
-    /// Hold out the open hand at the handover place: "give me ...".
+    /// Hold the open hand out at the handover place: "give me ...".
     Request,
-    /// Go to the handover place, take the offered part.
+    /// Go to the handover place and take over the part that the person gives.
     Receive,
-    /// Take a part from the robot's workspace and hold it out at the handover place until it is taken.
+    /// Pick a part from the robot's workspace and give it to the person at the handover place.
     Give,
-    /// Steady the base.
-    Hold,
+    /// Steady the base while the person inserts a part.
+    Steady,
     /// Point to a part.
     Point,
     /// Say what is wrong with what the person means; the arm rests.
@@ -215,7 +215,7 @@ pub struct Scene {
     /// Its height.
     pub platform_height: f64,
     /// Where the robot's hand steadies the base.
-    pub hold: [f64; 3],
+    pub steady: [f64; 3],
     /// Where parts change hands.
     pub handover: [f64; 3],
     /// Where the person's hand rests.

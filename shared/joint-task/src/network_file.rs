@@ -66,7 +66,7 @@ pub(crate) struct RuleEntry {
     pub unlike: Vec<Attribute>,
     pub relation: Option<Relation>,
     #[serde(default)]
-    pub share: bool,
+    pub normalised: bool,
     #[serde(default)]
     pub pool: Pool,
     #[serde(default)]
@@ -83,7 +83,7 @@ pub(crate) struct Selector {
     pub role: Option<Name>,
     pub side: Option<Agent>,
     pub workspace: Option<Agent>,
-    pub held: Option<bool>,
+    pub steadied: Option<bool>,
     pub first: Option<bool>,
 }
 

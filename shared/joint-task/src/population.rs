@@ -1,4 +1,4 @@
-use crate::{Act, Agent, Motion, Task};
+use crate::{Act, ActionType, Agent, Task};
 use coact_messages::LayerKind;
 
 /// One population of a layer, or one channel of the percept, and what it stands for in the task.
@@ -31,7 +31,7 @@ pub struct Population {
     /// Name of the action's rule.
     pub rule: Option<String>,
     /// Whether the other one steadies the base for this subgoal.
-    pub held: bool,
+    pub steadied: bool,
     /// Whether nothing comes before this subgoal in the plan.
     pub first: bool,
 }
@@ -115,7 +115,7 @@ fn of_subgoal(task: &Task, index: usize) -> Population {
         kind: Some(subgoal.kind),
         subgoal: Some(index),
         side: Some(subgoal.side),
-        held: subgoal.held,
+        steadied: subgoal.steadied,
         first: subgoal.after.is_empty(),
         ..Population::default()
     }
@@ -175,7 +175,7 @@ fn actions(task: &Task) -> Vec<Population> {
         let subgoal = action.subgoal.map(|index| of_subgoal(task, index)).unwrap_or_default();
         Population {
             label: action.name.clone(),
-            role: motion_name(action.motion),
+            role: type_name(action.action_type),
             kind: action.kind,
             rule: Some(action.rule.clone()),
             ..subgoal
@@ -184,15 +184,15 @@ fn actions(task: &Task) -> Vec<Population> {
     task.actions.iter().map(action).collect()
 }
 
-fn motion_name(motion: Motion) -> &'static str {
-    match motion {
-        Motion::Insert => "insert",
-        Motion::Request => "request",
-        Motion::Receive => "receive",
-        Motion::Give => "give",
-        Motion::Hold => "hold",
-        Motion::Point => "point",
-        Motion::Speak => "speak",
-        Motion::Report => "report",
+fn type_name(action_type: ActionType) -> &'static str {
+    match action_type {
+        ActionType::Insert => "insert",
+        ActionType::Request => "request",
+        ActionType::Receive => "receive",
+        ActionType::Give => "give",
+        ActionType::Steady => "steady",
+        ActionType::Point => "point",
+        ActionType::Speak => "speak",
+        ActionType::Report => "report",
     }
 }

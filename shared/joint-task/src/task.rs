@@ -1,4 +1,4 @@
-use crate::{Act, Action, Chain, Gesture, Grip, Kind, Motion, Part, Scene, Subgoal, TaskError};
+use crate::{Act, Action, ActionType, Chain, Gesture, Grip, Kind, Part, Scene, Subgoal, TaskError};
 use std::path::Path;
 
 /// A joint task as its file describes it: parts, plan, what the person's hand can show, what the robot can do.
@@ -73,7 +73,7 @@ impl Task {
     pub fn complement(&self, chain: usize, subgoal: usize) -> Option<usize> {
         let answer = self.chains[chain].answer.as_ref()?;
         self.actions.iter().position(|action| {
-            let wanted = action.motion != Motion::Hold || self.subgoals[subgoal].held;
+            let wanted = action.action_type != ActionType::Steady || self.subgoals[subgoal].steadied;
             action.rule == *answer && wanted && action.subgoal.is_none_or(|own| own == subgoal)
         })
     }

@@ -172,17 +172,18 @@ impl Wiring<'_> {
             for &to in &targets {
                 let related = |&&from: &&usize| self.related(rule, &row.meanings[from], &row.meanings[to]);
                 let found: Vec<usize> = sources.iter().filter(related).copied().collect();
-                let share = if rule.share { self.share(rule, found.len(), &row.meanings[to]) } else { 1.0 };
-                let weight = rule.weight / share;
+                let divisor =
+                    if rule.normalised { self.divisor(rule, found.len(), &row.meanings[to]) } else { 1.0 };
+                let weight = rule.weight / divisor;
                 synapses.extend(found.into_iter().map(|from| Synapse { from, to, weight, rule: index }));
             }
         }
         Ok(synapses)
     }
 
-    /// By what a shared weight is divided: the number of sources, or, where the plan relates them, the number of all
-    /// steps that come before - a source that stands for one of them tells nothing of the others.
-    fn share(&self, rule: &RuleEntry, sources: usize, to: &Population) -> f64 {
+    /// The divisor of a normalised weight: the number of sources or, where the plan relates them, the number of all
+    /// steps that come before, because a source that stands for one of them tells nothing of the others.
+    fn divisor(&self, rule: &RuleEntry, sources: usize, to: &Population) -> f64 {
         let steps = match (rule.relation, to.subgoal) {
             (Some(Relation::Before), Some(subgoal)) => self.task.subgoals[subgoal].after.len(),
             _ => sources,
@@ -197,7 +198,7 @@ impl Wiring<'_> {
         row: &Row,
         source: bool,
     ) -> Result<Vec<usize>, TaskError> {
-        let Selector { layer, role, side, workspace, held, first } = selector;
+        let Selector { layer, role, side, workspace, steadied, first } = selector;
         let names = || row.names.iter().filter(|(_, range)| source || range.start < self.layer_end(row));
         let range = names().find(|(name, _)| name == layer.get_ref()).map(|(_, range)| range.clone());
         let range = range.ok_or_else(|| {
@@ -214,7 +215,7 @@ impl Wiring<'_> {
                 role.as_ref().is_none_or(|role| meaning.role == role.get_ref())
                     && side.is_none_or(|side| meaning.side == Some(side))
                     && workspace.is_none_or(|workspace| meaning.workspace == Some(workspace))
-                    && held.is_none_or(|held| meaning.held == held)
+                    && steadied.is_none_or(|steadied| meaning.steadied == steadied)
                     && first.is_none_or(|first| meaning.first == first)
             })
             .collect())
@@ -227,7 +228,7 @@ impl Wiring<'_> {
     fn known_role(&self, key: &str, role: &crate::file::Name) -> Result<(), TaskError> {
         const ROLES: [&str; 21] = [
             "rest", "idle", "reach", "hidden", "word", "gesture", "grasp", "grip", "insert", "request",
-            "receive", "give", "hold", "point", "speak", "report", "subgoal", "goal", "done", "means",
+            "receive", "give", "steady", "point", "speak", "report", "subgoal", "goal", "done", "means",
             "loss",
         ];
         if ROLES.contains(&role.get_ref().as_str()) {
@@ -249,7 +250,7 @@ impl Wiring<'_> {
                     from.answer.is_some()
                         && from.answer == to.rule
                         && (to.subgoal.is_none() || from.subgoal == to.subgoal)
-                        && (to.role != "hold" || from.held)
+                        && (to.role != "steady" || from.steadied)
                 }
             }
     }

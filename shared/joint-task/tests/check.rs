@@ -53,7 +53,7 @@ fn missing_part_is_found_at_the_subgoal_that_goes_without() {
 
 #[test]
 fn subgoal_that_nobody_can_bring_about_is_found() {
-    let found = findings(&[("motion = \"give\"", "motion = \"point\"")]);
+    let found = findings(&[("type = \"give\"", "type = \"point\"")]);
     assert_eq!(kinds(&found)[0], FindingKind::UnreachableSubgoal);
     assert!(
         found[0].what.contains("\"peg on the person's block\": the robot has no [[action]]"),

@@ -56,7 +56,7 @@ pub use world_state::{PartState, WorldState};
 pub const JOINTS: usize = 15;
 
 /// Mean angle of the three finger bases in a row of [`JOINTS`], rad; growing angles close the hand.
-pub fn closing(position: &[f64; JOINTS]) -> f64 {
+pub fn finger_closure(position: &[f64; JOINTS]) -> f64 {
     position[8..11].iter().sum::<f64>() / 3.0
 }
 

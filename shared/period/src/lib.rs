@@ -35,7 +35,10 @@ pub const CYCLES_PER_SECOND: u64 = 1_000_000_000 / PERIOD_NS;
 /// # Panics
 /// When it is no whole number of cycles. In a constant, that is an error of compilation.
 pub const fn cycles(duration: Duration) -> u64 {
-    assert!(duration.as_nanos().is_multiple_of(PERIOD_NS as u128), "a duration in cycles must be a whole number of them");
+    assert!(
+        duration.as_nanos().is_multiple_of(PERIOD_NS as u128),
+        "a duration in cycles must be a whole number of them"
+    );
     (duration.as_nanos() / PERIOD_NS as u128) as u64
 }
 

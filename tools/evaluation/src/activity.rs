@@ -1,4 +1,4 @@
-use coact_joint_task::{Motion, Task};
+use coact_joint_task::{ActionType, Task};
 use coact_messages::{Command, MotionPhase, PartnerPhase, Truth};
 
 /// Who is active at one tick.
@@ -19,10 +19,10 @@ impl Activity {
         let acts = truth.phase != PartnerPhase::Idle as u32;
         let person_waits = truth.waiting != 0;
         let mounts = truth.phase == PartnerPhase::Act as u32 && !person_waits;
-        let motion = task.actions.get(command.action as usize).map(|action| action.motion);
+        let motion = task.actions.get(command.action as usize).map(|action| action.action_type);
         let robot = match command.phase {
             phase if phase == MotionPhase::Rest as u32 || phase == MotionPhase::Brake as u32 => false,
-            phase if phase == MotionPhase::Hold as u32 => motion == Some(Motion::Hold) && mounts,
+            phase if phase == MotionPhase::Hold as u32 => motion == Some(ActionType::Steady) && mounts,
             _ => true,
         };
         Self { active: [robot, acts && !person_waits], person_waits }

@@ -56,7 +56,7 @@ fn decisions_are_those_of_the_chapter() {
         8,
         &[
             ("T1", &[request]),
-            ("T2", &["hold the base: wheel on the person's side"]),
+            ("T2", &["steady the base: wheel on the person's side"]),
             ("T3", &[request]),
             ("T4", &["receive: wheel on the robot's side"]),
         ],
@@ -68,7 +68,7 @@ fn decisions_are_those_of_the_chapter() {
             ("T7", &["correct: column 4 in its hole"]),
             ("T8", &["receive: column 1 in its hole", "insert: column 1 in its hole"]),
             ("T9", &["correct: column 3 in its hole"]),
-            ("T10", &["hold the base: column 4 in its hole"]),
+            ("T10", &["steady the base: column 4 in its hole"]),
         ],
     );
 }

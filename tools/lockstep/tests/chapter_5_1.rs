@@ -30,7 +30,7 @@ fn the_robot_asks_helps_asks_again_and_receives() {
 
     run_until(&mut stages, 1, PartnerPhase::Transport);
     run_for(&mut stages, 200);
-    assert_eq!(decision(&stages), Some("hold the base: wheel on the person's side"), "a grip from above");
+    assert_eq!(decision(&stages), Some("steady the base: wheel on the person's side"), "a grip from above");
 
     run_until(&mut stages, 1, PartnerPhase::Idle);
     run_for(&mut stages, 5000);

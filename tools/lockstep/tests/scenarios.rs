@@ -65,7 +65,7 @@ fn check(scenario: &str, seconds: u64, expected: &[&str], never: &[&str]) {
 fn the_robot_takes_the_initiative_and_infers_goals_from_grips() {
     let expected = [
         "request: wheel on the robot's side",
-        "hold the base: wheel on the person's side",
+        "steady the base: wheel on the person's side",
         "request: wheel on the robot's side",
         "receive: wheel on the robot's side",
         "insert: wheel on the robot's side",
@@ -76,7 +76,7 @@ fn the_robot_takes_the_initiative_and_infers_goals_from_grips() {
 #[test]
 fn a_hidden_action_is_understood_from_memory_and_the_future_need_is_served() {
     let expected = ["insert: wheel on the robot's side", "give: nut on the person's side"];
-    check("occlusion", 8, &expected, &["error", "hold", "receive"]);
+    check("occlusion", 8, &expected, &["error", "steady", "receive"]);
 }
 
 #[test]
@@ -88,14 +88,14 @@ fn errors_are_told_and_requests_are_understood_from_the_context() {
         "insert: column 1 in its hole",
         "error: column 3 in its hole",
         "correct: column 3 in its hole",
-        "hold the base: column 4 in its hole",
+        "steady the base: column 4 in its hole",
     ];
-    check("errors-and-requests", 40, &expected, &["give", "hold the base: column 3"]);
+    check("errors-and-requests", 40, &expected, &["give", "steady the base: column 3"]);
 }
 
 #[test]
 fn what_lies_at_hand_is_pointed_to() {
-    let expected = ["error: at hand: nut", "point to: nut", "hold the base: nut on the person's side"];
+    let expected = ["error: at hand: nut", "point to: nut", "steady the base: nut on the person's side"];
     check("means-error", 14, &expected, &["give", "error: done", "error: nut"]);
 }
 
@@ -121,12 +121,12 @@ fn a_lost_part_that_only_the_person_has_is_asked_for() {
 #[test]
 fn without_any_observation_the_robot_goes_on_by_itself() {
     let expected = ["insert: wheel on the robot's side", "insert: nut on the robot's side"];
-    check("absent", 14, &expected, &["error", "hold", "receive"]);
+    check("absent", 14, &expected, &["error", "steady", "receive"]);
 }
 
 #[test]
 fn late_observation_changes_the_decision() {
-    let expected = ["request: wheel on the robot's side", "hold the base: wheel on the person's side"];
+    let expected = ["request: wheel on the robot's side", "steady the base: wheel on the person's side"];
     check("late", 8, &expected, &["error", "receive"]);
 }
 
@@ -134,7 +134,7 @@ fn late_observation_changes_the_decision() {
 fn words_are_understood_as_movements_are() {
     let expected = [
         "give: nut on the person's side",
-        "hold the base: nut on the person's side",
+        "steady the base: nut on the person's side",
         "receive: wheel on the robot's side",
         "insert: wheel on the robot's side",
     ];
@@ -143,6 +143,6 @@ fn words_are_understood_as_movements_are() {
 
 #[test]
 fn a_hand_that_belies_the_words_wins_in_the_end() {
-    let expected = ["receive: wheel on the robot's side", "hold the base: wheel on the person's side"];
+    let expected = ["receive: wheel on the robot's side", "steady the base: wheel on the person's side"];
     check("conflict", 8, &expected, &["error", "insert"]);
 }

@@ -19,7 +19,7 @@ fn moment(at_ms: u64, what: &str) -> Moment {
     Moment {
         at_ms,
         what: what.into(),
-        robot_does: Some("hold the base".into()),
+        robot_does: Some("steady the base".into()),
         person_does: None,
         robot_holds: Vec::new(),
         person_holds: vec!["wheel".into()],
@@ -62,7 +62,7 @@ fn captions_tell_when_what_happened_and_who_was_at_what() {
         assert!(found.contains(&kind), "{kind} is not in {found:?}");
     }
     let below = found.iter().skip_while(|text| !text.starts_with("2.1 s")).copied().collect::<Vec<_>>();
-    assert_eq!(below, ["2.1 s   person takes wheel", "robot   hold the base", "person  \u{2013}"]);
+    assert_eq!(below, ["2.1 s   person takes wheel", "robot   steady the base", "person  \u{2013}"]);
 }
 
 #[test]

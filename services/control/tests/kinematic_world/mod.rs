@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, dead_code)]
 
 use coact_control::{Control, Settings};
-use coact_joint_task::{Motion, Task};
+use coact_joint_task::{ActionType, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, PERSON, Percept, ROBOT, SensorSample};
 use coact_motion::Capsule;
 use coact_robot::{JointLimits, Robot};
@@ -95,11 +95,11 @@ impl KinematicWorld {
     }
 
     /// Index of the action with this skill for a subgoal of this name.
-    pub fn action(&self, motion: Motion, subgoal: &str) -> u32 {
+    pub fn action(&self, motion: ActionType, subgoal: &str) -> u32 {
         let named = |index: &usize| {
             let action = &self.task.actions[*index];
             let goal = action.subgoal.map(|goal| self.task.subgoals[goal].name.as_str());
-            action.motion == motion && goal == Some(subgoal)
+            action.action_type == motion && goal == Some(subgoal)
         };
         (0..self.task.actions.len()).find(named).unwrap_or_else(|| panic!("no {motion:?} for {subgoal}"))
             as u32

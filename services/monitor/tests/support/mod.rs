@@ -1,7 +1,9 @@
 //! A small task of its own, and hand-made messages for it.
 #![allow(dead_code, reason = "each test file uses some of it")]
 
-use coact_joint_task::{Act, Action, Agent, Chain, Grip, Kind, Motion, Part, Scene, Shape, Subgoal, Task};
+use coact_joint_task::{
+    Act, Action, ActionType, Agent, Chain, Grip, Kind, Part, Scene, Shape, Subgoal, Task,
+};
 use coact_messages::{FieldFrame, LayerKind, NONE, PartnerPhase, Pulse, Truth};
 use coact_monitor::Intentions;
 
@@ -18,9 +20,9 @@ pub const GIVE_HINGE: usize = 4;
 /// The goal of mounting the lid, in the intention layer.
 pub const MOUNTING_LID: usize = 1;
 
-fn subgoal(name: &str, held: bool, after: Vec<usize>) -> Subgoal {
+fn subgoal(name: &str, steadied: bool, after: Vec<usize>) -> Subgoal {
     let (name, axis, side) = (name.into(), [0.0, 0.0, 1.0], Agent::Person);
-    Subgoal { name, kind: 0, side, socket: [0.0; 3], axis, held, after }
+    Subgoal { name, kind: 0, side, socket: [0.0; 3], axis, steadied, after }
 }
 
 fn chain(name: &str, answer: &str) -> Chain {
@@ -29,12 +31,12 @@ fn chain(name: &str, answer: &str) -> Chain {
     Chain { name: name.into(), act, kind: 0, from, side, answer: Some(answer.into()), says: Vec::new() }
 }
 
-fn action(rule: &str, motion: Motion, subgoal: usize, name: &str) -> Action {
+fn action(rule: &str, action_type: ActionType, subgoal: usize, name: &str) -> Action {
     let name = format!("{rule}: {name}");
-    Action { name, rule: rule.into(), motion, kind: Some(0), subgoal: Some(subgoal) }
+    Action { name, rule: rule.into(), action_type, kind: Some(0), subgoal: Some(subgoal) }
 }
 
-/// A box with a lid (that must be held) and a hinge (that must not).
+/// A box with a lid (that must be steadied) and a hinge (that must not).
 pub fn task() -> Task {
     Task {
         name: "box".into(),
@@ -51,11 +53,11 @@ pub fn task() -> Task {
         acts: vec![Act::Rest, Act::Grasp { grip: 0, kind: 0 }],
         chains: vec![chain("mount", "steady"), chain("pass", "take")],
         actions: vec![
-            action("steady", Motion::Hold, 0, "lid"),
-            action("take", Motion::Receive, 1, "hinge"),
-            action("ask", Motion::Request, 1, "hinge"),
-            action("object", Motion::Speak, 1, "hinge"),
-            action("give", Motion::Give, 1, "hinge"),
+            action("steady", ActionType::Steady, 0, "lid"),
+            action("take", ActionType::Receive, 1, "hinge"),
+            action("ask", ActionType::Request, 1, "hinge"),
+            action("object", ActionType::Speak, 1, "hinge"),
+            action("give", ActionType::Give, 1, "hinge"),
         ],
         scene: Scene {
             table_height: 0.0,
@@ -64,7 +66,7 @@ pub fn task() -> Task {
             platform: [0.0; 3],
             platform_radius: 0.1,
             platform_height: 0.1,
-            hold: [0.0; 3],
+            steady: [0.0; 3],
             handover: [0.0; 3],
             person_rest: [0.0; 3],
             person_shoulder: [0.0; 3],

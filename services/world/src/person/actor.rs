@@ -245,7 +245,7 @@ impl Person {
         if !memory.movement.is_over(around.tick) {
             return;
         }
-        let waits = memory.subgoal.get().is_some_and(|subgoal| around.task.subgoals[subgoal].held);
+        let waits = memory.subgoal.get().is_some_and(|subgoal| around.task.subgoals[subgoal].steadied);
         match (memory.stage(), memory.errand()) {
             (Stage::Return, _) => self.put_down(memory, around),
             (_, Errand::HandOver | Errand::Request) => {

@@ -1,6 +1,6 @@
 use super::finding::{Finding, FindingKind};
 use super::subject::Subject;
-use crate::{Act, Agent, Motion};
+use crate::{Act, ActionType, Agent};
 
 /// Subgoals that neither of the two can bring about with parts that lie where they lie.
 pub(super) fn unreachable(subject: &Subject) -> Vec<Finding> {
@@ -33,32 +33,32 @@ fn without_parts_there(subject: &Subject, goal: usize) -> Option<Finding> {
 
 /// Whether a part from the workspace of `from` can come to the subgoal's place.
 fn can_bring(subject: &Subject, goal: usize, from: Agent) -> bool {
-    let can = |motion: Motion| has_action(subject, goal, motion);
+    let can = |action_type: ActionType| has_action(subject, goal, action_type);
     match (from, subject.task.subgoals[goal].side) {
-        (Agent::Robot, Agent::Robot) => can(Motion::Insert),
-        (Agent::Robot, Agent::Person) => can(Motion::Give),
+        (Agent::Robot, Agent::Robot) => can(ActionType::Insert),
+        (Agent::Robot, Agent::Person) => can(ActionType::Give),
         (Agent::Person, Agent::Person) => has_chain(subject, goal, None),
         (Agent::Person, Agent::Robot) => {
-            can(Motion::Insert) && has_chain(subject, goal, Some(Motion::Receive))
+            can(ActionType::Insert) && has_chain(subject, goal, Some(ActionType::Receive))
         }
     }
 }
 
-fn has_action(subject: &Subject, goal: usize, motion: Motion) -> bool {
+fn has_action(subject: &Subject, goal: usize, action_type: ActionType) -> bool {
     let kind = subject.task.subgoals[goal].kind;
     subject.task.actions.iter().any(|action| {
-        action.motion == motion
+        action.action_type == action_type
             && action.subgoal.is_none_or(|own| own == goal)
             && action.kind.is_none_or(|own| own == kind)
     })
 }
 
-/// Whether a grasp of the person's shows a chain that serves the subgoal, and has an answer of this motion.
-fn has_chain(subject: &Subject, goal: usize, answer: Option<Motion>) -> bool {
+/// Whether a grasp of the person's shows a chain that serves the subgoal, and has an answer of this type.
+fn has_chain(subject: &Subject, goal: usize, answer: Option<ActionType>) -> bool {
     let task = &subject.task;
     (0..task.chains.len()).any(|index| {
         let chain = &task.chains[index];
-        let complement = task.complement(index, goal).map(|action| task.actions[action].motion);
+        let complement = task.complement(index, goal).map(|action| task.actions[action].action_type);
         chain.from == Agent::Person
             && matches!(chain.act, Act::Grasp { .. })
             && subject.served(index).any(|own| own == goal)
@@ -69,14 +69,14 @@ fn has_chain(subject: &Subject, goal: usize, answer: Option<Motion>) -> bool {
 /// What is missing when a part from `from` cannot come to a place on `side`.
 fn lacking(side: Agent, from: Agent) -> &'static str {
     match (from, side) {
-        (Agent::Robot, Agent::Robot) => "the robot has no [[action]] with motion \"insert\" for it",
-        (Agent::Robot, Agent::Person) => "the robot has no [[action]] with motion \"give\" for it",
+        (Agent::Robot, Agent::Robot) => "the robot has no [[action]] of type \"insert\" for it",
+        (Agent::Robot, Agent::Person) => "the robot has no [[action]] of type \"give\" for it",
         (Agent::Person, Agent::Person) => {
             "no [[chain]] that a grip shows leads from the person's workspace to the person's side"
         }
         (Agent::Person, Agent::Robot) => {
-            "there is no [[chain]] from the person's workspace to the robot's side whose answer is an [[action]] with \
-             motion \"receive\", or no action \"insert\" that would follow"
+            "there is no [[chain]] from the person's workspace to the robot's side whose answer is an [[action]] of \
+             type \"receive\", or no action \"insert\" that would follow"
         }
     }
 }

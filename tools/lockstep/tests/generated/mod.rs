@@ -46,7 +46,7 @@ pub fn write(folder: &Path, subgoals: usize, parts: usize) -> PathBuf {
         let after = if goal < 2 { String::new() } else { format!("after = [\"goal {}\"]\n", goal - 2) };
         write!(
             text,
-            "[[subgoal]]\nname = \"goal {goal}\"\nkind = \"kind {kind}\"\nside = \"{side}\"\nheld = {}\n\
+            "[[subgoal]]\nname = \"goal {goal}\"\nkind = \"kind {kind}\"\nside = \"{side}\"\nsteadied = {}\n\
              socket = {{ at = [{x}, 0.30, {z:.3}] }}\n{after}",
             goal % 2 == 0
         )
