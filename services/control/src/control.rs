@@ -209,7 +209,7 @@ impl Control {
             Leg::Plan | Leg::Move if !empty => MotionPhase::Transport,
             Leg::Plan | Leg::Move if self.memory.errand() == Errand::Park => MotionPhase::Retreat,
             Leg::Plan | Leg::Move => MotionPhase::Reach,
-            Leg::Await | Leg::Stay => MotionPhase::Hold,
+            Leg::Await | Leg::Stay => MotionPhase::Dwell,
             Leg::Close | Leg::Feel => MotionPhase::Grasp,
             Leg::Open => MotionPhase::Release,
         }

@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 /// Joints of the hand, the last of them reserved.
 pub(crate) const FINGER_JOINTS: usize = JOINTS - ARM_JOINTS;
 
-/// All that control remembers from cycle to cycle, besides the setpoints: the words of [`Command::memory`], in this
+/// All that control remembers from cycle to cycle, besides the setpoints: the words of [`Command::state`], in this
 /// order, 8 bytes each; the remaining words are zero. Whole numbers are stored as their bits.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
@@ -133,7 +133,7 @@ impl Memory {
 
     /// From a command; `None` when its words are not control's.
     pub fn recall(command: &Command) -> Option<Self> {
-        let memory: Self = *bytemuck::from_bytes(bytemuck::cast_slice(&command.memory[..WORDS]));
+        let memory: Self = *bytemuck::from_bytes(bytemuck::cast_slice(&command.state[..WORDS]));
         if memory.mark != MARK {
             return None;
         }
@@ -147,8 +147,8 @@ impl Memory {
 
     /// Into a command.
     pub fn store(&self, command: &mut Command) {
-        command.memory[..WORDS].copy_from_slice(bytemuck::cast_slice(bytemuck::bytes_of(self)));
-        command.memory[WORDS..].fill(0.0);
+        command.state[..WORDS].copy_from_slice(bytemuck::cast_slice(bytemuck::bytes_of(self)));
+        command.state[WORDS..].fill(0.0);
     }
 
     pub fn errand(&self) -> Errand {

@@ -111,7 +111,7 @@ fn without_the_part_in_sight_the_robot_does_not_reach() {
 fn a_request_holds_the_open_hand_out_to_the_person() {
     let mut world = KinematicWorld::new();
     world.decide(Some(world.action(ActionType::Request, WHEEL)));
-    let time = world.until(4.0, "held out", |world| world.phase() == MotionPhase::Hold);
+    let time = world.until(4.0, "held out", |world| world.phase() == MotionPhase::Dwell);
     assert!((0.6..2.5).contains(&time), "{time} s");
     let approach = world.palm().rotation * Vector3::z();
     assert!(approach.x < -0.5 && approach.z > 0.2, "towards the person, raised: {approach}");
@@ -119,7 +119,7 @@ fn a_request_holds_the_open_hand_out_to_the_person() {
     assert!((0.10..0.18).contains(&short), "shown where the person's hand has room: {short} m short of it");
     assert!(world.robot.hand.width(world.command.position[8]) > 0.15, "open");
     world.run(2.0);
-    assert_eq!(world.phase(), MotionPhase::Hold);
+    assert_eq!(world.phase(), MotionPhase::Dwell);
 }
 
 /// The person holds a part of the wheel's kind, at the handover place.
@@ -137,9 +137,9 @@ fn hold_out(world: &mut KinematicWorld) -> usize {
 fn a_part_is_received_and_inserted() {
     let mut world = KinematicWorld::new();
     world.decide(Some(world.action(ActionType::Receive, WHEEL)));
-    world.until(4.0, "ready", |world| world.phase() == MotionPhase::Hold);
+    world.until(4.0, "ready", |world| world.phase() == MotionPhase::Dwell);
     world.run(1.0);
-    assert_eq!(world.phase(), MotionPhase::Hold, "waits for the person");
+    assert_eq!(world.phase(), MotionPhase::Dwell, "waits for the person");
     let part = hold_out(&mut world);
     let time = world.until(3.0, "received", |world| world.held().is_some());
     assert!(time < 1.5, "{time} s");
@@ -153,13 +153,13 @@ fn a_part_is_received_and_inserted() {
 fn an_empty_offer_is_noticed_and_the_robot_waits_again() {
     let mut world = KinematicWorld::new();
     world.decide(Some(world.action(ActionType::Receive, WHEEL)));
-    world.until(4.0, "ready", |world| world.phase() == MotionPhase::Hold);
+    world.until(4.0, "ready", |world| world.phase() == MotionPhase::Dwell);
     let part = hold_out(&mut world);
     world.until(2.0, "approach", |world| world.phase() == MotionPhase::Approach);
     world.parts[part].frame.translation.vector.x -= 0.2;
     world.hand_at(world.task.scene.person_rest);
     world.until(3.0, "felt nothing", |world| world.phase() == MotionPhase::Release);
-    world.until(3.0, "waits", |world| world.phase() == MotionPhase::Hold);
+    world.until(3.0, "waits", |world| world.phase() == MotionPhase::Dwell);
     hold_out(&mut world);
     world.until(3.0, "received", |world| world.held().is_some());
 }
@@ -169,7 +169,7 @@ fn a_part_is_given_and_let_go_only_when_the_person_has_it() {
     let mut world = KinematicWorld::new();
     let part = lay_down(&mut world, COLUMN_2);
     world.decide(Some(world.action(ActionType::Give, COLUMN_2)));
-    world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Hold);
+    world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Dwell);
     let place = world.parts[part].frame.translation.vector;
     assert!((place - Vector3::from(world.task.scene.handover)).norm() < 0.01, "{place}");
     let [x, y, z] = world.task.scene.handover;
@@ -190,13 +190,13 @@ fn a_part_that_the_person_lets_go_of_first_is_held_again() {
     let mut world = KinematicWorld::new();
     lay_down(&mut world, COLUMN_2);
     world.decide(Some(world.action(ActionType::Give, COLUMN_2)));
-    world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Hold);
+    world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Dwell);
     let [x, y, z] = world.task.scene.handover;
     world.hand_at([x - 0.15, y, z]);
     world.pull([-3.0, 0.0, 0.0]);
     world.until(1.0, "opens", |world| world.phase() == MotionPhase::Release);
     world.pull([0.0; 3]);
-    world.until(1.0, "holds out again", |world| world.phase() == MotionPhase::Hold);
+    world.until(1.0, "holds out again", |world| world.phase() == MotionPhase::Dwell);
     world.run(1.0);
     assert!(world.held().is_some(), "it has not dropped");
 }
@@ -206,7 +206,7 @@ fn a_hand_that_holds_something_else_is_given_nothing() {
     let mut world = KinematicWorld::new();
     lay_down(&mut world, COLUMN_2);
     world.decide(Some(world.action(ActionType::Give, COLUMN_2)));
-    world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Hold);
+    world.until(8.0, "held out", |world| world.held().is_some() && world.phase() == MotionPhase::Dwell);
     hold_out(&mut world);
     world.pull([-3.0, 0.0, 0.0]);
     world.run(2.0);
@@ -237,11 +237,11 @@ fn the_base_is_steadied_until_the_decision_ends() {
     let action = (0..world.task.actions.len())
         .find(|index| world.task.actions[*index].action_type == ActionType::Steady);
     world.decide(action.map(|action| action as u32));
-    world.until(4.0, "steadied", |world| world.phase() == MotionPhase::Hold);
+    world.until(4.0, "steadied", |world| world.phase() == MotionPhase::Dwell);
     let off = world.grasp_point() - Point3::from(world.task.scene.steady);
     assert!(off.norm() < 1e-6, "{off}");
     world.run(2.0);
-    assert_eq!(world.phase(), MotionPhase::Hold);
+    assert_eq!(world.phase(), MotionPhase::Dwell);
     world.decide(None);
     world.until(4.0, "at rest", |world| world.phase() == MotionPhase::Rest);
 }
@@ -260,7 +260,7 @@ fn a_changed_decision_bends_the_movement_without_a_stop() {
         slowest = slowest.min(speed(&world.command));
     }
     assert!(slowest > 0.1, "it stopped: {slowest} rad/s");
-    world.until(4.0, "held out", |world| world.phase() == MotionPhase::Hold);
+    world.until(4.0, "held out", |world| world.phase() == MotionPhase::Dwell);
 }
 
 #[test]
@@ -300,7 +300,7 @@ fn a_part_that_cannot_be_put_back_upright_is_laid_down() {
     // to stand, it would need the hand below the table.
     world.give(part, Isometry3::translation(0.0, 0.0, 0.08));
     world.control = KinematicWorld::new().control;
-    world.command.memory.fill(0.0);
+    world.command.state.fill(0.0);
     world.run(3.0);
     assert!(world.held().is_some(), "kept");
     world.until(20.0, "laid down", |world| world.held().is_none());

@@ -120,7 +120,7 @@ fn a_hand_that_comes_in_from_the_side_slows_the_arm_without_touching_it() {
 fn the_hand_keeps_clear_of_the_one_that_brings_a_part_until_it_takes_the_part() {
     let mut world = KinematicWorld::new();
     world.decide(Some(world.action(ActionType::Request, WHEEL)));
-    world.until(4.0, "held out", |world| world.phase() == MotionPhase::Hold);
+    world.until(4.0, "held out", |world| world.phase() == MotionPhase::Dwell);
     let mechanism = Mechanism::of(&world.robot).unwrap();
     let [x, y, z] = world.task.scene.handover;
     let wheel = world.task.subgoals.iter().find(|goal| goal.name == WHEEL).unwrap().kind;
@@ -133,7 +133,7 @@ fn the_hand_keeps_clear_of_the_one_that_brings_a_part_until_it_takes_the_part() 
     let mut nearest = f64::INFINITY;
     world.until(6.0, "ready", |world| {
         nearest = nearest.min(distance(world, &mechanism, &world.command.position));
-        world.phase() == MotionPhase::Hold && world.command.action == world.action(ActionType::Receive, WHEEL)
+        world.phase() == MotionPhase::Dwell && world.command.action == world.action(ActionType::Receive, WHEEL)
     });
     assert!(nearest > 0.03, "{nearest} m from the hand that brings the wheel");
     world.until(3.0, "taken out of it", |world| world.held().is_some());

@@ -2,7 +2,7 @@ use crate::{Header, JOINTS};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
-/// What control asks of the joint servos at one tick (1 kHz), and control's own memory.
+/// What control asks of the joint servos at one tick (1 kHz), and control's own state.
 ///
 /// Every setpoint lies within position, velocity, acceleration and jerk limits, whatever arrived.
 #[repr(C)]
@@ -27,8 +27,8 @@ pub struct Command {
     pub begun: u32,
     /// See `begun`.
     pub reaction: u32,
-    /// Opaque state words of control; `services/control` says what each holds.
-    pub memory: [f64; 2048],
+    /// Control's state, in the words of `coact-stage-state`: what a restarted control resumes from.
+    pub state: [f64; 2048],
 }
 
 /// Phase of a movement.
@@ -49,8 +49,8 @@ pub enum MotionPhase {
     Release = 5,
     /// Moving the empty hand away.
     Retreat = 6,
-    /// Holding a pose: the base held, the open hand held out, the part held out.
-    Hold = 7,
+    /// Standing at the goal: steadying the base, showing the open hand or the part, waiting for the person.
+    Dwell = 7,
     /// Braking within limits because inputs stopped, then standing.
     Brake = 8,
 }

@@ -22,7 +22,7 @@ impl Activity {
         let motion = task.actions.get(command.action as usize).map(|action| action.action_type);
         let robot = match command.phase {
             phase if phase == MotionPhase::Rest as u32 || phase == MotionPhase::Brake as u32 => false,
-            phase if phase == MotionPhase::Hold as u32 => motion == Some(ActionType::Steady) && mounts,
+            phase if phase == MotionPhase::Dwell as u32 => motion == Some(ActionType::Steady) && mounts,
             _ => true,
         };
         Self { active: [robot, acts && !person_waits], person_waits }
