@@ -133,7 +133,8 @@ fn the_hand_keeps_clear_of_the_one_that_brings_a_part_until_it_takes_the_part() 
     let mut nearest = f64::INFINITY;
     world.until(6.0, "ready", |world| {
         nearest = nearest.min(distance(world, &mechanism, &world.command.position));
-        world.phase() == MotionPhase::Dwell && world.command.action == world.action(ActionType::Receive, WHEEL)
+        world.phase() == MotionPhase::Dwell
+            && world.command.action == world.action(ActionType::Receive, WHEEL)
     });
     assert!(nearest > 0.03, "{nearest} m from the hand that brings the wheel");
     world.until(3.0, "taken out of it", |world| world.held().is_some());
