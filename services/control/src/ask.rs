@@ -9,7 +9,7 @@ use crate::senses::Senses;
 use crate::servo::PERIOD;
 use coact_joint_task::ActionType;
 use coact_messages::{ARM_JOINTS, MAX_PARTS};
-use coact_robot::{MotionState, Next};
+use coact_robot::{MotionState, NextUse};
 use nalgebra::{Isometry3, Vector3};
 
 /// Cycles after which a question that was refused is asked again.
@@ -176,15 +176,15 @@ impl Control {
     }
 
     /// What is done next with a part that is taken, and where.
-    fn purpose(&self) -> (Next, Option<Isometry3<f64>>) {
+    fn purpose(&self) -> (NextUse, Option<Isometry3<f64>>) {
         let taking = self.memory.errand() == Errand::Take;
         let action = self.actions.get(self.memory.action as usize).filter(|_| taking);
         match action.map(|action| (action.action_type, action.subgoal)) {
             Some((ActionType::Insert, Some(subgoal))) => {
-                (Next::Insert { depth: GUIDE }, Some(self.places.socket(subgoal)))
+                (NextUse::Insert { depth: GUIDE }, Some(self.places.socket(subgoal)))
             }
-            Some((ActionType::Give, _)) => (Next::HandOver { room: ROOM }, Some(self.places.meeting())),
-            _ => (Next::Anything, None),
+            Some((ActionType::Give, _)) => (NextUse::HandOver { room: ROOM }, Some(self.places.meeting())),
+            _ => (NextUse::Anything, None),
         }
     }
 

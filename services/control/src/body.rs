@@ -4,7 +4,7 @@ use crate::holds::Holds;
 use crate::memory::FINGER_JOINTS;
 use coact_joint_task::{Kind, Task};
 use coact_messages::{ARM_JOINTS, JOINTS};
-use coact_motion::{Capsule, workplace};
+use coact_motion::Capsule;
 use coact_robot::{HAND_JOINTS, JointLimits, Robot};
 use nalgebra::Isometry3;
 
@@ -51,7 +51,9 @@ impl Body {
     pub fn new(robot: Robot, task: &Task) -> Result<Self, ControlError> {
         let clear = |width: f64| robot.hand.posture(robot.hand.base_for_width(width));
         let (relaxed, slender) = (clear(RELAXED), clear(SLENDER));
-        let hull = |kind: &Kind| workplace::upright(&kind.name, kind.shape, &Isometry3::identity()).hull;
+        let hull = |kind: &Kind| {
+            coact_workplace::upright(&kind.name, kind.shape, &Isometry3::identity()).bounding_capsule
+        };
         let hulls = task.kinds.iter().map(hull).collect();
         Ok(Self { holds: Holds::new(&robot.hand, task)?, hulls, relaxed, slender, robot })
     }

@@ -10,7 +10,7 @@ use crate::servo::Servo;
 use crate::{ControlError, Memory, PlanningThread, Settings};
 use coact_joint_task::{Action, ActionType, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
-use coact_robot::{Next, Robot};
+use coact_robot::{NextUse, Robot};
 
 /// Pace below which the person is in the way: less than that at which the arm gets away from somebody.
 const SLOW: f64 = 0.3;
@@ -221,10 +221,10 @@ fn check(planner: &Planner, places: &Places, task: &Task) -> Result<(), ControlE
     for action in &task.actions {
         let goals = match (action.action_type, action.kind, action.subgoal) {
             (ActionType::Insert, Some(kind), Some(subgoal)) => {
-                places.takes(kind, Next::Insert { depth: GUIDE }, &places.socket(subgoal))
+                places.takes(kind, NextUse::Insert { depth: GUIDE }, &places.socket(subgoal))
             }
             (ActionType::Receive | ActionType::Give, Some(kind), _) => {
-                places.takes(kind, Next::Anything, &places.meeting())
+                places.takes(kind, NextUse::Anything, &places.meeting())
             }
             (ActionType::Request, ..) => vec![(places.held_out(), None)],
             (ActionType::Steady, ..) => vec![(places.steadying(), None)],

@@ -1,5 +1,5 @@
 use bytemuck::{Pod, Zeroable};
-use coact_motion::{Knot, Plan, StageKind, state_at};
+use coact_motion::{Knot, Plan, SegmentKind, state_at};
 use coact_robot::{MotionState, Posture};
 
 /// A planned movement of the arm in memory of fixed size: zero-copy, and a restarted control goes on with it.
@@ -27,12 +27,13 @@ impl Course {
     pub fn of(plan: &Plan) -> Option<Self> {
         let mut course = Self { count: plan.knots.len() as u64, ..Self::zeroed() };
         course.knots.get_mut(..plan.knots.len())?.copy_from_slice(&plan.knots);
-        let end_of =
-            |kind: StageKind| plan.stages.iter().rev().find(|(stage, _)| *stage == kind).map(|(_, end)| *end);
-        course.left = end_of(StageKind::Leave).unwrap_or(0.0);
+        let end_of = |kind: SegmentKind| {
+            plan.segments.iter().rev().find(|(segment, _)| *segment == kind).map(|(_, end)| *end)
+        };
+        course.left = end_of(SegmentKind::Leave).unwrap_or(0.0);
         course.preshapes = course.left;
-        course.approaches = match end_of(StageKind::Approach) {
-            Some(_) => end_of(StageKind::Reach).unwrap_or(course.left),
+        course.approaches = match end_of(SegmentKind::Approach) {
+            Some(_) => end_of(SegmentKind::Reach).unwrap_or(course.left),
             None => plan.duration(),
         };
         Some(course)

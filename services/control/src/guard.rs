@@ -3,8 +3,8 @@ use crate::memory::Memory;
 use crate::person::PersonArm;
 use crate::places::Places;
 use crate::planner::Planner;
-use coact_motion::{Body, Capsule, Mechanism};
-use coact_robot::{JointLimits, Next, RobotError};
+use coact_motion::{Capsule, CollisionModel, Mechanism};
+use coact_robot::{JointLimits, NextUse, RobotError};
 use nalgebra::Isometry3;
 
 /// Keeps arm, hand and held part clear of the person: says how fast the movement under way may go on.
@@ -12,7 +12,7 @@ use nalgebra::Isometry3;
 pub(crate) struct Guard {
     mechanism: Mechanism,
     /// Bodies with an empty hand, the fingers ever farther closed; then with a part in it in each of the holds.
-    bodies: Vec<Body>,
+    bodies: Vec<CollisionModel>,
     /// Limits of the fingers' bases.
     bases: JointLimits,
     /// Where the person is at the moment looked at.
@@ -42,13 +42,13 @@ impl Guard {
             |shape: usize| bases.lower + (bases.upper - bases.lower) * shape as f64 / (SHAPES - 1) as f64;
         let empty = (0..SHAPES).map(|shape| planner.figure(&[hand.posture(base(shape))], None));
         let holding = own.holds.all().iter().enumerate().map(|(index, hold)| {
-            let mut goals = places.takes(hold.kind, Next::Anything, &Isometry3::identity()).into_iter();
+            let mut goals = places.takes(hold.kind, NextUse::Anything, &Isometry3::identity()).into_iter();
             let goal = goals.find(|(_, of)| *of == Some(index)).map(|(goal, _)| goal);
-            let palm = goal.map(|goal| hand.palm_at(&goal.point, &goal.approach, &goal.closing, 0.0));
+            let palm = goal.map(|goal| hand.palm_at(&goal.point, &goal.approach, &goal.closing_axis, 0.0));
             let in_palm = palm.map_or_else(Isometry3::identity, |palm| palm.inverse());
             planner.figure(&[own.fingers(Fingers::On(index))], Some((hold.kind, in_palm)))
         });
-        let bodies: Vec<Body> = empty.chain(holding).collect::<Result<_, _>>()?;
+        let bodies: Vec<CollisionModel> = empty.chain(holding).collect::<Result<_, _>>()?;
         let person = Vec::with_capacity(PersonArm::CAPSULES);
         Ok(Self { mechanism: planner.mechanism().clone(), bodies, bases, person })
     }

@@ -1,7 +1,6 @@
 use crate::ControlError;
 use coact_joint_task::Task;
-use coact_motion::workplace;
-use coact_robot::{Form, Grip, GripSide, Grips, HAND_JOINTS, Hand, HandGoal, Next};
+use coact_robot::{Graspable, Grip, GripSide, Grips, HAND_JOINTS, Hand, HandGoal, NextUse};
 use nalgebra::Isometry3;
 
 /// All the ways in which the hand can hold the parts of a task. Memory names each of them by its index.
@@ -29,8 +28,10 @@ impl Holds {
     /// # Errors
     /// [`ControlError::Ungraspable`] when the hand has no grip for a kind of part.
     pub fn new(hand: &Hand, task: &Task) -> Result<Self, ControlError> {
-        let of_kinds =
-            task.kinds.iter().map(|kind| Grips::of(hand, workplace::grasped(kind), Next::Anything));
+        let of_kinds = task
+            .kinds
+            .iter()
+            .map(|kind| Grips::of(hand, coact_workplace::graspable(kind), NextUse::Anything));
         let grips: Vec<Grips> = of_kinds.collect();
         if let Some(kind) = grips.iter().position(|grips| grips.all.is_empty()) {
             let (name, width) = (task.kinds[kind].name.clone(), task.kinds[kind].width);
@@ -38,8 +39,8 @@ impl Holds {
         }
         let holds = grips.iter().enumerate().flat_map(|(kind, grips)| {
             grips.all.iter().map(move |grip| {
-                let closed = grip.fingers(hand, &grips.form, -SQUEEZE * grips.form.width);
-                Hold { kind, grip: *grip, closed, open: grip.open(hand, &grips.form) }
+                let closed = grip.fingers(hand, &grips.object, -SQUEEZE * grips.object.width);
+                Hold { kind, grip: *grip, closed, open: grip.open(hand, &grips.object) }
             })
         });
         Ok(Self { all: holds.collect(), grips })
@@ -51,8 +52,8 @@ impl Holds {
     }
 
     /// What is gripped of a kind.
-    pub fn form(&self, kind: usize) -> &Form {
-        &self.grips[kind].form
+    pub fn form(&self, kind: usize) -> &Graspable {
+        &self.grips[kind].object
     }
 
     /// The hand open around a part of this kind, whichever way it takes it: angles of its joints, rad.
@@ -72,7 +73,7 @@ impl Holds {
     pub fn goals(
         &self,
         kind: usize,
-        next: Next,
+        next: NextUse,
         frame: &Isometry3<f64>,
         back: f64,
         floor: f64,

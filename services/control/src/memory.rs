@@ -2,7 +2,7 @@ use crate::course::Course;
 use crate::errand::{Errand, Leg};
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{ARM_JOINTS, Command, JOINTS, NONE};
-use coact_robot::{MotionState, Movement, Posture};
+use coact_robot::{MotionState, PointToPoint, Posture};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 /// Joints of the hand, the last of them reserved.
@@ -206,16 +206,16 @@ impl Memory {
         (self.begins, self.arm_halted) = (0, 0);
     }
 
-    pub fn finger_movement(&self) -> Movement<FINGER_JOINTS> {
+    pub fn finger_movement(&self) -> PointToPoint<FINGER_JOINTS> {
         let start = self.finger_start.map(|[position, velocity, acceleration]| MotionState {
             position,
             velocity,
             acceleration,
         });
-        Movement { start, target: self.finger_target, duration: self.finger_duration }
+        PointToPoint { start, target: self.finger_target, duration: self.finger_duration }
     }
 
-    pub fn set_finger_movement(&mut self, movement: &Movement<FINGER_JOINTS>) {
+    pub fn set_finger_movement(&mut self, movement: &PointToPoint<FINGER_JOINTS>) {
         self.finger_start = movement.start.map(|state| [state.position, state.velocity, state.acceleration]);
         self.finger_target = movement.target;
         self.finger_duration = movement.duration;

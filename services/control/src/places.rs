@@ -5,7 +5,7 @@ use crate::person::PersonArm;
 use crate::request::Request;
 use coact_joint_task::{Scene, Task};
 use coact_motion::Capsule;
-use coact_robot::{Hand, HandGoal, Next};
+use coact_robot::{Hand, HandGoal, NextUse};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
 /// Distance of the pose before a grasp or a placing from the goal, m.
@@ -70,14 +70,14 @@ impl Places {
     }
 
     /// The goals with the hand on a part whose frame is `frame`, in all holds that serve what is done next.
-    pub fn takes(&self, kind: usize, next: Next, frame: &Isometry3<f64>) -> Vec<Offer> {
+    pub fn takes(&self, kind: usize, next: NextUse, frame: &Isometry3<f64>) -> Vec<Offer> {
         let goals = self.holds.goals(kind, next, frame, BACK, self.scene.table_height);
         goals.map(|(goal, hold)| (goal, Some(hold))).collect()
     }
 
     /// The goals with the hand on a part that the person holds out, or before it.
     fn receives(&self, kind: usize, frame: &Isometry3<f64>, before: bool) -> Vec<Offer> {
-        let mut goals = self.takes(kind, Next::Anything, frame);
+        let mut goals = self.takes(kind, NextUse::Anything, frame);
         goals.retain(|(_, hold)| *hold == Some(self.holds.received(kind)));
         for (goal, _) in &mut goals {
             goal.point -= if before { goal.along * BACK } else { Vector3::zeros() };
@@ -125,7 +125,7 @@ impl Places {
         HandGoal {
             point: palm * self.hand.grasp_point(),
             approach: palm.rotation * Vector3::z(),
-            closing: palm.rotation * Vector3::x(),
+            closing_axis: palm.rotation * Vector3::x(),
             rolls: 1,
             along: palm.rotation * Vector3::z(),
             back,
@@ -216,7 +216,7 @@ impl Places {
 
     fn free(&self, point: Point3<f64>, approach: Vector3<f64>, back: f64) -> HandGoal {
         let floor = self.scene.table_height;
-        HandGoal { point, approach, closing: Vector3::y(), rolls: 0, along: approach, back, floor }
+        HandGoal { point, approach, closing_axis: Vector3::y(), rolls: 0, along: approach, back, floor }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::places::{Offer, Places};
 use crate::request::Request;
 use crate::surroundings;
 use coact_joint_task::{Shape, Task};
-use coact_motion::{Aim, Margin, Mechanism, Obstacle, Plan, Problem, Refusal, Scene, workplace};
+use coact_motion::{Goal, Mechanism, MinClearance, Obstacle, Plan, Problem, Refusal, Scene};
 use coact_robot::{HAND_JOINTS, HandGoal, MotionState, RobotError};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
@@ -22,7 +22,7 @@ pub(crate) struct Planner {
 }
 
 /// Distances that are kept: fingers around something low stand hardly higher than what it lies on.
-pub(crate) const MARGIN: Margin = Margin { way: 0.01, goal: 0.001 };
+pub(crate) const MARGIN: MinClearance = MinClearance { path: 0.01, goal: 0.001 };
 /// Postures that a search looks at, in motion and at rest: it ends before the person wonders.
 const EFFORT: (u32, u32) = (1_000, 4_000);
 /// And where the person waits for the hand, which shall not go as far as it can and stop there.
@@ -40,7 +40,7 @@ impl Planner {
             mechanism: Mechanism::of(&body.robot)?,
             places,
             shapes: task.kinds.iter().map(|kind| kind.shape).collect(),
-            fixtures: workplace::fixtures(task),
+            fixtures: coact_workplace::fixtures(task),
             body,
         })
     }
@@ -50,12 +50,12 @@ impl Planner {
         &self,
         fingers: &[[f64; HAND_JOINTS]],
         held: Option<(usize, Isometry3<f64>)>,
-    ) -> Result<coact_motion::Body, RobotError> {
+    ) -> Result<coact_motion::CollisionModel, RobotError> {
         let figure = self.mechanism.with_moving_fingers(&self.body.robot.hand, fingers)?;
         Ok(match held {
             None => figure,
             Some((kind, in_palm)) => {
-                let (solid, centre) = workplace::form(self.shapes[kind]);
+                let (solid, centre) = coact_workplace::solid(self.shapes[kind]);
                 figure.holding(&self.mechanism, "the held part", solid, &(in_palm * centre))
             }
         })
@@ -70,7 +70,7 @@ impl Planner {
     pub fn reaches(&self, goals: Vec<HandGoal>) -> Result<bool, RobotError> {
         let (body, scene) = (self.figure(&[self.body.fingers(Fingers::Slender)], None)?, Scene::default());
         let start = self.mechanism.park.map(MotionState::at_rest);
-        let problem = self.problem(&body, &scene, start, Aim::Hand(goals));
+        let problem = self.problem(&body, &scene, start, Goal::Hand(goals));
         Ok(!problem.targets_from(&self.mechanism.park).is_empty())
     }
 
@@ -88,7 +88,7 @@ impl Planner {
         let scene = alone.with(surroundings::stout(&person, gap));
         let (moves, awaits) = (request.is_in_motion(), request.awaits());
         let is_near = gap < NEAR && request.leave.is_none() && !moves;
-        let from_person = Scene { left: vec![surroundings::PERSON.to_owned()], ..scene.clone() };
+        let from_person = Scene { allowed_leaving: vec![surroundings::PERSON.to_owned()], ..scene.clone() };
         // From a person who is near the hand gets away first. Where the person leaves no way, the arm goes as far as the
         // guard lets it, but not to where the person comes; where there is no room for the fingers to move with the arm, they
         // move when it has arrived.
@@ -118,19 +118,20 @@ impl Planner {
     fn plan(
         &self,
         request: &Request,
-        figure: &coact_motion::Body,
+        figure: &coact_motion::CollisionModel,
         scene: &Scene,
         offers: &[Offer],
     ) -> Result<Plan, Refusal> {
-        let aim = match request.errand {
-            Errand::Park => Aim::Posture(self.mechanism.park),
-            _ => Aim::Hand(offers.iter().map(|(goal, _)| *goal).collect()),
+        let goal = match request.errand {
+            Errand::Park => Goal::Posture(self.mechanism.park),
+            _ => Goal::Hand(offers.iter().map(|(goal, _)| *goal).collect()),
         };
         let puts = matches!(request.errand, Errand::Place | Errand::PutBack);
         let guide = if puts { GUIDE } else { 0.0 };
         let then = request.next.map(|next| next * request.frame.inverse()).into_iter().collect();
-        let problem = self.problem(figure, scene, request.start, aim);
-        let problem = Problem { leave: request.leave, then, guide, ..problem };
+        let problem = self.problem(figure, scene, request.start, goal);
+        let problem =
+            Problem { leave: request.leave, next_displacements: then, insertion_depth: guide, ..problem };
         problem.plan_within(match request.is_in_motion() {
             true => EFFORT.0,
             false if request.awaits() => PATIENT,
@@ -139,39 +140,44 @@ impl Planner {
     }
 
     /// Straight back out of a place that no movement leaves, or up.
-    fn withdraw(&self, request: &Request, figure: &coact_motion::Body, scene: &Scene) -> Option<Plan> {
+    fn withdraw(
+        &self,
+        request: &Request,
+        figure: &coact_motion::CollisionModel,
+        scene: &Scene,
+    ) -> Option<Plan> {
         let palm = self.mechanism.arm.palm(&request.start.map(|state| state.position));
         let back = palm.rotation * -Vector3::z();
-        let margin = Margin { way: 0.0, goal: 0.0 };
+        let min_clearance = MinClearance { path: 0.0, goal: 0.0 };
         // The hand may touch, on its way out, whatever it stands too near to.
         let names = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str());
         let scene = &scene.touching(&names.collect::<Vec<_>>());
         [back, Vector3::z()].iter().find_map(|direction| {
             let away = Translation3::from(direction * WITHDRAWAL) * palm;
             let goal = self.places.palm_at(&away, 0.0);
-            let problem = self.problem(figure, scene, request.start, Aim::Hand(vec![goal]));
-            Problem { leave: Some((*direction, 0.9 * WITHDRAWAL)), margin, ..problem }.plan().ok()
+            let problem = self.problem(figure, scene, request.start, Goal::Hand(vec![goal]));
+            Problem { leave: Some((*direction, 0.9 * WITHDRAWAL)), min_clearance, ..problem }.plan().ok()
         })
     }
 
     fn problem<'a>(
         &'a self,
-        body: &'a coact_motion::Body,
+        collision_model: &'a coact_motion::CollisionModel,
         scene: &'a Scene,
         start: [MotionState; 7],
-        aim: Aim,
+        goal: Goal,
     ) -> Problem<'a> {
         let mechanism = &self.mechanism;
         Problem {
             mechanism,
-            body,
+            collision_model,
             scene,
             start,
             leave: None,
-            aim,
-            then: Vec::new(),
-            guide: 0.0,
-            margin: MARGIN,
+            goal,
+            next_displacements: Vec::new(),
+            insertion_depth: 0.0,
+            min_clearance: MARGIN,
         }
     }
 }

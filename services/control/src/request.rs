@@ -1,7 +1,7 @@
 use crate::errand::Errand;
 use crate::person::PersonArm;
 use coact_messages::{MAX_PARTS, Sighting};
-use coact_robot::{HAND_JOINTS, MotionState, Next};
+use coact_robot::{HAND_JOINTS, MotionState, NextUse};
 use nalgebra::{Isometry3, Vector3};
 
 /// What the planner is asked: all that it needs to know, of fixed size, so that it passes a lock-free slot.
@@ -15,7 +15,7 @@ pub(crate) struct Request {
     /// Frame of the place: of the part to take, of the socket, of the place on the table, of the handover.
     pub frame: Isometry3<f64>,
     /// What is done next with a part that is taken, and where, if that is known.
-    pub purpose: Next,
+    pub purpose: NextUse,
     pub next: Option<Isometry3<f64>>,
     /// Whether the hand stops before the place.
     pub before: bool,

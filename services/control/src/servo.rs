@@ -1,7 +1,7 @@
 use crate::Memory;
 use crate::memory::{FINGER_JOINTS, split};
 use coact_messages::{ARM_JOINTS, Command, JOINTS};
-use coact_robot::{JointLimits, Limiter, MotionState, Movement, Posture};
+use coact_robot::{JointLimits, Limiter, MotionState, PointToPoint, Posture};
 
 /// Length of a cycle, s.
 pub(crate) const PERIOD: f64 = 1e-3;
@@ -67,7 +67,7 @@ impl Servo {
             memory.finger_movement().at(memory.finger_elapsed as f64 * PERIOD)
         };
         let halted = memory.fingers_halted == 1;
-        match (!halted).then(|| Movement::plan(start, target, &self.finger_limits())).flatten() {
+        match (!halted).then(|| PointToPoint::plan(start, target, &self.finger_limits())).flatten() {
             Some(movement) => memory.set_finger_movement(&movement),
             None => (memory.finger_target, memory.fingers_halted) = (target, 1),
         }
@@ -86,7 +86,7 @@ impl Servo {
         let fingers_stand = self.joints[ARM_JOINTS..].iter().all(Limiter::is_at_rest);
         if memory.fingers_halted == 1 && go && fingers_stand {
             let start = split(self.position()).1.map(MotionState::at_rest);
-            let movement = Movement::plan(start, memory.finger_target, &self.finger_limits());
+            let movement = PointToPoint::plan(start, memory.finger_target, &self.finger_limits());
             movement.into_iter().for_each(|movement| memory.set_finger_movement(&movement));
         }
         if memory.fingers_halted == 1 || !self.follow_fingers(memory) {

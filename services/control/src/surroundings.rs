@@ -7,7 +7,7 @@ use crate::planner::{MARGIN, Planner};
 use crate::request::Request;
 use crate::senses::frame_of;
 use coact_joint_task::Fixture;
-use coact_motion::{Body, Capsule, Obstacle, Scene, Solid, workplace};
+use coact_motion::{Capsule, CollisionModel, Obstacle, Scene, Solid};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// Name of the person's arm among the obstacles.
@@ -30,8 +30,9 @@ impl Planner {
             let edges = 2.0 * Vector3::new(*half_x, *half_y, *half_z);
             obstacles.push(Obstacle::new("screen", Solid::Box(edges), &Isometry3::translation(*x, *y, *z)));
         }
-        let (left, sought) = (self.left(request, &obstacles), self.sought(request, offers, &obstacles));
-        Scene { obstacles, left, sought }
+        let (allowed_leaving, allowed_at_goal) =
+            (self.left(request, &obstacles), self.sought(request, offers, &obstacles));
+        Scene { obstacles, allowed_leaving, allowed_at_goal }
     }
 
     /// The person's arm now, a moment from now and where it will bring a part; only the upper arm when the robot takes
@@ -45,8 +46,14 @@ impl Planner {
     }
 
     /// Distance of arm, hand and held part from the person, m, and the direction away from there.
-    pub(crate) fn gap(&self, request: &Request, figure: &Body, person: &[Capsule]) -> (f64, Vector3<f64>) {
-        let hulls = figure.moving_hulls(&self.mechanism, &request.start.map(|state| state.position));
+    pub(crate) fn gap(
+        &self,
+        request: &Request,
+        figure: &CollisionModel,
+        person: &[Capsule],
+    ) -> (f64, Vector3<f64>) {
+        let hulls =
+            figure.moving_bounding_capsules(&self.mechanism, &request.start.map(|state| state.position));
         let pairs = hulls.iter().flat_map(|hull| person.iter().map(move |capsule| (hull, capsule)));
         let gaps = pairs.map(|(hull, capsule)| (hull.distance(capsule), hull.nearest(capsule)));
         let nearest = gaps.min_by(|one, other| one.0.total_cmp(&other.0));
@@ -77,7 +84,7 @@ impl Planner {
                 continue;
             }
             let frame = if near(kind, &meant, &frame) { request.frame } else { frame };
-            parts.push(workplace::upright(&format!("part {index}"), *shape, &frame));
+            parts.push(coact_workplace::upright(&format!("part {index}"), *shape, &frame));
         }
         parts
     }
@@ -109,7 +116,7 @@ impl Planner {
 
 /// The person as obstacles as stout as the guard keeps clear of them, or as this gap leaves room for.
 pub(crate) fn stout(person: &[Capsule], gap: f64) -> impl Iterator<Item = Obstacle> {
-    let stouter = (gap - MARGIN.goal).clamp(0.0, guard::MARGIN + FROM_GUARD - MARGIN.way);
+    let stouter = (gap - MARGIN.goal).clamp(0.0, guard::MARGIN + FROM_GUARD - MARGIN.path);
     let stout = person.iter().map(move |part| Capsule { radius: part.radius + stouter, ..*part });
     stout.map(|part| Obstacle::moving(PERSON, part))
 }
@@ -117,6 +124,8 @@ pub(crate) fn stout(person: &[Capsule], gap: f64) -> impl Iterator<Item = Obstac
 /// Names of the parts that lie near a place.
 fn around(place: &Point3<f64>, obstacles: &[Obstacle]) -> Vec<String> {
     let parts = obstacles.iter().filter(|obstacle| obstacle.name.starts_with("part "));
-    let near = parts.filter(|part| part.hull.distance_of_line(place) - part.hull.radius < NEIGHBOURS);
+    let near = parts.filter(|part| {
+        part.bounding_capsule.distance_of_line(place) - part.bounding_capsule.radius < NEIGHBOURS
+    });
     near.map(|part| part.name.clone()).collect()
 }

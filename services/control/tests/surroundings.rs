@@ -35,8 +35,8 @@ fn distance(world: &KinematicWorld, mechanism: &Mechanism, position: &[f64]) -> 
     let fingers = std::array::from_fn(|joint| position[ARM_JOINTS + joint]);
     let body = mechanism.with_fingers(&world.robot.hand, &fingers).unwrap();
     let wrist = Point3::from(world.percept.hand.wrist);
-    let hulls = body.hulls(mechanism, &std::array::from_fn(|joint| position[joint]));
-    let moving = body.bones().iter().zip(&hulls).filter(|(bone, _)| bone.carriers > 0);
+    let hulls = body.bounding_capsules(mechanism, &std::array::from_fn(|joint| position[joint]));
+    let moving = body.links().iter().zip(&hulls).filter(|(bone, _)| bone.carriers > 0);
     let ball = Capsule { start: wrist, end: wrist, radius: 0.045 };
     moving.map(|(_, hull)| hull.distance(&ball)).fold(f64::INFINITY, f64::min)
 }

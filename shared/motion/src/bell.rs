@@ -1,36 +1,36 @@
 //! The law of time of a movement: the hand's speed rises and falls once, like a bell.
 
 use crate::roughness::Roughness;
-use crate::{Knot, Mechanism, Plan, Stage, StageKind};
+use crate::{Knot, Mechanism, Plan, Segment, SegmentKind};
 use coact_robot::{JointLimits, MotionState, Posture, Quintic};
 
-/// Points at which the way of the stages is measured.
+/// Points at which the way of the segments is measured.
 const MEASURED: usize = 240;
 /// Pieces of a plan.
 const PIECES: usize = 24;
 /// What a change of the joints counts for in the length of the way, m/rad. The less it counts the more the law of time
 /// is that of the hand; the more it counts the less the joints must hurry where the hand only turns.
 const TURNINGS: [f64; 3] = [0.08, 0.02, 0.005];
-/// How much longer than in the stages' own time a movement may take for the sake of one bell, and in which steps one
+/// How much longer than in the segments' own time a movement may take for the sake of one bell, and in which steps one
 /// under way is slowed down until it keeps the limits.
 const LONGER: f64 = 4.5;
 const SLOWER: f64 = 1.04;
 /// Instants between two knots at which a plan is held against the obstacles again.
 const CHECKED: u32 = 4;
 
-/// The stages as a plan: in their own time or, where the hand moves more smoothly so, in one in which the length of the
+/// The segments as a plan: in their own time or, where the hand moves more smoothly so, in one in which the length of the
 /// way, from hand and joints, grows as in a movement of minimum jerk. That way is a little different between the knots;
-/// `keeps` says whether a posture is still clear enough at this instant of the stages' own time.
+/// `keeps` says whether a posture is still clear enough at this instant of the segments' own time.
 pub(crate) fn timed(
     mechanism: &Mechanism,
-    stages: &[Stage],
+    segments: &[Segment],
     limits: &[JointLimits; 7],
     keeps: &dyn Fn(f64, &Posture) -> bool,
 ) -> (Roughness, Plan) {
-    let way = Way::measure(mechanism, stages);
+    let way = Way::measure(mechanism, segments);
     let laws: Vec<Law> = TURNINGS.iter().map(|turning| Law::new(&way, *turning)).collect();
     let rough = |plan: &Plan| Roughness::of(mechanism, plan, MEASURED);
-    let mut best = sampled(stages);
+    let mut best = sampled(segments);
     let mut roughness = rough(&best);
     for law in &laws {
         let Some(plan) = law.fastest(limits) else { continue };
@@ -42,45 +42,46 @@ pub(crate) fn timed(
     (roughness, best)
 }
 
-/// The stages in their own time.
-pub(crate) fn sampled(stages: &[Stage]) -> Plan {
-    let total = total(stages);
-    let most = (Plan::KNOTS - 1).saturating_sub(stages.len()) as f64;
-    let mut knots = vec![Knot { t: 0.0, states: at(stages, 0.0) }];
+/// The segments in their own time.
+pub(crate) fn sampled(segments: &[Segment]) -> Plan {
+    let total = total(segments);
+    let most = (Plan::KNOTS - 1).saturating_sub(segments.len()) as f64;
+    let mut knots = vec![Knot { t: 0.0, states: at(segments, 0.0) }];
     let mut before = 0.0;
-    for Stage { trajectory, .. } in stages {
-        let pieces = (most * trajectory.duration / total).ceil();
-        let pieces = if trajectory.bounces() { pieces } else { 1.0 };
+    for Segment { motion, .. } in segments {
+        let pieces = (most * motion.duration / total).ceil();
+        let pieces = if motion.bounces() { pieces } else { 1.0 };
         for piece in 1..=pieces as u32 {
-            let t = trajectory.duration * f64::from(piece) / pieces;
-            knots.push(Knot { t: before + t, states: trajectory.at(t) });
+            let t = motion.duration * f64::from(piece) / pieces;
+            knots.push(Knot { t: before + t, states: motion.at(t) });
         }
-        before += trajectory.duration;
+        before += motion.duration;
     }
-    Plan { knots, stages: ends(stages).collect(), bounces: false, target: None }
+    Plan { knots, segments: ends(segments).collect(), bounces: false, target: None }
 }
 
-/// The way of stages, measured at equal steps of the stages' own time.
+/// The way of segments, measured at equal steps of the segments' own time.
 struct Way<'a> {
-    stages: &'a [Stage],
+    segments: &'a [Segment],
     step: f64,
     /// Speeds of the hand, m/s, and of all joints together, rad/s.
     speeds: Vec<(f64, f64)>,
 }
 
 impl<'a> Way<'a> {
-    fn measure(mechanism: &Mechanism, stages: &'a [Stage]) -> Self {
-        let step = total(stages) / MEASURED as f64;
-        let hand =
-            |t: f64| mechanism.arm.palm(&at(stages, t).map(|state| state.position)) * mechanism.grasp_point();
+    fn measure(mechanism: &Mechanism, segments: &'a [Segment]) -> Self {
+        let step = total(segments) / MEASURED as f64;
+        let hand = |t: f64| {
+            mechanism.arm.palm(&at(segments, t).map(|state| state.position)) * mechanism.grasp_point()
+        };
         let places: Vec<_> = (0..=2 * MEASURED).map(|half| hand(0.5 * step * half as f64)).collect();
         let speeds = (0..=MEASURED).map(|point| {
             let (before, after) = ((2 * point).max(1) - 1, (2 * point + 1).min(2 * MEASURED));
             let hand = (places[after] - places[before]).norm() / (0.5 * step * (after - before) as f64);
-            let joints = at(stages, point as f64 * step).map(|state| state.velocity.powi(2));
+            let joints = at(segments, point as f64 * step).map(|state| state.velocity.powi(2));
             (hand, joints.iter().sum::<f64>().sqrt())
         });
-        Self { stages, step, speeds: speeds.collect() }
+        Self { segments, step, speeds: speeds.collect() }
     }
 }
 
@@ -89,7 +90,7 @@ struct Law<'a> {
     way: &'a Way<'a>,
     /// Length so far, m.
     covered: Vec<f64>,
-    /// Its derivative by the stages' own time, m/s.
+    /// Its derivative by the segments' own time, m/s.
     speed: Vec<f64>,
 }
 
@@ -106,8 +107,8 @@ impl<'a> Law<'a> {
 
     /// The fastest plan with a bell that keeps the limits.
     fn fastest(&self, limits: &[JointLimits; 7]) -> Option<Plan> {
-        let total = total(self.way.stages);
-        if at(self.way.stages, 0.0).iter().all(MotionState::is_at_rest) {
+        let total = total(self.way.segments);
+        if at(self.way.segments, 0.0).iter().all(MotionState::is_at_rest) {
             let plan = self.follow(total)?;
             let load = plan.load(limits);
             let slower = plan.slower(load);
@@ -126,7 +127,7 @@ impl<'a> Law<'a> {
         Quintic::new(start, MotionState::at_rest(self.covered[MEASURED]), duration)
     }
 
-    /// The stages' own time at which this length is covered, and the speed then with its derivative.
+    /// The segments' own time at which this length is covered, and the speed then with its derivative.
     fn time(&self, length: f64) -> (f64, f64, f64) {
         let to = self.covered.partition_point(|covered| *covered < length).clamp(1, MEASURED);
         let from = to - 1;
@@ -138,8 +139,8 @@ impl<'a> Law<'a> {
 
     /// The way in this duration; none where it would have to go back.
     fn follow(&self, duration: f64) -> Option<Plan> {
-        let (stages, law) = (self.way.stages, self.bell(duration));
-        let mut knots = vec![Knot { t: 0.0, states: at(stages, 0.0) }];
+        let (segments, law) = (self.way.segments, self.bell(duration));
+        let mut knots = vec![Knot { t: 0.0, states: at(segments, 0.0) }];
         for piece in 1..PIECES {
             let t = duration * piece as f64 / PIECES as f64;
             let MotionState { position, velocity, acceleration } = law.at(t);
@@ -149,21 +150,21 @@ impl<'a> Law<'a> {
             let (own, speed, slope) = self.time(position);
             let rate = velocity / speed.max(1e-9);
             let change = (acceleration - slope * rate * rate) / speed.max(1e-9);
-            let states = at(stages, own).map(|state| MotionState {
+            let states = at(segments, own).map(|state| MotionState {
                 position: state.position,
                 velocity: state.velocity * rate,
                 acceleration: state.acceleration * rate * rate + state.velocity * change,
             });
             knots.push(Knot { t, states });
         }
-        knots.push(Knot { t: duration, states: at(stages, total(stages)) });
+        knots.push(Knot { t: duration, states: at(segments, total(segments)) });
         let passed = |own: f64| {
             let point = ((own / self.way.step).round() as usize).min(MEASURED);
             knots.iter().find(|knot| law.at(knot.t).position >= self.covered[point] - 1e-9)
         };
-        let ends = ends(stages).map(|(kind, own)| (kind, passed(own).map_or(duration, |knot| knot.t)));
-        let stages = ends.collect();
-        Some(Plan { knots, stages, bounces: false, target: None })
+        let ends = ends(segments).map(|(kind, own)| (kind, passed(own).map_or(duration, |knot| knot.t)));
+        let segments = ends.collect();
+        Some(Plan { knots, segments, bounces: false, target: None })
     }
 
     /// Whether a plan that follows this law keeps clear between the knots, too.
@@ -176,30 +177,30 @@ impl<'a> Law<'a> {
     }
 }
 
-/// When each stage ends, in the stages' own time.
-fn ends(stages: &[Stage]) -> impl Iterator<Item = (StageKind, f64)> {
-    stages.iter().scan(0.0, |end, stage| {
-        *end += stage.trajectory.duration;
-        Some((stage.kind, *end))
+/// When each segment ends, in the segments' own time.
+fn ends(segments: &[Segment]) -> impl Iterator<Item = (SegmentKind, f64)> {
+    segments.iter().scan(0.0, |end, segment| {
+        *end += segment.motion.duration;
+        Some((segment.kind, *end))
     })
 }
 
-fn total(stages: &[Stage]) -> f64 {
-    stages.iter().map(|stage| stage.trajectory.duration).sum()
+fn total(segments: &[Segment]) -> f64 {
+    segments.iter().map(|segment| segment.motion.duration).sum()
 }
 
-/// State `t` s after the start of the first stage.
-fn at(stages: &[Stage], t: f64) -> [MotionState; 7] {
-    during(stages, t).map_or([MotionState::default(); 7], |(stage, t)| stage.trajectory.at(t))
+/// State `t` s after the start of the first segment.
+fn at(segments: &[Segment], t: f64) -> [MotionState; 7] {
+    during(segments, t).map_or([MotionState::default(); 7], |(segment, t)| segment.motion.at(t))
 }
 
-/// The stage under way `t` s after the start of the first one, and the time since its own start, s.
-pub(crate) fn during(stages: &[Stage], mut t: f64) -> Option<(&Stage, f64)> {
-    for stage in stages {
-        if t < stage.trajectory.duration {
-            return Some((stage, t));
+/// The segment under way `t` s after the start of the first one, and the time since its own start, s.
+pub(crate) fn during(segments: &[Segment], mut t: f64) -> Option<(&Segment, f64)> {
+    for segment in segments {
+        if t < segment.motion.duration {
+            return Some((segment, t));
         }
-        t -= stage.trajectory.duration;
+        t -= segment.motion.duration;
     }
-    stages.last().map(|stage| (stage, stage.trajectory.duration))
+    segments.last().map(|segment| (segment, segment.motion.duration))
 }

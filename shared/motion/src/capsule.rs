@@ -19,7 +19,7 @@ pub struct Capsule {
 const LENGTHS: u32 = 32;
 
 impl Capsule {
-    /// The capsule of least volume around a body that reaches `half` along the z axis of `place` and `around` away
+    /// The capsule of least volume around a collision_model that reaches `half` along the z axis of `place` and `around` away
     /// from that axis.
     pub fn around(place: &Isometry3<f64>, half: f64, around: f64) -> Self {
         let wrapped = |step: u32| {

@@ -1,56 +1,56 @@
-use crate::body::Frames;
+use crate::frames::Frames;
 use crate::solid::pose;
-use crate::{Body, Capsule, Mechanism, Scene, StageKind};
+use crate::{Capsule, CollisionModel, Mechanism, Scene, SegmentKind};
 use coact_robot::Posture;
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::{self, Contact};
 use std::ops::ControlFlow;
 
-/// Distances between a body and all it must stay clear of.
+/// Distances between a collision_model and all it must stay clear of.
 #[derive(Clone, Copy)]
 pub struct Clearance<'a> {
-    /// Whose body.
+    /// Whose collision_model.
     pub mechanism: &'a Mechanism,
     /// Arm, hand, held part.
-    pub body: &'a Body,
+    pub collision_model: &'a CollisionModel,
     /// The surroundings.
     pub scene: &'a Scene,
-    /// What the body is at: the hand, and what it holds, may touch what the scene says on leaving and on the approach, and
-    /// fingers that move with the arm stand differently at each stage.
-    pub stage: StageKind,
+    /// What the collision_model is at: the hand, and what it holds, may touch what the scene says on leaving and on the approach, and
+    /// fingers that move with the arm stand differently at each segment.
+    pub segment: SegmentKind,
 }
 
-/// A bone near something.
+/// A link near something.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Near {
-    /// Index of the bone in the body.
-    pub bone: usize,
+pub struct Proximity {
+    /// Index of the link in the collision_model.
+    pub link: usize,
     /// What it is near to.
-    pub other: Other,
+    pub other: Counterpart,
     /// Distance of the surfaces, m; negative when they overlap.
     pub distance: f64,
     /// Change of the distance for each rad of each arm joint, m/rad.
-    pub slope: Posture,
+    pub gradient: Posture,
 }
 
-/// What a bone is near to.
+/// What a link is near to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Other {
+pub enum Counterpart {
     /// An obstacle, by its index in the scene.
     Obstacle(usize),
-    /// Another bone of the same body.
-    Bone(usize),
+    /// Another link of the same collision_model.
+    Link(usize),
 }
 
 impl Clearance<'_> {
-    /// The same at another stage.
-    pub(crate) fn at(self, stage: StageKind) -> Self {
-        Self { stage, ..self }
+    /// The same at another segment.
+    pub(crate) fn at(self, segment: SegmentKind) -> Self {
+        Self { segment, ..self }
     }
 
     /// Everything nearer than `within` m at this posture, into `found`.
-    pub fn near(&self, posture: &Posture, within: f64, found: &mut Vec<Near>) {
+    pub fn near(&self, posture: &Posture, within: f64, found: &mut Vec<Proximity>) {
         found.clear();
         _ = self.visit(posture, within, &mut |near| {
             found.push(near);
@@ -59,7 +59,7 @@ impl Clearance<'_> {
     }
 
     /// What is nearest, if it is nearer than `within` m.
-    pub fn nearest(&self, posture: &Posture, within: f64) -> Option<Near> {
+    pub fn nearest(&self, posture: &Posture, within: f64) -> Option<Proximity> {
         let mut nearest = None;
         _ = self.visit(posture, within, &mut |near| {
             nearest = Some(near);
@@ -74,12 +74,12 @@ impl Clearance<'_> {
     }
 
     /// Names both sides of a nearness.
-    pub(crate) fn names(&self, near: &Near) -> (String, String) {
+    pub(crate) fn names(&self, near: &Proximity) -> (String, String) {
         let other = match near.other {
-            Other::Obstacle(index) => &self.scene.obstacles[index].name,
-            Other::Bone(index) => &self.body.bones[index].name,
+            Counterpart::Obstacle(index) => &self.scene.obstacles[index].name,
+            Counterpart::Link(index) => &self.collision_model.links[index].name,
         };
-        (self.body.bones[near.bone].name.clone(), other.clone())
+        (self.collision_model.links[near.link].name.clone(), other.clone())
     }
 
     /// Calls `found` for what is nearer than `within` m; it answers what to look for from then on.
@@ -87,34 +87,39 @@ impl Clearance<'_> {
         &self,
         posture: &Posture,
         mut within: f64,
-        found: &mut dyn FnMut(Near) -> ControlFlow<(), f64>,
+        found: &mut dyn FnMut(Proximity) -> ControlFlow<(), f64>,
     ) -> ControlFlow<()> {
         let frames = Frames::of(self.mechanism, posture);
-        let bones = &self.body.bones;
-        let hulls: Vec<Capsule> = bones.iter().map(|bone| bone.hull.within(&frames.carrier(bone))).collect();
-        let is_there = |bone: usize| bones[bone].stages[self.stage as usize];
-        // What is far from a ball around the hand is far from all of its many bones.
-        let ball = self.body.hand.map(|ball| ball.within(&frames.pose[self.mechanism.joints() - 1]));
-        let far_from_hand = |hull: &Capsule| ball.is_some_and(|ball| are_apart(&ball, hull, within));
+        let links = &self.collision_model.links;
+        let bounding_capsules: Vec<Capsule> =
+            links.iter().map(|link| link.bounding_capsule.within(&frames.carrier(link))).collect();
+        let is_there = |link: usize| links[link].segments[self.segment as usize];
+        // What is far from a ball around the hand is far from all of its many links.
+        let ball =
+            self.collision_model.hand.map(|ball| ball.within(&frames.pose[self.mechanism.joints() - 1]));
+        let far_from_hand =
+            |bounding_capsule: &Capsule| ball.is_some_and(|ball| are_apart(&ball, bounding_capsule, within));
         let obstacles = self.scene.obstacles.iter();
-        let far_obstacles: Vec<bool> = obstacles.map(|obstacle| far_from_hand(&obstacle.hull)).collect();
-        let far_bones: Vec<bool> = hulls.iter().map(far_from_hand).collect();
-        for bone in (0..bones.len()).filter(|bone| bones[*bone].carriers > 0 && is_there(*bone)) {
+        let far_obstacles: Vec<bool> =
+            obstacles.map(|obstacle| far_from_hand(&obstacle.bounding_capsule)).collect();
+        let far_links: Vec<bool> = bounding_capsules.iter().map(far_from_hand).collect();
+        for link in (0..links.len()).filter(|link| links[*link].carriers > 0 && is_there(*link)) {
             for (index, obstacle) in self.scene.obstacles.iter().enumerate() {
-                let far = (bones[bone].hand && far_obstacles[index])
-                    || are_apart(&hulls[bone], &obstacle.hull, within);
-                let near = || self.obstacle_near(&frames, (bone, &hulls[bone]), index, within);
+                let far = (links[link].hand && far_obstacles[index])
+                    || are_apart(&bounding_capsules[link], &obstacle.bounding_capsule, within);
+                let near = || self.obstacle_near(&frames, (link, &bounding_capsules[link]), index, within);
                 if let Some(near) = (!far).then(near).flatten() {
                     within = found(near)?;
                 }
             }
         }
-        for &(one, other) in self.body.pairs.iter().filter(|(one, other)| is_there(*one) && is_there(*other))
+        for &(one, other) in
+            self.collision_model.pairs.iter().filter(|(one, other)| is_there(*one) && is_there(*other))
         {
-            let far = (bones[one].hand && far_bones[other])
-                || (bones[other].hand && far_bones[one])
-                || are_apart(&hulls[one], &hulls[other], within);
-            if let Some(near) = (!far).then(|| self.bone_near(&frames, (one, other), within)).flatten() {
+            let far = (links[one].hand && far_links[other])
+                || (links[other].hand && far_links[one])
+                || are_apart(&bounding_capsules[one], &bounding_capsules[other], within);
+            if let Some(near) = (!far).then(|| self.link_near(&frames, (one, other), within)).flatten() {
                 within = found(near)?;
             }
         }
@@ -124,18 +129,18 @@ impl Clearance<'_> {
     fn obstacle_near(
         &self,
         frames: &Frames,
-        (bone, hull): (usize, &Capsule),
+        (link, bounding_capsule): (usize, &Capsule),
         index: usize,
         within: f64,
-    ) -> Option<Near> {
-        let (own, obstacle) = (&self.body.bones[bone], &self.scene.obstacles[index]);
-        if own.hand && self.scene.hand_may_touch(index, self.stage) {
+    ) -> Option<Proximity> {
+        let (own, obstacle) = (&self.collision_model.links[link], &self.scene.obstacles[index]);
+        if own.hand && self.scene.hand_may_touch(index, self.segment) {
             return None;
         }
         let (point, away, distance) = if obstacle.coarse {
-            let (mine, theirs) = hull.nearest(&obstacle.hull);
+            let (mine, theirs) = bounding_capsule.nearest(&obstacle.bounding_capsule);
             let away = (mine - theirs).try_normalize(APART).unwrap_or_else(Vector3::z);
-            (mine, away, (mine - theirs).norm() - hull.radius - obstacle.hull.radius)
+            (mine, away, (mine - theirs).norm() - bounding_capsule.radius - obstacle.bounding_capsule.radius)
         } else {
             let place = pose(&(frames.carrier(own) * own.own));
             let contact = query::contact(&place, &*own.shape, &obstacle.pose, &*obstacle.shape, within);
@@ -143,27 +148,32 @@ impl Clearance<'_> {
             let (point, away) = first_side(&contact);
             (point, away, contact.dist)
         };
-        let slope = frames.slope(&point, &away, own.carriers);
-        (distance < within).then_some(Near { bone, other: Other::Obstacle(index), distance, slope })
+        let gradient = frames.gradient(&point, &away, own.carriers);
+        (distance < within).then_some(Proximity {
+            link,
+            other: Counterpart::Obstacle(index),
+            distance,
+            gradient,
+        })
     }
 
-    fn bone_near(&self, frames: &Frames, (one, other): (usize, usize), within: f64) -> Option<Near> {
-        let (first, second) = (&self.body.bones[one], &self.body.bones[other]);
+    fn link_near(&self, frames: &Frames, (one, other): (usize, usize), within: f64) -> Option<Proximity> {
+        let (first, second) = (&self.collision_model.links[one], &self.collision_model.links[other]);
         let (carrier, second_carrier) = (frames.carrier(first), frames.carrier(second));
         let (place, second_place) = (pose(&(carrier * first.own)), pose(&(second_carrier * second.own)));
         let contact = query::contact(&place, &*first.shape, &second_place, &*second.shape, within);
         let contact = contact.ok().flatten()?;
         let (point, away) = first_side(&contact);
         let (mine, theirs) = (
-            frames.slope(&point, &away, first.carriers),
-            frames.slope(&Point3::from(vector(contact.point2)), &-away, second.carriers),
+            frames.gradient(&point, &away, first.carriers),
+            frames.gradient(&Point3::from(vector(contact.point2)), &-away, second.carriers),
         );
-        let slope = std::array::from_fn(|joint| mine[joint] + theirs[joint]);
-        Some(Near { bone: one, other: Other::Bone(other), distance: contact.dist, slope })
+        let gradient = std::array::from_fn(|joint| mine[joint] + theirs[joint]);
+        Some(Proximity { link: one, other: Counterpart::Link(other), distance: contact.dist, gradient })
     }
 }
 
-/// Whether two hulls are certainly farther apart than `within` m.
+/// Whether two bounding_capsules are certainly farther apart than `within` m.
 fn are_apart(one: &Capsule, other: &Capsule, within: f64) -> bool {
     one.least_distance(other) > within || other.least_distance(one) > within
 }

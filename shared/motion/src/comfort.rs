@@ -1,4 +1,4 @@
-//! What a change of posture costs a body: people end where the joints have the least way to go.
+//! What a change of posture costs a collision_model: people end where the joints have the least way to go.
 
 use coact_robot::Posture;
 

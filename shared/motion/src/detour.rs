@@ -72,8 +72,8 @@ fn posture(angles: &[f64]) -> Posture {
     posture
 }
 
-/// Whether there is a way between two postures at all, as far as a long search can tell (the judge of the planner).
-pub fn exists(clearance: &Clearance, from: &Posture, to: &Posture, margin: f64) -> bool {
+/// Whether there is a path between two postures at all, as far as a long search can tell (the judge of the planner).
+pub fn path_exists(clearance: &Clearance, from: &Posture, to: &Posture, margin: f64) -> bool {
     let is_free = |posture: &Posture| clearance.is_clear(posture, margin);
     connect(clearance.mechanism, [from, to], is_free, 0.5 * STEP, 5 * TRIES).is_some()
 }

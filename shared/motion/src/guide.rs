@@ -1,12 +1,12 @@
-use crate::{Mechanism, Stage, StageKind};
+use crate::{Mechanism, Segment, SegmentKind};
 use coact_robot::Posture;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// The line on which the hand leaves something, or goes into it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Guide {
-    /// The stage that it is for.
-    pub stage: usize,
+    /// The segment that it is for.
+    pub segment: usize,
     /// Where the grasp point is inside, m.
     inside: Point3<f64>,
     /// The way out from there, unit.
@@ -23,29 +23,29 @@ const LEAVING: (f64, f64) = (0.004, 0.2);
 const ENTERING: (f64, f64) = (0.002, 0.1);
 
 impl Guide {
-    /// The line out of where these stages begin, as long as `out`, m; none without length, or where the hand does not
+    /// The line out of where these segments begin, as long as `out`, m; none without length, or where the hand does not
     /// leave first.
-    pub fn of_leaving(mechanism: &Mechanism, stages: &[Stage], out: Vector3<f64>) -> Option<Self> {
-        let first = stages.first().filter(|first| first.kind == StageKind::Leave)?;
-        Self::new(mechanism, 0, &first.trajectory.posture(0.0), out, LEAVING)
+    pub fn of_leaving(mechanism: &Mechanism, segments: &[Segment], out: Vector3<f64>) -> Option<Self> {
+        let first = segments.first().filter(|first| first.kind == SegmentKind::Leave)?;
+        Self::new(mechanism, 0, &first.motion.posture(0.0), out, LEAVING)
     }
 
     /// The line on which they end; `out` leads out of there.
-    pub fn of_approach(mechanism: &Mechanism, stages: &[Stage], out: Vector3<f64>) -> Option<Self> {
-        let last = stages.last().filter(|last| last.kind == StageKind::Approach)?;
-        Self::new(mechanism, stages.len() - 1, &last.trajectory.posture(1.0), out, ENTERING)
+    pub fn of_approach(mechanism: &Mechanism, segments: &[Segment], out: Vector3<f64>) -> Option<Self> {
+        let last = segments.last().filter(|last| last.kind == SegmentKind::Approach)?;
+        Self::new(mechanism, segments.len() - 1, &last.motion.posture(1.0), out, ENTERING)
     }
 
     fn new(
         mechanism: &Mechanism,
-        stage: usize,
+        segment: usize,
         inside: &Posture,
         out: Vector3<f64>,
         off: (f64, f64),
     ) -> Option<Self> {
         let inside = mechanism.arm.palm(inside) * mechanism.grasp_point();
         let length = out.norm();
-        (length > 0.0).then(|| Self { stage, inside, out: out / length, length, off })
+        (length > 0.0).then(|| Self { segment, inside, out: out / length, length, off })
     }
 
     /// How far a place of the grasp point is off the line, m, world; none where the line has ended.

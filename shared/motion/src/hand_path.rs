@@ -47,7 +47,7 @@ impl HandPath {
         (0.5 * energy * duration.powi(5)).sqrt() / self.length().max(1e-9)
     }
 
-    /// Movement units: peaks of its speed.
+    /// PointToPoint units: peaks of its speed.
     pub fn units(&self) -> u32 {
         units(&self.speed)
     }

@@ -13,23 +13,23 @@
 //! a servo, never in its cycle.
 //!
 //! ```no_run
-//! use coact_motion::{Aim, Margin, Mechanism, Problem, Scene};
+//! use coact_motion::{Goal, MinClearance, Mechanism, Problem, Scene};
 //! use coact_robot::{HandGoal, MotionState, Robot};
 //!
 //! let robot = Robot::load("rt-config/robots/aros.toml".as_ref())?;
 //! let mechanism = Mechanism::of(&robot)?;
-//! let body = mechanism.body(&|_| 0.8)?;
+//! let collision_model = mechanism.collision_model(&|_| 0.8)?;
 //! let part = nalgebra::Isometry3::translation(-0.4, 0.55, 0.8);
 //! let plan = Problem {
 //!     mechanism: &mechanism,
-//!     body: &body,
+//!     collision_model: &collision_model,
 //!     scene: &Scene::default(),
 //!     start: robot.park.map(MotionState::at_rest),
 //!     leave: None,
-//!     aim: Aim::Hand(vec![HandGoal::grip(&part, 0.04, 0, 0.15, 0.8)]),
-//!     then: Vec::new(),
-//!     guide: 0.0,
-//!     margin: Margin::default(),
+//!     goal: Goal::Hand(vec![HandGoal::grip(&part, 0.04, 0, 0.15, 0.8)]),
+//!     next_displacements: Vec::new(),
+//!     insertion_depth: 0.0,
+//!     min_clearance: MinClearance::default(),
 //! }
 //! .plan()?;
 //! println!("{:.2} s", plan.duration());
@@ -37,15 +37,17 @@
 //! ```
 
 mod bell;
-mod body;
 mod capsule;
 mod choice;
 mod clearance;
+mod collision_geometry;
+mod collision_model;
 mod comfort;
 mod detour;
+mod frames;
 mod guide;
 mod hand_path;
-mod links;
+mod link;
 mod mechanism;
 mod obstacle;
 mod plan;
@@ -56,29 +58,30 @@ mod roughness;
 mod route;
 mod scene;
 mod search;
+mod segment;
+mod segment_kind;
+mod segment_motion;
 mod solid;
 mod solver;
-mod stage;
 mod straight;
 mod target;
-mod trajectory;
 mod way;
 mod work;
-pub mod workplace;
 
-pub use body::{Body, Bone};
 pub use capsule::Capsule;
-pub use clearance::{Clearance, Near, Other};
-pub use detour::exists as way_exists;
+pub use clearance::{Clearance, Counterpart, Proximity};
+pub use collision_model::CollisionModel;
+pub use detour::path_exists;
 pub use hand_path::HandPath;
+pub use link::Link;
 pub use mechanism::{MAX_JOINTS, Mechanism, Meshes};
 pub use obstacle::Obstacle;
 pub use plan::{Knot, Plan, state_at};
-pub use planner::{Aim, Margin, Problem};
+pub use planner::{Goal, MinClearance, Problem};
 pub use refusal::Refusal;
 pub use scene::Scene;
+use segment::Segment;
+pub use segment_kind::SegmentKind;
+use segment_motion::SegmentMotion;
 pub use solid::Solid;
-use stage::Stage;
-pub use stage::StageKind;
 pub use target::Target;
-pub use trajectory::Trajectory;

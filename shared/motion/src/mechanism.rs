@@ -1,5 +1,4 @@
-use crate::body::Bone;
-use crate::{Body, links};
+use crate::{CollisionModel, Link, collision_geometry};
 use coact_robot::{
     Arm, HAND_JOINTS, Hand, HandGoal, JointLimits, Posture, Robot, RobotError, Srs, Urdf, grip,
 };
@@ -52,7 +51,7 @@ impl Mechanism {
             urdf: robot.urdf.clone(),
             meshes: Meshes::Required,
         };
-        links::arm_bones(&mechanism)?;
+        collision_geometry::arm_links(&mechanism)?;
         Ok(mechanism)
     }
 
@@ -79,7 +78,7 @@ impl Mechanism {
         park[3] = 0.5 * arm.joints[3].limits.upper.clamp(0.0, 1.6);
         let name = urdf.name().to_owned();
         let mechanism = Self { name, arm, closed_form, park, grasp_distance, urdf, meshes };
-        links::arm_bones(&mechanism)?;
+        collision_geometry::arm_links(&mechanism)?;
         Ok(mechanism)
     }
 
@@ -101,7 +100,7 @@ impl Mechanism {
         let closed_form = self.closed_form.and_then(|_| Srs::new(arm.clone()).ok());
         let name = urdf.name().to_owned();
         let mechanism = Self { name, arm, closed_form, park: self.park, grasp_distance, urdf, meshes };
-        links::arm_bones(&mechanism)?;
+        collision_geometry::arm_links(&mechanism)?;
         Ok(mechanism)
     }
 
@@ -122,17 +121,21 @@ impl Mechanism {
     ///
     /// # Errors
     /// [`RobotError`] when a link's collision geometry cannot be used.
-    pub fn body(&self, fingers: &dyn Fn(&str) -> f64) -> Result<Body, RobotError> {
-        let mut bones = links::arm_bones(self)?;
-        bones.extend(links::hand_bones(self, fingers)?);
-        Ok(Body::new(self, bones))
+    pub fn collision_model(&self, fingers: &dyn Fn(&str) -> f64) -> Result<CollisionModel, RobotError> {
+        let mut links = collision_geometry::arm_links(self)?;
+        links.extend(collision_geometry::hand_links(self, fingers)?);
+        Ok(CollisionModel::new(self, links))
     }
 
     /// The same with the joints of a hand of ours at these angles, rad, in message order.
     ///
     /// # Errors
-    /// As [`body`](Self::body).
-    pub fn with_fingers(&self, hand: &Hand, angles: &[f64; HAND_JOINTS]) -> Result<Body, RobotError> {
+    /// As [`collision_model`](Self::collision_model).
+    pub fn with_fingers(
+        &self,
+        hand: &Hand,
+        angles: &[f64; HAND_JOINTS],
+    ) -> Result<CollisionModel, RobotError> {
         self.with_moving_fingers(hand, &[*angles])
     }
 
@@ -141,25 +144,25 @@ impl Mechanism {
     /// the way.
     ///
     /// # Errors
-    /// As [`body`](Self::body).
+    /// As [`collision_model`](Self::collision_model).
     pub fn with_moving_fingers(
         &self,
         hand: &Hand,
         shapes: &[[f64; HAND_JOINTS]],
-    ) -> Result<Body, RobotError> {
-        let passed = links::passed(shapes);
-        let hands = passed.iter().map(|angles| links::hand_bones(self, &named(hand, angles)));
-        let hands: Vec<Vec<Bone>> = hands.collect::<Result<_, _>>()?;
-        let mut bones = links::arm_bones(self)?;
+    ) -> Result<CollisionModel, RobotError> {
+        let passed = collision_geometry::passed(shapes);
+        let hands = passed.iter().map(|angles| collision_geometry::hand_links(self, &named(hand, angles)));
+        let hands: Vec<Vec<Link>> = hands.collect::<Result<_, _>>()?;
+        let mut links = collision_geometry::arm_links(self)?;
         for number in 0..hands.first().map_or(0, Vec::len) {
             let stands = hands.iter().all(|hand| hand[number].place == hands[0][number].place);
             let count = if stands { 1 } else { hands.len() };
-            bones.extend(hands[..count].iter().enumerate().map(|(index, hand)| {
-                let stages = [index == 0, true, index + 1 == count];
-                Bone { stages, ..hand[number].clone() }
+            links.extend(hands[..count].iter().enumerate().map(|(index, hand)| {
+                let segments = [index == 0, true, index + 1 == count];
+                Link { segments, ..hand[number].clone() }
             }));
         }
-        Ok(Body::new(self, bones))
+        Ok(CollisionModel::new(self, links))
     }
 
     /// The grasp point in the palm frame.
@@ -172,7 +175,7 @@ impl Mechanism {
         HandGoal {
             point: palm * self.grasp_point(),
             approach: palm.rotation * Vector3::z(),
-            closing: palm.rotation * Vector3::x(),
+            closing_axis: palm.rotation * Vector3::x(),
             rolls: 1,
             along: palm.rotation * Vector3::z(),
             back: 0.0,
@@ -183,7 +186,7 @@ impl Mechanism {
     /// Palm pose at a goal, turned by `roll` rad about the approach, `back` m before it.
     pub(crate) fn palm_at(&self, goal: &HandGoal, roll: f64, back: f64) -> Isometry3<f64> {
         let point = goal.point - goal.along * back;
-        let grip = grip::frame(&point, &goal.approach, &goal.closing, roll);
+        let grip = grip::frame(&point, &goal.approach, &goal.closing_axis, roll);
         grip * Translation3::new(0.0, 0.0, -self.grasp_distance)
     }
 }
@@ -208,5 +211,5 @@ fn is_an_arm(urdf: &Urdf, palm: &str, joints: usize) -> Result<(), RobotError> {
 
 /// Where fingers meet that are so long as these, m from the palm.
 fn grasp_distance(urdf: &Urdf, palm: &str, arm_joints: usize) -> Result<f64, RobotError> {
-    Ok(0.6 * links::finger_length(urdf, palm, arm_joints)?)
+    Ok(0.6 * collision_geometry::finger_length(urdf, palm, arm_joints)?)
 }

@@ -14,8 +14,8 @@ pub struct Obstacle {
     /// The place of its form's frame, world.
     pub place: Isometry3<f64>,
     /// A capsule around it, world.
-    pub hull: Capsule,
-    /// Whether the capsules around the bones keep clear of its capsule, and not form of form: as coarse as somebody who
+    pub bounding_capsule: Capsule,
+    /// Whether the capsules around the links keep clear of its capsule, and not form of form: as coarse as somebody who
     /// moves is known.
     pub coarse: bool,
     pub(crate) shape: SharedShape,
@@ -26,11 +26,11 @@ impl Obstacle {
     /// An obstacle of this form with its frame at `place` (world).
     pub fn new(name: impl Into<String>, solid: Solid, place: &Isometry3<f64>) -> Self {
         let Shape { shape, own } = solid.shape();
-        let (hull, pose) = (solid.hull(place), pose(&(place * own)));
-        Self { name: name.into(), solid, place: *place, hull, coarse: false, shape, pose }
+        let (bounding_capsule, pose) = (solid.bounding_capsule(place), pose(&(place * own)));
+        Self { name: name.into(), solid, place: *place, bounding_capsule, coarse: false, shape, pose }
     }
 
-    /// Somebody, or something, that moves: a capsule of which the capsules around the bones keep clear.
+    /// Somebody, or something, that moves: a capsule of which the capsules around the links keep clear.
     pub fn moving(name: impl Into<String>, capsule: Capsule) -> Self {
         Self { coarse: true, ..Self::new(name, Solid::Capsule(capsule), &Isometry3::identity()) }
     }

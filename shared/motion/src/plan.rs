@@ -1,4 +1,4 @@
-use crate::{StageKind, Target};
+use crate::{SegmentKind, Target};
 use bytemuck::{Pod, Zeroable};
 use coact_robot::{JointLimits, MotionState, Posture, Quintic};
 
@@ -8,8 +8,8 @@ use coact_robot::{JointLimits, MotionState, Posture, Quintic};
 pub struct Plan {
     /// The states, in the order of their instants; the first at 0 s.
     pub knots: Vec<Knot>,
-    /// Stages, each with the instant at which it ends, s.
-    pub stages: Vec<(StageKind, f64)>,
+    /// Segments, each with the instant at which it ends, s.
+    pub segments: Vec<(SegmentKind, f64)>,
     /// Whether something stood in the way of the direct movement.
     pub bounces: bool,
     /// The goal that was chosen; none for a posture.
@@ -69,7 +69,7 @@ impl Plan {
                 state.acceleration /= factor * factor;
             }
         }
-        self.stages.iter_mut().for_each(|(_, end)| *end *= factor);
+        self.segments.iter_mut().for_each(|(_, end)| *end *= factor);
         self
     }
 

@@ -3,7 +3,7 @@ use crate::search::Search;
 use crate::solver::Solver;
 use crate::target::{Target, TargetSearch};
 use crate::work::Work;
-use crate::{Body, Clearance, Mechanism, Plan, Refusal, Scene, StageKind};
+use crate::{Clearance, CollisionModel, Mechanism, Plan, Refusal, Scene, SegmentKind};
 use coact_robot::{HandGoal, MotionState, Posture};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
@@ -13,27 +13,28 @@ pub struct Problem<'a> {
     /// Who moves.
     pub mechanism: &'a Mechanism,
     /// Arm, hand and what it holds.
-    pub body: &'a Body,
+    pub collision_model: &'a CollisionModel,
     /// The surroundings; what the hand may touch may be touched on leaving and at the goal only.
     pub scene: &'a Scene,
     /// State of the arm's joints now.
     pub start: [MotionState; 7],
     /// First straight back by this much: direction (unit, world) and distance, m.
     pub leave: Option<(Vector3<f64>, f64)>,
-    /// Where to.
-    pub aim: Aim,
-    /// What follows: motions (world), one of which a grasped part makes next, from its place now to where it shall go; a
-    /// round part may be turned about its own axis at will. Goals from which the hand can go on so are preferred.
-    pub then: Vec<Isometry3<f64>>,
-    /// Last part of the approach, m, on which the hand keeps to its line: as deep as a part goes into something.
-    pub guide: f64,
-    /// What is kept clear.
-    pub margin: Margin,
+    /// Where the movement ends.
+    pub goal: Goal,
+    /// Where a grasped part goes next: the displacement (world) from its place now to each place that serves; a round part
+    /// may be turned about its own axis at will. Goals from which the hand can carry out one of them are preferred.
+    pub next_displacements: Vec<Isometry3<f64>>,
+    /// Length of the last part of the approach on which the hand keeps to a straight line, m: as deep as a part goes
+    /// into something.
+    pub insertion_depth: f64,
+    /// Distances that are kept.
+    pub min_clearance: MinClearance,
 }
 
 /// Where a movement shall end.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Aim {
+pub enum Goal {
     /// At whichever of these goals is most comfortable.
     Hand(Vec<HandGoal>),
     /// At this posture, rad.
@@ -42,24 +43,24 @@ pub enum Aim {
 
 /// Distances that are kept, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Margin {
-    /// On the way.
-    pub way: f64,
+pub struct MinClearance {
+    /// On the reach.
+    pub path: f64,
     /// Where the hand leaves, approaches and is at its goal.
     pub goal: f64,
 }
 
-impl Margin {
-    /// At a share of the way: towards both ends it narrows to that of leaving and approaching, m.
-    pub(crate) fn at(&self, share: f64) -> f64 {
-        let from_end = share.min(1.0 - share).max(0.0);
-        self.goal + (self.way - self.goal) * (from_end / NARROWING).min(1.0)
+impl MinClearance {
+    /// At a fraction of the reach: towards both ends it narrows to that of leaving and approaching, m.
+    pub(crate) fn at(&self, fraction: f64) -> f64 {
+        let from_end = fraction.min(1.0 - fraction).max(0.0);
+        self.goal + (self.path - self.goal) * (from_end / NARROWING).min(1.0)
     }
 }
 
-impl Default for Margin {
+impl Default for MinClearance {
     fn default() -> Self {
-        Self { way: 0.01, goal: 0.003 }
+        Self { path: 0.01, goal: 0.003 }
     }
 }
 
@@ -96,18 +97,23 @@ impl Problem<'_> {
         self.targets(from).unwrap_or_default()
     }
 
-    /// Distances at a stage of the movement.
-    pub(crate) fn clearance(&self, stage: StageKind) -> Clearance<'_> {
-        Clearance { mechanism: self.mechanism, body: self.body, scene: self.scene, stage }
+    /// Distances at a segment of the movement.
+    pub(crate) fn clearance(&self, segment: SegmentKind) -> Clearance<'_> {
+        Clearance {
+            mechanism: self.mechanism,
+            collision_model: self.collision_model,
+            scene: self.scene,
+            segment,
+        }
     }
 
     /// The posture after leaving; none when the hand is not to leave first.
     fn away(&self) -> Result<Option<Posture>, Refusal> {
         let posture = self.start.map(|state| state.position);
-        let clearance = self.clearance(StageKind::Leave);
+        let clearance = self.clearance(SegmentKind::Leave);
         if let Some(near) = clearance.nearest(&posture, 0.0) {
-            let (bone, other) = clearance.names(&near);
-            return Err(Refusal::Start { bone, other, short: -near.distance });
+            let (link, other) = clearance.names(&near);
+            return Err(Refusal::Start { link, other, short: -near.distance });
         }
         let Some((direction, distance)) = self.leave else { return Ok(None) };
         let palm = self.mechanism.arm.palm(&posture);
@@ -118,12 +124,13 @@ impl Problem<'_> {
     }
 
     fn targets(&self, from: &Posture) -> Result<Vec<Target>, Refusal> {
-        match &self.aim {
-            Aim::Posture(at) => Ok(vec![Target { goal: 0, roll: 0.0, before: *at, at: *at, cost: 0.0 }]),
-            Aim::Hand(goals) => {
-                let margin = [self.margin.way, self.margin.goal];
-                let clearance = self.clearance(StageKind::Approach);
-                TargetSearch { clearance, goals, from, then: &self.then, margin }.best()
+        match &self.goal {
+            Goal::Posture(at) => Ok(vec![Target { goal: 0, roll: 0.0, before: *at, at: *at, cost: 0.0 }]),
+            Goal::Hand(goals) => {
+                let margin = [self.min_clearance.path, self.min_clearance.goal];
+                let clearance = self.clearance(SegmentKind::Approach);
+                TargetSearch { clearance, goals, from, next_displacements: &self.next_displacements, margin }
+                    .best()
             }
         }
     }

@@ -2,10 +2,10 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// The arm would have to start where it touches something.
-    #[error("the arm starts {:.0} mm inside its distance: {bone} is too near to {other}; move one of them away", 1e3 * .short)]
+    #[error("the arm starts {:.0} mm inside its distance: {link} is too near to {other}; move one of them away", 1e3 * .short)]
     Start {
         /// Link.
-        bone: String,
+        link: String,
         /// What it is too near to.
         other: String,
         /// By how much.
@@ -28,26 +28,26 @@ pub enum Refusal {
         excess: f64,
     },
     /// Postures reach the goal within the limits, but all of them touch something.
-    #[error("every posture at the goal touches something: {bone} would be {:.0} mm too near to {other}", 1e3 * .short)]
+    #[error("every posture at the goal touches something: {link} would be {:.0} mm too near to {other}", 1e3 * .short)]
     Blocked {
         /// Link, in the posture that is least in the way.
-        bone: String,
+        link: String,
         /// What it would be too near to.
         other: String,
         /// By how much.
         short: f64,
     },
-    /// The goal can be reached, but no way to it was found.
-    #[error("no way to the goal was found: {share:.0} % along the best one, {bone} would be {:.0} mm too near to {other}", 1e3 * .short)]
-    Way {
+    /// The goal can be reached, but no path to it was found.
+    #[error("no path to the goal was found: {:.0} % along the best one, {link} would be {:.0} mm too near to {other}", 100.0 * .fraction, 1e3 * .short)]
+    NoPath {
         /// Link.
-        bone: String,
+        link: String,
         /// What it would be too near to.
         other: String,
         /// By how much.
         short: f64,
-        /// Where on the way, %.
-        share: f64,
+        /// Where on the path: the fraction of the reach's time.
+        fraction: f64,
     },
     /// The arm moves so that it cannot come to the goal without breaking a limit: it must brake first.
     #[error(

@@ -3,7 +3,7 @@ use crate::{HandPath, Mechanism, Plan};
 /// How far a movement of the hand is from one smooth and short bell: first its units count, then the rest.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub(crate) struct Roughness {
-    /// Movement units, and one for every [`PATIENCE`] that it takes.
+    /// PointToPoint units, and one for every [`PATIENCE`] that it takes.
     pub units: u32,
     /// Normalised jerk times duration, s.
     pub jerk: f64,

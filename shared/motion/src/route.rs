@@ -1,7 +1,7 @@
 use crate::guide::Guide;
 use crate::plan::load;
 use crate::straight::Change;
-use crate::{Clearance, HandPath, Mechanism, Stage, StageKind, Trajectory, bell, straight};
+use crate::{Clearance, HandPath, Mechanism, Segment, SegmentKind, SegmentMotion, bell, straight};
 use coact_robot::{JointLimits, MotionState, Posture};
 use nalgebra::{DMatrix, DVector};
 
@@ -10,22 +10,22 @@ use nalgebra::{DMatrix, DVector};
 pub(crate) struct Route {
     /// State at the start.
     pub start: [MotionState; 7],
-    /// Stages, each with the posture at its end.
-    pub legs: Vec<(StageKind, Posture)>,
-    /// Share of the time that each stage takes.
+    /// Segments, each with the posture at its end.
+    pub legs: Vec<(SegmentKind, Posture)>,
+    /// Share of the time that each segment takes.
     pub shares: Vec<f64>,
-    /// How the postures between stages are passed.
+    /// How the postures between segments are passed.
     pub passing: Passing,
     /// Excursion of the reach, rad.
     pub bounce: Posture,
 }
 
-/// How a posture between two stages is passed.
+/// How a posture between two segments is passed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Passing {
     /// With the velocity and acceleration of least jerk of the whole movement.
     Smooth,
-    /// In the direction of the straight stage beside it, with this multiple of its mean speed.
+    /// In the direction of the straight segment beside it, with this multiple of its mean speed.
     Straight(f64),
     /// In these states, as for a movement of 1 s.
     Given(Vec<[MotionState; 7]>),
@@ -37,7 +37,7 @@ const TURNING: f64 = 0.05;
 const MEASURED: u32 = 8;
 /// Places at which the hand's path is looked at.
 const LOOKED_AT: usize = 80;
-/// Factors by which the time of the first and the last stage is changed in search of the smoothest movement.
+/// Factors by which the time of the first and the last segment is changed in search of the smoothest movement.
 const FACTORS: [f64; 6] = [0.8, 0.64, 0.5, 1.25, 1.6, 2.0];
 /// Shortest movement, s.
 const SHORTEST: f64 = 0.1;
@@ -45,11 +45,11 @@ const SHORTEST: f64 = 0.1;
 const SLOWER: (f64, u32) = (1.04, 60);
 
 impl Route {
-    /// A route whose stages take the time in which a hand with one bell of speed would cover them.
+    /// A route whose segments take the time in which a hand with one bell of speed would cover them.
     pub fn new(
         mechanism: &Mechanism,
         start: [MotionState; 7],
-        legs: Vec<(StageKind, Posture)>,
+        legs: Vec<(SegmentKind, Posture)>,
         passing: Passing,
     ) -> Self {
         let from = start.map(|state| state.position);
@@ -77,7 +77,7 @@ impl Route {
     pub fn smoothest(mut self, mechanism: &Mechanism, limits: &[JointLimits; 7]) -> Self {
         let mut best = self.roughness(mechanism, limits);
         for leg in 0..self.legs.len() {
-            if self.legs[leg].0 == StageKind::Reach {
+            if self.legs[leg].0 == SegmentKind::Reach {
                 continue;
             }
             let share = self.shares[leg];
@@ -94,30 +94,30 @@ impl Route {
         self
     }
 
-    /// The change for which hand and joints move most smoothly. `stages`: the route's own.
+    /// The change for which hand and joints move most smoothly. `segments`: the route's own.
     pub fn smoothing<'a>(
         &self,
         mechanism: &'a Mechanism,
-        stages: &[Stage],
+        segments: &[Segment],
         room: &dyn Fn(f64) -> (Clearance<'a>, f64),
         guides: &[Guide],
     ) -> Change {
-        straight::smoothest(mechanism, stages, self.passing == Passing::Smooth, room, guides)
+        straight::smoothest(mechanism, segments, self.passing == Passing::Smooth, room, guides)
     }
 
-    /// The same route with a change of these stages, its own.
-    pub fn changed(&self, stages: &[Stage], change: &Change) -> Self {
-        let reach = stages.iter().find(|stage| stage.kind == StageKind::Reach);
-        let bounce = reach.map_or([0.0; 7], |reach| reach.trajectory.bounce);
+    /// The same route with a change of these segments, its own.
+    pub fn changed(&self, segments: &[Segment], change: &Change) -> Self {
+        let reach = segments.iter().find(|segment| segment.kind == SegmentKind::Reach);
+        let bounce = reach.map_or([0.0; 7], |reach| reach.motion.bounce);
         let mut route = Self {
             bounce: std::array::from_fn(|joint| bounce[joint] + change.bounce[joint]),
             ..self.clone()
         };
         if self.passing == Passing::Smooth {
-            let total: f64 = stages.iter().map(|stage| stage.trajectory.duration).sum();
+            let total: f64 = segments.iter().map(|segment| segment.motion.duration).sum();
             let given =
-                stages.iter().zip(&change.passed).map(|(stage, [position, velocity, acceleration])| {
-                    let end = stage.trajectory.end;
+                segments.iter().zip(&change.passed).map(|(segment, [position, velocity, acceleration])| {
+                    let end = segment.motion.end;
                     std::array::from_fn(|joint| MotionState {
                         position: end[joint].position + position[joint],
                         velocity: end[joint].velocity * total + velocity[joint],
@@ -131,8 +131,8 @@ impl Route {
 
     /// How far the hand's movement is from one smooth bell.
     fn roughness(&self, mechanism: &Mechanism, limits: &[JointLimits; 7]) -> f64 {
-        self.timed(limits).map_or(f64::INFINITY, |stages| {
-            let path = HandPath::of(mechanism, &bell::sampled(&stages), LOOKED_AT);
+        self.timed(limits).map_or(f64::INFINITY, |segments| {
+            let path = HandPath::of(mechanism, &bell::sampled(&segments), LOOKED_AT);
             path.normalised_jerk() * f64::from(path.units())
         })
     }
@@ -141,19 +141,19 @@ impl Route {
     ///
     /// # Errors
     /// The joint that breaks a limit however long the movement takes.
-    pub fn timed(&self, limits: &[JointLimits; 7]) -> Result<Vec<Stage>, usize> {
+    pub fn timed(&self, limits: &[JointLimits; 7]) -> Result<Vec<Segment>, usize> {
         let resting =
             Self { start: self.start.map(|state| MotionState::at_rest(state.position)), ..self.clone() };
-        let mut duration = shortest(&resting.stages(1.0), limits);
+        let mut duration = shortest(&resting.segments(1.0), limits);
         if self.start.iter().all(MotionState::is_at_rest) {
-            let stages = self.stages(duration);
-            return broken(&stages, limits, 1.0 + 1e-3).map_or(Ok(stages), Err);
+            let segments = self.segments(duration);
+            return broken(&segments, limits, 1.0 + 1e-3).map_or(Ok(segments), Err);
         }
         let mut joint = 0;
         for _ in 0..SLOWER.1 {
-            let stages = self.stages(duration);
-            match broken(&stages, limits, 1.0) {
-                None => return Ok(stages),
+            let segments = self.segments(duration);
+            match broken(&segments, limits, 1.0) {
+                None => return Ok(segments),
                 Some(broken) => joint = broken,
             }
             duration *= SLOWER.0;
@@ -161,8 +161,8 @@ impl Route {
         Err(joint)
     }
 
-    /// The stages of a movement of this duration, s.
-    fn stages(&self, duration: f64) -> Vec<Stage> {
+    /// The segments of a movement of this duration, s.
+    fn segments(&self, duration: f64) -> Vec<Segment> {
         let total: f64 = self.shares.iter().sum();
         let times: Vec<f64> = self.shares.iter().map(|share| share / total * duration).collect();
         let mut passed: Vec<[MotionState; 7]> =
@@ -183,9 +183,9 @@ impl Route {
         let mut from = self.start;
         let legs = self.legs.iter().zip(passed).zip(times);
         legs.map(|((&(kind, _), end), duration)| {
-            let bounce = if kind == StageKind::Reach { self.bounce } else { [0.0; 7] };
-            let trajectory = Trajectory { start: std::mem::replace(&mut from, end), end, bounce, duration };
-            Stage { kind, trajectory }
+            let bounce = if kind == SegmentKind::Reach { self.bounce } else { [0.0; 7] };
+            let motion = SegmentMotion { start: std::mem::replace(&mut from, end), end, bounce, duration };
+            Segment { kind, motion }
         })
         .collect()
     }
@@ -243,7 +243,7 @@ impl Route {
 
     fn pass_straight(&self, share: f64, times: &[f64], passed: &mut [[MotionState; 7]]) {
         for via in 0..passed.len() - 1 {
-            let leaves = self.legs[via].0 == StageKind::Leave;
+            let leaves = self.legs[via].0 == SegmentKind::Leave;
             let leg = if leaves { via } else { via + 1 };
             let from = leg.checked_sub(1).map_or(self.start, |before| passed[before]);
             let to = passed[leg];
@@ -278,18 +278,18 @@ fn time_of_bell(covered: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Duration of a movement of which these stages are the shape, in 1 s: derivatives scale with 1/T, 1/T², 1/T³.
-fn shortest(stages: &[Stage], limits: &[JointLimits; 7]) -> f64 {
-    let samples = stages.iter().flat_map(|stage| stage.trajectory.samples());
+/// Duration of a movement of which these segments are the shape, in 1 s: derivatives scale with 1/T, 1/T², 1/T³.
+fn shortest(segments: &[Segment], limits: &[JointLimits; 7]) -> f64 {
+    let samples = segments.iter().flat_map(|segment| segment.motion.samples());
     load(samples, limits).max(SHORTEST)
 }
 
-fn broken(stages: &[Stage], limits: &[JointLimits; 7], room: f64) -> Option<usize> {
+fn broken(segments: &[Segment], limits: &[JointLimits; 7], room: f64) -> Option<usize> {
     let limits = limits.map(|limit| JointLimits {
         velocity: room * limit.velocity,
         acceleration: room * limit.acceleration,
         jerk: room * limit.jerk,
         ..limit
     });
-    stages.iter().find_map(|stage| stage.trajectory.broken(&limits))
+    segments.iter().find_map(|segment| segment.motion.broken(&limits))
 }

@@ -1,4 +1,4 @@
-use crate::{Obstacle, StageKind};
+use crate::{Obstacle, SegmentKind};
 
 /// What the arm moves among, and how far it keeps away from it.
 #[derive(Debug, Clone, Default)]
@@ -7,9 +7,9 @@ pub struct Scene {
     pub obstacles: Vec<Obstacle>,
     /// Names of the obstacles that the hand, and what it holds, may touch where it leaves: what it has let go, or the table
     /// from which it takes something.
-    pub left: Vec<String>,
+    pub allowed_leaving: Vec<String>,
     /// Names of those that they may touch at the goal: the part that is grasped, or the fixture into which one is put.
-    pub sought: Vec<String>,
+    pub allowed_at_goal: Vec<String>,
 }
 
 impl Scene {
@@ -23,15 +23,15 @@ impl Scene {
     /// The same scene, in which the hand may touch the obstacles of these names where it leaves and at the goal.
     pub fn touching(&self, names: &[&str]) -> Self {
         let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-        Self { obstacles: self.obstacles.clone(), left: names.clone(), sought: names }
+        Self { obstacles: self.obstacles.clone(), allowed_leaving: names.clone(), allowed_at_goal: names }
     }
 
-    pub(crate) fn hand_may_touch(&self, obstacle: usize, stage: StageKind) -> bool {
+    pub(crate) fn hand_may_touch(&self, obstacle: usize, segment: SegmentKind) -> bool {
         let name = &self.obstacles[obstacle].name;
-        match stage {
-            StageKind::Leave => self.left.contains(name),
-            StageKind::Reach => false,
-            StageKind::Approach => self.sought.contains(name),
+        match segment {
+            SegmentKind::Leave => self.allowed_leaving.contains(name),
+            SegmentKind::Reach => false,
+            SegmentKind::Approach => self.allowed_at_goal.contains(name),
         }
     }
 }

@@ -2,7 +2,7 @@ use crate::choice::Choice;
 use crate::route::{Passing, Route};
 use crate::way::Way;
 use crate::work::Work;
-use crate::{Aim, Plan, Problem, Refusal, Stage, StageKind, Target, detour};
+use crate::{Goal, Plan, Problem, Refusal, Segment, SegmentKind, Target, detour};
 use coact_robot::Posture;
 use nalgebra::Vector3;
 
@@ -18,7 +18,7 @@ pub(crate) struct Search<'a> {
     pub routes: Vec<Route>,
 }
 
-/// How stages are joined where they cannot be joined smoothly: ever more straightly and slowly.
+/// How segments are joined where they cannot be joined smoothly: ever more straightly and slowly.
 const STRAIGHT: [Passing; 3] = [Passing::Straight(1.0), Passing::Straight(0.5), Passing::Straight(0.0)];
 /// Targets for which all kinds of ways are tried before the next ones.
 const AT_ONCE: usize = 2;
@@ -80,8 +80,8 @@ impl<'a> Search<'a> {
                 }
                 let way = self.way(target, &[], Passing::Smooth);
                 let found = way.direct().and_then(|direct| way.find(&direct, attempt..attempt + 1));
-                if let Ok(stages) = found {
-                    self.offer(&way, target, &stages, true);
+                if let Ok(segments) = found {
+                    self.offer(&way, target, &segments, true);
                 }
             }
         }
@@ -96,7 +96,7 @@ impl<'a> Search<'a> {
     fn direct(&mut self, target: &Target) {
         let way = self.way(target, &[], Passing::Smooth);
         match way.direct() {
-            Ok(stages) => self.offer(&way, target, &stages, false),
+            Ok(segments) => self.offer(&way, target, &segments, false),
             Err(refusal) => self.choice.refuse(refusal),
         }
     }
@@ -106,15 +106,15 @@ impl<'a> Search<'a> {
         self.follow(target, &detour::denser(&self.from(), &[], &target.before), Passing::Smooth);
     }
 
-    /// The direct movement with stages joined less smoothly.
+    /// The direct movement with segments joined less smoothly.
     fn straighter(&mut self, target: &Target) {
         if self.away.is_none() && target.before == target.at {
             return;
         }
         for passing in STRAIGHT {
             let way = self.way(target, &[], passing);
-            if let Ok(stages) = way.direct() {
-                self.offer(&way, target, &stages, false);
+            if let Ok(segments) = way.direct() {
+                self.offer(&way, target, &segments, false);
             }
             if self.choice.is_smooth() {
                 return;
@@ -127,7 +127,7 @@ impl<'a> Search<'a> {
         for passing in [Passing::Smooth].into_iter().chain(STRAIGHT) {
             let way = self.way(target, &[], passing);
             match way.direct().and_then(|direct| way.find(&direct, 0..TRIES)) {
-                Ok(stages) => self.offer(&way, target, &stages, true),
+                Ok(segments) => self.offer(&way, target, &segments, true),
                 Err(refusal) => self.choice.refuse(refusal),
             }
             if self.choice.is_smooth() || self.away.is_none() && target.before == target.at {
@@ -139,9 +139,9 @@ impl<'a> Search<'a> {
     /// A movement through several postures.
     fn detour(&mut self, target: &Target) {
         for room in ROOM {
-            let margin = self.problem.margin.way + room;
+            let margin = self.problem.min_clearance.path + room;
             let found = detour::find(
-                &self.problem.clearance(StageKind::Reach),
+                &self.problem.clearance(SegmentKind::Reach),
                 [&self.from(), &target.before],
                 margin,
                 self.work,
@@ -149,8 +149,8 @@ impl<'a> Search<'a> {
             let Some(corners) = found else { continue };
             let mut vias = corners.clone();
             let way = self.way(target, &[], Passing::Smooth);
-            if let Some(stages) = way.find_near(&vias) {
-                self.offer(&way, target, &stages, true);
+            if let Some(segments) = way.find_near(&vias) {
+                self.offer(&way, target, &segments, true);
             }
             while !self.choice.is_smooth() && vias.len() < MOST_VIAS {
                 self.follow(target, &vias, Passing::Smooth);
@@ -166,24 +166,24 @@ impl<'a> Search<'a> {
     /// The movement through these postures.
     fn follow(&mut self, target: &Target, vias: &[Posture], passing: Passing) {
         let way = self.way(target, vias, passing);
-        if let Ok(stages) = way.direct() {
-            self.offer(&way, target, &stages, true);
+        if let Ok(segments) = way.direct() {
+            self.offer(&way, target, &segments, true);
         }
     }
 
-    /// Offers stages more smoothly than they are and as they are, as far as they are clear.
-    fn offer(&mut self, way: &Way, target: &Target, stages: &[Stage], bounces: bool) {
-        let target = matches!(self.problem.aim, Aim::Hand(_)).then_some(*target);
-        let clear = way.check(stages);
+    /// Offers segments more smoothly than they are and as they are, as far as they are clear.
+    fn offer(&mut self, way: &Way, target: &Target, segments: &[Segment], bounces: bool) {
+        let target = matches!(self.problem.goal, Goal::Hand(_)).then_some(*target);
+        let clear = way.check(segments);
         let bounces = bounces || clear.is_err();
-        if let Some(smoother) = way.smooth(stages) {
+        if let Some(smoother) = way.smooth(segments) {
             self.choice.offer(way.plan(&smoother), target, bounces);
-            if stages.len() == 1 && self.choice.is_smooth() {
+            if segments.len() == 1 && self.choice.is_smooth() {
                 return;
             }
         }
         match clear {
-            Ok(()) => self.choice.offer(way.plan(stages), target, bounces),
+            Ok(()) => self.choice.offer(way.plan(segments), target, bounces),
             Err(refusal) => self.choice.refuse(refusal),
         }
     }
@@ -191,10 +191,10 @@ impl<'a> Search<'a> {
     /// The way to a target through these postures.
     fn way(&mut self, target: &Target, vias: &[Posture], passing: Passing) -> Way<'a> {
         Way {
-            clearance: self.problem.clearance(StageKind::Reach),
+            clearance: self.problem.clearance(SegmentKind::Reach),
             limits: self.problem.mechanism.limits(),
             route: self.route(target, vias, passing),
-            margin: self.problem.margin,
+            min_clearance: self.problem.min_clearance,
             lines: [self.line_out(), self.line_in(target)],
             work: self.work,
         }
@@ -202,9 +202,9 @@ impl<'a> Search<'a> {
 
     /// The smoothest route to a target through these postures, looked for once.
     fn route(&mut self, target: &Target, vias: &[Posture], passing: Passing) -> Route {
-        let leave = self.away.map(|away| (StageKind::Leave, away));
-        let reaches = vias.iter().chain([&target.before]).map(|posture| (StageKind::Reach, *posture));
-        let approach = (target.before != target.at).then_some((StageKind::Approach, target.at));
+        let leave = self.away.map(|away| (SegmentKind::Leave, away));
+        let reaches = vias.iter().chain([&target.before]).map(|posture| (SegmentKind::Reach, *posture));
+        let approach = (target.before != target.at).then_some((SegmentKind::Approach, target.at));
         let legs: Vec<_> = leave.into_iter().chain(reaches).chain(approach).collect();
         let known = self.routes.iter().find(|route| route.legs == legs && route.passing == passing);
         known.cloned().unwrap_or_else(|| {
@@ -223,7 +223,7 @@ impl<'a> Search<'a> {
 
     /// The last part of the approach to a target on which it does, m, from the goal outwards.
     fn line_in(&self, target: &Target) -> Vector3<f64> {
-        let goal = if let Aim::Hand(goals) = &self.problem.aim { goals.get(target.goal) } else { None };
-        goal.map_or_else(Vector3::zeros, |goal| -goal.along * self.problem.guide)
+        let goal = if let Goal::Hand(goals) = &self.problem.goal { goals.get(target.goal) } else { None };
+        goal.map_or_else(Vector3::zeros, |goal| -goal.along * self.problem.insertion_depth)
     }
 }

@@ -48,7 +48,7 @@ impl Solid {
     }
 
     /// A capsule around the form, which stands at `place`.
-    pub fn hull(&self, place: &Isometry3<f64>) -> Capsule {
+    pub fn bounding_capsule(&self, place: &Isometry3<f64>) -> Capsule {
         match *self {
             Self::Box(size) => Capsule::around_box(place, size),
             Self::Cylinder { radius, height } => Capsule::around(place, 0.5 * height, radius),

@@ -1,7 +1,7 @@
-use crate::body::Frames;
 use crate::comfort::{WEIGHT, cost};
+use crate::frames::Frames;
 use crate::quadratic::Quadratic;
-use crate::{Clearance, Near};
+use crate::{Clearance, Proximity};
 use coact_robot::{HandGoal, Posture};
 use nalgebra::{Isometry3, Vector3};
 use rand::{Rng, RngExt, SeedableRng};
@@ -22,7 +22,7 @@ const STEPS: u32 = 40;
 const TRUST: f64 = 0.4;
 /// What counts as there: m, and rad.
 const THERE: (f64, f64) = (1e-4, 1e-3);
-/// Bones nearer than this are watched, m.
+/// Links nearer than this are watched, m.
 const WATCHED: f64 = 0.1;
 /// Distance from the joint limits, rad.
 const FROM_LIMITS: f64 = 0.0175;
@@ -72,9 +72,9 @@ impl Solver<'_> {
     fn step(&self, at: &Posture, equal: Vec<(Posture, f64)>, trust: f64) -> Option<Posture> {
         let mechanism = self.clearance.mechanism;
         let limits = mechanism.limits();
-        let mut near: Vec<Near> = Vec::new();
+        let mut near: Vec<Proximity> = Vec::new();
         self.clearance.near(at, WATCHED, &mut near);
-        let above = near.iter().map(|near| (near.slope, self.margin + 1e-4 - near.distance)).collect();
+        let above = near.iter().map(|near| (near.gradient, self.margin + 1e-4 - near.distance)).collect();
         let within = |joint: usize, bound: f64| {
             if joint < mechanism.joints() { bound.clamp(-trust, trust) } else { 0.0 }
         };
@@ -91,7 +91,7 @@ impl Solver<'_> {
     }
 
     /// What a run makes smaller: the way of the joints, and how far the demands are not met.
-    fn merit(&self, at: &Posture, wanted: &Isometry3<f64>, free: bool, near: &mut Vec<Near>) -> f64 {
+    fn merit(&self, at: &Posture, wanted: &Isometry3<f64>, free: bool, near: &mut Vec<Proximity>) -> f64 {
         self.clearance.near(at, self.margin, near);
         let short = near.iter().map(|near| self.margin - near.distance).fold(0.0, f64::max);
         let off = demands(&self.clearance, at, wanted, free)
@@ -118,21 +118,21 @@ fn demands(clearance: &Clearance, at: &Posture, wanted: &Isometry3<f64>, free: b
     let (here, there) = (palm * grasp, wanted * grasp);
     let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
     let mut rows: Vec<(Posture, f64)> =
-        axes.iter().map(|axis| (frames.slope(&here, axis, count), (there - here).dot(axis))).collect();
+        axes.iter().map(|axis| (frames.gradient(&here, axis, count), (there - here).dot(axis))).collect();
     let (turn, about) = if free {
-        let (z, aim) = (palm.rotation * Vector3::z(), wanted.rotation * Vector3::z());
+        let (z, goal) = (palm.rotation * Vector3::z(), wanted.rotation * Vector3::z());
         let across = [palm.rotation * Vector3::x(), palm.rotation * Vector3::y()];
-        let angle = z.angle(&aim);
-        let axis = z.cross(&aim).try_normalize(1e-9).unwrap_or(across[0]);
+        let angle = z.angle(&goal);
+        let axis = z.cross(&goal).try_normalize(1e-9).unwrap_or(across[0]);
         (axis * angle, across.to_vec())
     } else {
         let difference = wanted.rotation * palm.rotation.inverse();
         (difference.scaled_axis(), axes.to_vec())
     };
     for axis in about {
-        let slope =
+        let gradient =
             std::array::from_fn(|joint| if joint < count { frames.axis[joint].dot(&axis) } else { 0.0 });
-        rows.push((slope, turn.dot(&axis)));
+        rows.push((gradient, turn.dot(&axis)));
     }
     rows
 }

@@ -1,11 +1,11 @@
 //! Movements in which the hand moves most smoothly: people move the hand on nearly straight ways, and the joints on
 //! whatever ways that takes.
 
-use crate::body::Frames;
 use crate::comfort::WEIGHT;
+use crate::frames::Frames;
 use crate::guide::Guide;
-use crate::trajectory::excursion;
-use crate::{Clearance, Mechanism, Stage, StageKind};
+use crate::segment_motion::excursion;
+use crate::{Clearance, Mechanism, Segment, SegmentKind};
 use coact_robot::{MotionState, Posture, Quintic};
 use nalgebra::{DMatrix, DVector, Matrix3xX, Point3, SMatrix, Vector3};
 
@@ -34,17 +34,17 @@ pub(crate) struct Change {
     pub passed: Vec<[Posture; 3]>,
 }
 
-/// The change of these stages for which the jerk of hand and joints is least.
-/// `room`: the distances that count at an instant of the stages, and how much of them is kept, m. `guides`: lines to
+/// The change of these segments for which the jerk of hand and joints is least.
+/// `room`: the distances that count at an instant of the segments, and how much of them is kept, m. `guides`: lines to
 /// which the hand keeps.
 pub(crate) fn smoothest<'a>(
     mechanism: &'a Mechanism,
-    stages: &[Stage],
+    segments: &[Segment],
     is_free: bool,
     room: &dyn Fn(f64) -> (Clearance<'a>, f64),
     guides: &[Guide],
 ) -> Change {
-    let smoothing = Smoothing::of(mechanism, stages, is_free, room, guides);
+    let smoothing = Smoothing::of(mechanism, segments, is_free, room, guides);
     let mut best = DVector::zeros(7 * smoothing.shapes.len());
     let mut way = smoothing.way(&best);
     for _ in 0..STEPS {
@@ -71,8 +71,8 @@ struct Smoothing<'a> {
     postures: Vec<Posture>,
     /// Distances that count there, and how much of them is kept, m.
     room: Vec<(Clearance<'a>, f64)>,
-    /// The stages of these steps, and lines to which the hand keeps.
-    stages: Vec<usize>,
+    /// The segments of these steps, and lines to which the hand keeps.
+    segments: Vec<usize>,
     guides: Vec<Guide>,
     /// The shapes that move the posture after leaving, and that before the goal.
     moved: Vec<usize>,
@@ -87,7 +87,7 @@ struct Way {
     merit: f64,
     /// Jerks of the hand over the length of its way, and their changes.
     jerk: Vec<Vector3<f64>>,
-    slope: Vec<Matrix3xX<f64>>,
+    gradient: Vec<Matrix3xX<f64>>,
     /// What is not kept, and its change by the joints, each with its step.
     broken: Vec<(usize, f64, Posture)>,
 }
@@ -95,28 +95,28 @@ struct Way {
 impl<'a> Smoothing<'a> {
     fn of(
         mechanism: &'a Mechanism,
-        stages: &[Stage],
+        segments: &[Segment],
         is_free: bool,
         room: &dyn Fn(f64) -> (Clearance<'a>, f64),
         guides: &[Guide],
     ) -> Self {
-        let total: f64 = stages.iter().map(|stage| stage.trajectory.duration).sum();
-        let mut shapes = vec![Vec::new(); 1 + if is_free { 3 * (stages.len() - 1) } else { 0 }];
-        let is_free = |via: usize| (via..via + 2).all(|stage| stages[stage].kind == StageKind::Reach);
-        let is_moved = |via: usize| guides.iter().any(|guide| (via..via + 2).contains(&guide.stage));
-        let (mut postures, mut stage_of) = (Vec::new(), Vec::new());
+        let total: f64 = segments.iter().map(|segment| segment.motion.duration).sum();
+        let mut shapes = vec![Vec::new(); 1 + if is_free { 3 * (segments.len() - 1) } else { 0 }];
+        let is_free = |via: usize| (via..via + 2).all(|segment| segments[segment].kind == SegmentKind::Reach);
+        let is_moved = |via: usize| guides.iter().any(|guide| (via..via + 2).contains(&guide.segment));
+        let (mut postures, mut segment_of) = (Vec::new(), Vec::new());
         for piece in 0..=PIECES {
             let (mut t, mut index) = (piece as f64 / PIECES as f64 * total, 0);
-            while index + 1 < stages.len() && t >= stages[index].trajectory.duration {
-                t -= stages[index].trajectory.duration;
+            while index + 1 < segments.len() && t >= segments[index].motion.duration {
+                t -= segments[index].motion.duration;
                 index += 1;
             }
-            let Stage { kind, trajectory } = &stages[index];
-            postures.push(trajectory.at(t).map(|state| state.position));
-            stage_of.push(index);
-            let own = trajectory.duration / total;
-            let [share, ..] = excursion((t / trajectory.duration).min(1.0));
-            shapes[0].push(if *kind == StageKind::Reach { share } else { 0.0 });
+            let Segment { kind, motion } = &segments[index];
+            postures.push(motion.at(t).map(|state| state.position));
+            segment_of.push(index);
+            let own = motion.duration / total;
+            let [share, ..] = excursion((t / motion.duration).min(1.0));
+            shapes[0].push(if *kind == SegmentKind::Reach { share } else { 0.0 });
             for (shape, values) in shapes.iter_mut().enumerate().skip(1) {
                 let (via, order) = ((shape - 1) / 3, (shape - 1) % 3);
                 let of = |which: usize| if order == which { 1.0 } else { 0.0 };
@@ -133,7 +133,16 @@ impl<'a> Smoothing<'a> {
         let room = (0..=PIECES).map(|piece| room(piece as f64 / PIECES as f64 * total)).collect();
         let jerks = shapes.iter().map(|shape| shape.windows(4).map(|p| third(p) * UNIT).collect()).collect();
         let moved = (0..shapes.len() / 3).filter(|via| is_moved(*via)).map(|via| 1 + 3 * via).collect();
-        Self { mechanism, postures, room, stages: stage_of, guides: guides.to_vec(), moved, shapes, jerks }
+        Self {
+            mechanism,
+            postures,
+            room,
+            segments: segment_of,
+            guides: guides.to_vec(),
+            moved,
+            shapes,
+            jerks,
+        }
     }
 
     fn way(&self, change: &DVector<f64>) -> Way {
@@ -149,26 +158,27 @@ impl<'a> Smoothing<'a> {
             })
             .collect();
         let mut places = Vec::with_capacity(PIECES + 1);
-        let mut slopes = Vec::with_capacity(PIECES + 1);
+        let mut gradients = Vec::with_capacity(PIECES + 1);
         let mut broken = self.broken(&postures);
         for (piece, posture) in postures.iter().enumerate() {
             let frames = Frames::of(self.mechanism, posture);
             let hand = frames.pose[joints - 1] * self.mechanism.arm.tool * self.mechanism.grasp_point();
             let jacobian = frames.jacobian(&hand, joints);
-            let mut slope = Matrix3xX::zeros(7 * count);
+            let mut gradient = Matrix3xX::zeros(7 * count);
             for (shape, values) in self.shapes.iter().enumerate() {
-                slope.fixed_columns_mut::<7>(7 * shape).copy_from(&(values[piece] * jacobian));
+                gradient.fixed_columns_mut::<7>(7 * shape).copy_from(&(values[piece] * jacobian));
             }
-            for guide in self.guides.iter().filter(|guide| guide.stage == self.stages[piece]) {
-                broken.extend(off_line(guide, &hand, &jacobian).map(|(off, slope)| (piece, off, slope)));
+            for guide in self.guides.iter().filter(|guide| guide.segment == self.segments[piece]) {
+                broken
+                    .extend(off_line(guide, &hand, &jacobian).map(|(off, gradient)| (piece, off, gradient)));
             }
             places.push(hand.coords);
-            slopes.push(slope);
+            gradients.push(gradient);
         }
         let length: f64 = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
         let unit = UNIT / length.max(1e-3);
         let jerk: Vec<_> = places.windows(4).map(|p| (p[3] - p[0] + 3.0 * (p[1] - p[2])) * unit).collect();
-        let slope = slopes.windows(4).map(|p| (&p[3] - &p[0] + 3.0 * (&p[1] - &p[2])) * unit).collect();
+        let gradient = gradients.windows(4).map(|p| (&p[3] - &p[0] + 3.0 * (&p[1] - &p[2])) * unit).collect();
         let of_joints: f64 = (0..7)
             .map(|joint| {
                 let angles: Vec<f64> = postures.iter().map(|posture| posture[joint]).collect();
@@ -180,7 +190,7 @@ impl<'a> Smoothing<'a> {
             + jerk.iter().map(Vector3::norm_squared).sum::<f64>()
             + JOINTS * of_joints
             + broken.iter().map(|(_, amount, _)| amount * amount).sum::<f64>();
-        Way { merit, jerk, slope, broken }
+        Way { merit, jerk, gradient, broken }
     }
 
     /// Limits and distances that are not kept.
@@ -194,16 +204,16 @@ impl<'a> Smoothing<'a> {
                 for (excess, sign) in
                     [(below, -1.0), (above, 1.0)].into_iter().filter(|(excess, _)| *excess > 0.0)
                 {
-                    let mut slope = [0.0; 7];
-                    slope[joint] = sign * BEYOND.sqrt();
-                    broken.push((piece, excess * BEYOND.sqrt(), slope));
+                    let mut gradient = [0.0; 7];
+                    gradient[joint] = sign * BEYOND.sqrt();
+                    broken.push((piece, excess * BEYOND.sqrt(), gradient));
                 }
             }
             let (clearance, margin) = &self.room[piece];
             clearance.near(posture, *margin, &mut near);
             broken.extend(near.iter().map(|near| {
                 let short = (margin - near.distance) * TOO_NEAR.sqrt();
-                (piece, short, near.slope.map(|slope| -slope * TOO_NEAR.sqrt()))
+                (piece, short, near.gradient.map(|gradient| -gradient * TOO_NEAR.sqrt()))
             }));
         }
         broken
@@ -214,13 +224,14 @@ impl<'a> Smoothing<'a> {
         let count = self.shapes.len();
         let (mut matrix, mut right) =
             (DMatrix::<f64>::identity(7 * count, 7 * count) * 1e-9, DVector::zeros(7 * count));
-        for (jerk, slope) in way.jerk.iter().zip(&way.slope) {
-            matrix.gemm_tr(1.0, slope, slope, 1.0);
-            right.gemv_tr(-1.0, slope, jerk, 1.0);
+        for (jerk, gradient) in way.jerk.iter().zip(&way.gradient) {
+            matrix.gemm_tr(1.0, gradient, gradient, 1.0);
+            right.gemv_tr(-1.0, gradient, jerk, 1.0);
         }
-        for (piece, amount, slope) in &way.broken {
-            let row =
-                DVector::from_fn(7 * count, |column, _| self.shapes[column / 7][*piece] * slope[column % 7]);
+        for (piece, amount, gradient) in &way.broken {
+            let row = DVector::from_fn(7 * count, |column, _| {
+                self.shapes[column / 7][*piece] * gradient[column % 7]
+            });
             matrix.ger(1.0, &row, &row, 1.0);
             right.axpy(-amount, &row, 1.0);
         }
@@ -253,10 +264,10 @@ fn off_line(
     hand: &Point3<f64>,
     jacobian: &SMatrix<f64, 3, 7>,
 ) -> impl Iterator<Item = (f64, Posture)> + use<> {
-    let slopes = guide.across() * jacobian * OFF_LINE.sqrt();
-    let slope = move |axis: usize| std::array::from_fn(|joint| slopes[(axis, joint)]);
+    let gradients = guide.across() * jacobian * OFF_LINE.sqrt();
+    let gradient = move |axis: usize| std::array::from_fn(|joint| gradients[(axis, joint)]);
     let aside = guide.aside(hand).into_iter();
-    aside.flat_map(move |aside| (0..3).map(move |axis| (aside[axis] * OFF_LINE.sqrt(), slope(axis))))
+    aside.flat_map(move |aside| (0..3).map(move |axis| (aside[axis] * OFF_LINE.sqrt(), gradient(axis))))
 }
 
 /// Third difference of four values.

@@ -1,6 +1,6 @@
 use crate::comfort::cost;
 use crate::solver::Solver;
-use crate::{Clearance, Mechanism, Refusal, StageKind};
+use crate::{Clearance, Mechanism, Refusal, SegmentKind};
 use coact_robot::{HandGoal, Posture};
 use nalgebra::Isometry3;
 use std::f64::consts::TAU;
@@ -27,7 +27,7 @@ pub(crate) struct TargetSearch<'a> {
     pub goals: &'a [HandGoal],
     pub from: &'a Posture,
     /// Motions that the hand makes next, one of them, with what it has grasped.
-    pub then: &'a [Isometry3<f64>],
+    pub next_displacements: &'a [Isometry3<f64>],
     /// Distances that are kept, m: on the way, and at the goal.
     pub margin: [f64; 2],
 }
@@ -45,7 +45,7 @@ struct Candidate {
 const SWIVELS: u32 = 36;
 const ROLLS: u32 = 12;
 /// Distance from the joint limits that targets keep, rad (1 degree).
-const MARGIN: f64 = 0.0175;
+const LIMIT_MARGIN: f64 = 0.0175;
 /// Largest change of a joint between the posture before and the goal, rad: more is another branch, or a detour.
 const LARGEST_STEP: f64 = 0.9;
 /// Targets that are offered, and how much they differ at least, rad² (weighted).
@@ -76,11 +76,11 @@ impl TargetSearch<'_> {
             {
                 offered.push(self.refine(target, candidate));
             }
-            if offered.len() == if self.then.is_empty() { OFFERED.0 } else { COMPARED } {
+            if offered.len() == if self.next_displacements.is_empty() { OFFERED.0 } else { COMPARED } {
                 break;
             }
         }
-        if !self.then.is_empty() {
+        if !self.next_displacements.is_empty() {
             let mut both: Vec<_> =
                 offered.iter().map(|target| (target.cost + self.cost_of_next(&target.at), *target)).collect();
             both.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -116,7 +116,8 @@ impl TargetSearch<'_> {
     /// Postures of the closed form, where there is one.
     fn postures(&self, goal: usize, roll: f64, swivel: f64) -> impl Iterator<Item = Candidate> + use<'_> {
         let palm = self.mechanism().palm_at(&self.goals[goal], roll, 0.0);
-        let solutions = self.mechanism().closed_form.as_ref().map(|srs| srs.solve(&palm, swivel, MARGIN));
+        let solutions =
+            self.mechanism().closed_form.as_ref().map(|srs| srs.solve(&palm, swivel, LIMIT_MARGIN));
         let postures = solutions.map(|branches| branches.as_slice().to_vec()).unwrap_or_default();
         postures.into_iter().map(move |at| Candidate { cost: cost(&at, self.from), goal, roll, swivel, at })
     }
@@ -139,7 +140,7 @@ impl TargetSearch<'_> {
             return None;
         }
         let before = if back > 0.0 { self.before(candidate)? } else { at };
-        let on_the_way = self.clearance.at(StageKind::Reach);
+        let on_the_way = self.clearance.at(SegmentKind::Reach);
         on_the_way.is_clear(&before, self.margin[0]).then_some(Target { goal, roll, before, at, cost })
     }
 
@@ -152,7 +153,7 @@ impl TargetSearch<'_> {
             return (largest_step(&before, at) <= LARGEST_STEP).then_some(before);
         };
         let palm = self.mechanism().palm_at(goal, candidate.roll, goal.back);
-        let branches = srs.solve(&palm, candidate.swivel, MARGIN);
+        let branches = srs.solve(&palm, candidate.swivel, LIMIT_MARGIN);
         let near = branches.as_slice().iter().filter(|before| largest_step(before, at) <= LARGEST_STEP);
         near.min_by(|one, other| cost(one, at).total_cmp(&cost(other, at))).copied()
     }
@@ -160,8 +161,11 @@ impl TargetSearch<'_> {
     /// Cost of the way to where the hand is next, rad²; infinite when it cannot go on from this posture.
     fn cost_of_next(&self, at: &Posture) -> f64 {
         let palm = self.mechanism().arm.palm(at);
-        let mut next: Vec<Posture> =
-            self.then.iter().flat_map(|then| self.postures_at(&(then * palm), at)).collect();
+        let mut next: Vec<Posture> = self
+            .next_displacements
+            .iter()
+            .flat_map(|displacement| self.postures_at(&(displacement * palm), at))
+            .collect();
         next.sort_by(|one, other| cost(one, at).total_cmp(&cost(other, at)));
         let clear = next.iter().take(NEXT).find(|next| self.clearance.is_clear(next, self.margin[1]));
         clear.map_or(f64::INFINITY, |next| cost(next, at))
@@ -170,7 +174,7 @@ impl TargetSearch<'_> {
     /// Postures with the palm there, found from another posture.
     fn postures_at(&self, palm: &Isometry3<f64>, from: &Posture) -> Vec<Posture> {
         if let Some(srs) = &self.mechanism().closed_form {
-            let branches = (0..SWIVELS).map(|step| srs.solve(palm, angle(step, SWIVELS), MARGIN));
+            let branches = (0..SWIVELS).map(|step| srs.solve(palm, angle(step, SWIVELS), LIMIT_MARGIN));
             return branches.flat_map(|branches| branches.as_slice().to_vec()).collect();
         }
         let solver = Solver { clearance: self.clearance, from, margin: self.margin[1] };
@@ -206,21 +210,21 @@ impl TargetSearch<'_> {
     fn refusal(&self, candidates: &[Candidate]) -> Refusal {
         let mut least: Option<(f64, String, String)> = None;
         for candidate in candidates.iter().step_by(candidates.len() / 200 + 1) {
-            let near = |posture: &Posture, stage: StageKind, margin: f64| {
-                let clearance = self.clearance.at(stage);
+            let near = |posture: &Posture, segment: SegmentKind, margin: f64| {
+                let clearance = self.clearance.at(segment);
                 Some((clearance.nearest(posture, margin)?, margin, clearance))
             };
-            let at = near(&candidate.at, StageKind::Approach, self.margin[1]);
-            let before = || near(&self.before(candidate)?, StageKind::Reach, self.margin[0]);
+            let at = near(&candidate.at, SegmentKind::Approach, self.margin[1]);
+            let before = || near(&self.before(candidate)?, SegmentKind::Reach, self.margin[0]);
             let Some((near, margin, clearance)) = at.or_else(before) else { continue };
             let short = margin - near.distance;
             if least.as_ref().is_none_or(|(known, ..)| short < *known) {
-                let (bone, other) = clearance.names(&near);
-                least = Some((short, bone, other));
+                let (link, other) = clearance.names(&near);
+                least = Some((short, link, other));
             }
         }
         match least {
-            Some((short, bone, other)) => Refusal::Blocked { bone, other, short },
+            Some((short, link, other)) => Refusal::Blocked { link, other, short },
             None => self.limit_that_binds(),
         }
     }

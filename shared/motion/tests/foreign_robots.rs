@@ -1,7 +1,7 @@
 //! Robots that only a URDF describes: planned for, or refused with one clear error.
 #![allow(clippy::unwrap_used)]
 
-use coact_motion::{Aim, Margin, Mechanism, Meshes, Problem, Scene};
+use coact_motion::{Goal, Mechanism, Meshes, MinClearance, Problem, Scene};
 use coact_robot::{HandGoal, MotionState, Posture, Robot, RobotError, Urdf};
 use nalgebra::Vector3;
 use std::fmt::Write;
@@ -77,12 +77,12 @@ fn load(text: String) -> Result<Mechanism, RobotError> {
 
 /// Plans from the middle of all joint ranges to where the hand is at this posture.
 fn is_reached(mechanism: &Mechanism, posture: &Posture) {
-    let body = mechanism.body(&|_| 0.5).unwrap();
+    let collision_model = mechanism.collision_model(&|_| 0.5).unwrap();
     let palm = mechanism.arm.palm(posture);
     let goal = HandGoal {
         point: palm * mechanism.grasp_point(),
         approach: palm.rotation * Vector3::z(),
-        closing: palm.rotation * Vector3::x(),
+        closing_axis: palm.rotation * Vector3::x(),
         rolls: 0,
         along: palm.rotation * Vector3::z(),
         back: 0.0,
@@ -90,14 +90,14 @@ fn is_reached(mechanism: &Mechanism, posture: &Posture) {
     };
     let problem = Problem {
         mechanism,
-        body: &body,
+        collision_model: &collision_model,
         scene: &Scene::default(),
         start: mechanism.park.map(MotionState::at_rest),
         leave: None,
-        aim: Aim::Hand(vec![goal]),
-        then: Vec::new(),
-        guide: 0.0,
-        margin: Margin::default(),
+        goal: Goal::Hand(vec![goal]),
+        next_displacements: Vec::new(),
+        insertion_depth: 0.0,
+        min_clearance: MinClearance::default(),
     };
     let plan = problem.plan().unwrap();
     let reached = mechanism.arm.palm(&plan.end());
@@ -124,7 +124,7 @@ fn our_arm_moves_with_another_hand() {
     assert!(mechanism.closed_form.is_some());
     assert_eq!(mechanism.limits(), ours.limits());
     let names: Vec<_> =
-        mechanism.body(&|_| 0.0).unwrap().bones().iter().map(|bone| bone.name.clone()).collect();
+        mechanism.collision_model(&|_| 0.0).unwrap().links().iter().map(|link| link.name.clone()).collect();
     assert!(
         names.iter().any(|name| name == "hand/finger_1") && names.iter().all(|name| name != "palm"),
         "{names:?}"
@@ -172,5 +172,5 @@ fn capsules_stand_in_for_missing_meshes_when_that_is_asked_for() {
     let text = six_joints(WIDE, "<mesh filename=\"arm.stl\"/>", 2);
     let urdf = Urdf::parse(Path::new("six.urdf"), text).unwrap();
     let mechanism = Mechanism::from_urdf(urdf, Meshes::OrCapsules(0.05)).unwrap();
-    assert!(mechanism.body(&|_| 0.0).unwrap().bones().len() >= 8);
+    assert!(mechanism.collision_model(&|_| 0.0).unwrap().links().len() >= 8);
 }

@@ -1,8 +1,8 @@
 //! Which grip is chosen, by what stands around the part and by where it goes next.
 #![allow(clippy::unwrap_used)]
 
-use coact_motion::{Aim, Margin, Mechanism, Obstacle, Problem, Scene, Solid};
-use coact_robot::{Form, Grip, GripKind, GripSide, Grips, HandGoal, MotionState, Next, Robot};
+use coact_motion::{Goal, Mechanism, MinClearance, Obstacle, Problem, Scene, Solid};
+use coact_robot::{Graspable, Grip, GripKind, GripSide, Grips, HandGoal, MotionState, NextUse, Robot};
 use nalgebra::{Isometry3, Vector3};
 use std::sync::LazyLock;
 
@@ -23,14 +23,14 @@ fn column() -> Isometry3<f64> {
 fn chosen(
     place: &Isometry3<f64>,
     around: Vec<Obstacle>,
-    then: Vec<Isometry3<f64>>,
+    next_displacements: Vec<Isometry3<f64>>,
 ) -> Option<(Grip, HandGoal)> {
     let (robot, mechanism) = &*AROS;
-    let grips = Grips::of(&robot.hand, Form::round(0.055, HEIGHT), Next::Anything);
+    let grips = Grips::of(&robot.hand, Graspable::round(0.055, HEIGHT), NextUse::Anything);
     let joints = &robot.hand.joints;
     let angle =
         |name: &str| joints.iter().position(|joint| joint.name == name).map_or(0.0, |at| grips.open[at]);
-    let body = mechanism.body(&angle).unwrap();
+    let collision_model = mechanism.collision_model(&angle).unwrap();
     let mut scene = Scene { obstacles: around, ..Scene::default() };
     let solid = Solid::Cylinder { radius: 0.0275, height: HEIGHT };
     scene.obstacles.push(Obstacle::new(
@@ -41,14 +41,14 @@ fn chosen(
     let offers = grips.goals(place, 0.15, f64::NEG_INFINITY);
     let plan = Problem {
         mechanism,
-        body: &body,
+        collision_model: &collision_model,
         scene: &scene,
         start: robot.park.map(MotionState::at_rest),
         leave: None,
-        aim: Aim::Hand(offers.iter().map(|(_, goal)| *goal).collect()),
-        then,
-        guide: 0.0,
-        margin: Margin::default(),
+        goal: Goal::Hand(offers.iter().map(|(_, goal)| *goal).collect()),
+        next_displacements,
+        insertion_depth: 0.0,
+        min_clearance: MinClearance::default(),
     }
     .plan()
     .ok()?;
@@ -56,8 +56,8 @@ fn chosen(
     Some((grips.all[index], goal))
 }
 
-fn side(around: Vec<Obstacle>, then: Vec<Isometry3<f64>>) -> GripSide {
-    chosen(&column(), around, then).unwrap().0.side
+fn side(around: Vec<Obstacle>, next_displacements: Vec<Isometry3<f64>>) -> GripSide {
+    chosen(&column(), around, next_displacements).unwrap().0.side
 }
 
 /// A board over something that stands there.

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_motion::{
-    Aim, Body, Capsule, Clearance, Margin, Mechanism, Obstacle, Other, Plan, Problem, Refusal, Scene, Solid,
-    StageKind,
+    Capsule, Clearance, CollisionModel, Counterpart, Goal, Mechanism, MinClearance, Obstacle, Plan, Problem,
+    Refusal, Scene, SegmentKind, Solid,
 };
 use coact_robot::{HAND_JOINTS, HandGoal, MotionState, Posture, Robot};
 use nalgebra::{Isometry3, Point3, Vector3};
@@ -15,10 +15,11 @@ fn aros() -> Robot {
     Robot::load(&root.join("../../rt-config/robots/aros.toml")).unwrap()
 }
 
-static AROS: LazyLock<(Mechanism, Body)> = LazyLock::new(|| {
+static AROS: LazyLock<(Mechanism, CollisionModel)> = LazyLock::new(|| {
     let mechanism = Mechanism::of(&aros()).unwrap();
-    let body = mechanism.body(&|name| if name.ends_with("base") { 1.2 } else { 0.0 }).unwrap();
-    (mechanism, body)
+    let collision_model =
+        mechanism.collision_model(&|name| if name.ends_with("base") { 1.2 } else { 0.0 }).unwrap();
+    (mechanism, collision_model)
 });
 
 fn grip_at(x: f64, y: f64, z: f64) -> HandGoal {
@@ -26,9 +27,19 @@ fn grip_at(x: f64, y: f64, z: f64) -> HandGoal {
 }
 
 fn problem<'a>(scene: &'a Scene, start: [MotionState; 7], goal: HandGoal) -> Problem<'a> {
-    let (mechanism, body) = &*AROS;
-    let (aim, margin) = (Aim::Hand(vec![goal]), Margin::default());
-    Problem { mechanism, body, scene, start, leave: None, aim, then: Vec::new(), guide: 0.0, margin }
+    let (mechanism, collision_model) = &*AROS;
+    let (goal, min_clearance) = (Goal::Hand(vec![goal]), MinClearance::default());
+    Problem {
+        mechanism,
+        collision_model,
+        scene,
+        start,
+        leave: None,
+        goal,
+        next_displacements: Vec::new(),
+        insertion_depth: 0.0,
+        min_clearance,
+    }
 }
 
 fn parked() -> [MotionState; 7] {
@@ -56,8 +67,8 @@ fn the_hand_comes_to_its_goal_from_the_side_it_was_told() {
     assert!((grasp_point(&plan.end()) - goal.point).norm() < 1e-4);
     let approach = AROS.0.arm.palm(&plan.end()).rotation * Vector3::z();
     assert!(approach.angle(&goal.approach) < 1e-3);
-    let kinds: Vec<_> = plan.stages.iter().map(|(kind, _)| *kind).collect();
-    assert_eq!(kinds, [StageKind::Reach, StageKind::Approach]);
+    let kinds: Vec<_> = plan.segments.iter().map(|(kind, _)| *kind).collect();
+    assert_eq!(kinds, [SegmentKind::Reach, SegmentKind::Approach]);
     assert_eq!(plan.broken(&AROS.0.limits()), None);
 }
 
@@ -72,9 +83,9 @@ fn what_stands_in_the_way_is_passed_at_the_margin() {
     assert!(plan.bounces, "a direct movement cannot be clear");
     let clearance = Clearance {
         mechanism: problem.mechanism,
-        body: problem.body,
+        collision_model: problem.collision_model,
         scene: &scene,
-        stage: StageKind::Reach,
+        segment: SegmentKind::Reach,
     };
     for step in 0..=500 {
         let near = clearance.nearest(&posture(&plan, f64::from(step) / 500.0), 0.02);
@@ -116,7 +127,7 @@ fn ring() -> Scene {
 #[test]
 fn a_hand_that_cannot_get_out_is_told_so_whatever_is_tried() {
     let refusal = problem(&ring(), parked(), grip_at(-0.4, 0.55, 0.8)).plan().unwrap_err();
-    assert!(matches!(&refusal, Refusal::Way { other, .. } if other == "ring"), "{refusal}");
+    assert!(matches!(&refusal, Refusal::NoPath { other, .. } if other == "ring"), "{refusal}");
 }
 
 #[test]
@@ -155,7 +166,7 @@ fn a_part_that_goes_on_is_gripped_so_that_the_hand_can_go_on() {
         })
         .collect();
     let mut problem = problem(&scene, parked(), grip_at(0.0, 0.0, 0.0));
-    problem.aim = Aim::Hand(grips);
+    problem.goal = Goal::Hand(grips);
     let palm = |plan: &Plan| AROS.0.arm.palm(&plan.target.unwrap().at);
     let comfortable = palm(&problem.plan().unwrap());
     let mut others = 0;
@@ -166,7 +177,7 @@ fn a_part_that_goes_on_is_gripped_so_that_the_hand_can_go_on() {
                 std::f64::consts::FRAC_PI_4 * f64::from(turn),
             );
         let then = socket * part.inverse();
-        problem.then = vec![then];
+        problem.next_displacements = vec![then];
         let plan = problem.plan().unwrap();
         if !can_stand(&(then * comfortable)) && can_stand(&(then * palm(&plan))) {
             others += 1;
@@ -181,7 +192,7 @@ fn what_follows_is_no_reason_to_refuse_a_grip() {
     let scene = Scene::default();
     let mut problem = problem(&scene, parked(), grip_at(-0.4, 0.55, 0.8));
     let target = problem.plan().unwrap().target;
-    problem.then = vec![Isometry3::translation(0.0, 0.0, 50.0)];
+    problem.next_displacements = vec![Isometry3::translation(0.0, 0.0, 50.0)];
     assert_eq!(problem.plan().unwrap().target, target);
 }
 
@@ -208,13 +219,13 @@ proptest! {
 
     #[test]
     fn distances_change_as_their_slopes_say(turn in prop::array::uniform7(-0.3..0.3)) {
-        let (mechanism, body) = &*AROS;
+        let (mechanism, collision_model) = &*AROS;
         let posture: Posture = std::array::from_fn(|joint| mechanism.park[joint] + turn[joint]);
         let hand = grasp_point(&posture);
         let ball = Capsule { start: Point3::origin(), end: Point3::origin(), radius: 0.05 };
         let place = Isometry3::translation(hand.x + 0.15, hand.y, hand.z);
         let scene = Scene { obstacles: vec![Obstacle::new("ball", Solid::Capsule(ball), &place)], ..Scene::default() };
-        let clearance = Clearance { mechanism, body, scene: &scene, stage: StageKind::Reach };
+        let clearance = Clearance { mechanism, collision_model, scene: &scene, segment: SegmentKind::Reach };
         let mut found = Vec::new();
         clearance.near(&posture, 0.3, &mut found);
         for near in found.iter().filter(|near| near.distance > 0.01) {
@@ -225,13 +236,13 @@ proptest! {
                     moved[joint] += sign * h;
                     let mut again = Vec::new();
                     clearance.near(&moved, 0.5, &mut again);
-                    again.iter().find(|other| other.bone == near.bone && other.other == near.other).unwrap().distance
+                    again.iter().find(|other| other.link == near.link && other.other == near.other).unwrap().distance
                 };
-                // Where another edge or face becomes the nearest one there is no slope to be compared with.
+                // Where another edge or face becomes the nearest one there is no gradient to be compared with.
                 let (before, after) = (near.distance - distance(-1.0), distance(1.0) - near.distance);
                 if (before - after).abs() < 0.01 * h {
-                    let slope = (before + after) / (2.0 * h);
-                    prop_assert!((slope - near.slope[joint]).abs() < 0.02, "{} against {}", slope, near.slope[joint]);
+                    let gradient = (before + after) / (2.0 * h);
+                    prop_assert!((gradient - near.gradient[joint]).abs() < 0.02, "{} against {}", gradient, near.gradient[joint]);
                 }
             }
         }
@@ -241,17 +252,17 @@ proptest! {
     /// was off by 4 mm here.)
     #[test]
     fn distances_are_true(turn in prop::array::uniform7(-0.3..0.3), off in prop::array::uniform3(-0.2..0.2f64)) {
-        let (mechanism, body) = &*AROS;
+        let (mechanism, collision_model) = &*AROS;
         let posture: Posture = std::array::from_fn(|joint| mechanism.park[joint] + turn[joint]);
         let centre = grasp_point(&posture) + Vector3::from(off);
         let ball = Solid::Capsule(Capsule { start: centre, end: centre, radius: 0.05 });
         let scene = Scene { obstacles: vec![Obstacle::new("ball", ball, &Isometry3::identity())], ..Scene::default() };
         let mut found = Vec::new();
-        Clearance { mechanism, body, scene: &scene, stage: StageKind::Reach }.near(&posture, 0.5, &mut found);
-        for near in found.iter().filter(|near| near.other == Other::Obstacle(0) && near.distance > 0.0) {
-            let bone = &body.bones()[near.bone];
-            let Solid::Box(size) = bone.solid else { continue };
-            let place = mechanism.arm.frame(&posture, bone.carriers - 1) * bone.place;
+        Clearance { mechanism, collision_model, scene: &scene, segment: SegmentKind::Reach }.near(&posture, 0.5, &mut found);
+        for near in found.iter().filter(|near| near.other == Counterpart::Obstacle(0) && near.distance > 0.0) {
+            let link = &collision_model.links()[near.link];
+            let Solid::Box(size) = link.solid else { continue };
+            let place = mechanism.arm.frame(&posture, link.carriers - 1) * link.place;
             let beyond = ((place.inverse() * centre).coords.abs() - 0.5 * size).map(|length| length.max(0.0));
             prop_assert!((near.distance - (beyond.norm() - 0.05)).abs() < 1e-4);
         }
@@ -263,19 +274,21 @@ fn what_only_passing_fingers_would_touch_counts_on_the_way_alone() {
     let (robot, mechanism) = (aros(), &AROS.0);
     let [closed, between, open] = [1.5, 1.05, 0.6].map(|base| robot.hand.posture(base));
     let tip = |fingers: &[f64; HAND_JOINTS]| {
-        let body = mechanism.with_fingers(&robot.hand, fingers).unwrap();
-        let of_tip = body.bones().iter().position(|bone| bone.name == "finger_3_distal").unwrap();
-        body.hulls(mechanism, &mechanism.park)[of_tip].end
+        let collision_model = mechanism.with_fingers(&robot.hand, fingers).unwrap();
+        let of_tip = collision_model.links().iter().position(|link| link.name == "finger_3_distal").unwrap();
+        collision_model.bounding_capsules(mechanism, &mechanism.park)[of_tip].end
     };
-    let body = mechanism.with_moving_fingers(&robot.hand, &[closed, open]).unwrap();
-    let near = |fingers: &[f64; HAND_JOINTS], stage: StageKind| {
+    let collision_model = mechanism.with_moving_fingers(&robot.hand, &[closed, open]).unwrap();
+    let near = |fingers: &[f64; HAND_JOINTS], segment: SegmentKind| {
         let ball = Capsule { start: tip(fingers), end: tip(fingers), radius: 0.005 };
         let thing = Obstacle::new("thing", Solid::Capsule(ball), &Isometry3::identity());
         let scene = Scene { obstacles: vec![thing], ..Scene::default() };
-        Clearance { mechanism, body: &body, scene: &scene, stage }.nearest(&mechanism.park, 0.015).is_some()
+        Clearance { mechanism, collision_model: &collision_model, scene: &scene, segment }
+            .nearest(&mechanism.park, 0.015)
+            .is_some()
     };
-    let stages = [StageKind::Leave, StageKind::Reach, StageKind::Approach];
-    assert_eq!(stages.map(|stage| near(&closed, stage)), [true, true, false]);
-    assert_eq!(stages.map(|stage| near(&between, stage)), [false, true, false]);
-    assert_eq!(stages.map(|stage| near(&open, stage)), [false, true, true]);
+    let segments = [SegmentKind::Leave, SegmentKind::Reach, SegmentKind::Approach];
+    assert_eq!(segments.map(|segment| near(&closed, segment)), [true, true, false]);
+    assert_eq!(segments.map(|segment| near(&between, segment)), [false, true, false]);
+    assert_eq!(segments.map(|segment| near(&open, segment)), [false, true, true]);
 }

@@ -12,18 +12,18 @@ pub fn grip_height(height: f64) -> f64 {
     (0.5 * height).max(height - 0.035).max(clear_of_the_ground)
 }
 
-/// Frame at `point` with z along `approach` and x as near to `closing` as the approach allows, turned by `roll` rad
-/// about z. A `closing` along the approach is replaced by another direction across it.
+/// Frame at `point` with z along `approach` and x as near to `closing_axis` as the approach allows, turned by `roll` rad
+/// about z. A `closing_axis` along the approach is replaced by another direction across it.
 pub fn frame(
     point: &Point3<f64>,
     approach: &Vector3<f64>,
-    closing: &Vector3<f64>,
+    closing_axis: &Vector3<f64>,
     roll: f64,
 ) -> Isometry3<f64> {
     let z = approach.normalize();
     let across = |direction: &Vector3<f64>| (direction - z * direction.dot(&z)).try_normalize(1e-6);
     let least = if z.x.abs() < 0.7 { Vector3::x() } else { Vector3::y() };
-    let x = across(closing).or_else(|| across(&least)).unwrap_or_else(Vector3::x);
+    let x = across(closing_axis).or_else(|| across(&least)).unwrap_or_else(Vector3::x);
     let basis = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]));
     let turned = basis * Rotation3::from_axis_angle(&Vector3::z_axis(), roll);
     Isometry3::from_parts(Translation3::from(point.coords), UnitQuaternion::from_rotation_matrix(&turned))

@@ -133,15 +133,15 @@ impl Hand {
     }
 
     /// Palm pose that puts the grasp point at `point` with the palm's z axis along `approach` (unit) and its closing
-    /// axis x turned by `roll` rad about it; at roll 0, x is as near to `closing` as the approach allows.
+    /// axis x turned by `roll` rad about it; at roll 0, x is as near to `closing_axis` as the approach allows.
     pub fn palm_at(
         &self,
         point: &Point3<f64>,
         approach: &Vector3<f64>,
-        closing: &Vector3<f64>,
+        closing_axis: &Vector3<f64>,
         roll: f64,
     ) -> Isometry3<f64> {
-        let grip = crate::grip::frame(point, approach, closing, roll);
+        let grip = crate::grip::frame(point, approach, closing_axis, roll);
         grip * nalgebra::Translation3::new(0.0, 0.0, -self.grasp_distance)
     }
 }

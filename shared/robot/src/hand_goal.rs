@@ -9,7 +9,7 @@ pub struct HandGoal {
     /// Direction in which the hand approaches, unit, world.
     pub approach: Vector3<f64>,
     /// Direction of the closing axis at roll 0, world.
-    pub closing: Vector3<f64>,
+    pub closing_axis: Vector3<f64>,
     /// How many rolls about the approach serve as well, evenly spaced: 2 for something with two flat sides; 0 = any.
     pub rolls: u32,
     /// Direction in which the hand goes last, unit, world: its approach, or that in which what it holds goes into a place.
@@ -26,8 +26,8 @@ impl HandGoal {
     pub fn grip(frame: &Isometry3<f64>, height: f64, rolls: u32, back: f64, floor: f64) -> Self {
         let point = frame * Point3::new(0.0, 0.0, grip::grip_height(height));
         let approach = frame.rotation * -Vector3::z();
-        let closing = frame.rotation * Vector3::x();
-        Self { point, approach, closing, rolls, along: approach, back, floor }
+        let closing_axis = frame.rotation * Vector3::x();
+        Self { point, approach, closing_axis, rolls, along: approach, back, floor }
     }
 
     /// Goal for gripping an upright part from its side: as [`HandGoal::grip`], but the hand comes across the part's z
@@ -35,7 +35,7 @@ impl HandGoal {
     pub fn grip_from_side(frame: &Isometry3<f64>, height: f64, turn: f64, back: f64) -> Self {
         let point = frame * Point3::new(0.0, 0.0, grip::grip_height(height));
         let approach = frame.rotation * -Vector3::new(turn.cos(), turn.sin(), 0.0);
-        let closing = frame.rotation * Vector3::new(-turn.sin(), turn.cos(), 0.0);
-        Self { point, approach, closing, rolls: 2, along: approach, back, floor: f64::NEG_INFINITY }
+        let closing_axis = frame.rotation * Vector3::new(-turn.sin(), turn.cos(), 0.0);
+        Self { point, approach, closing_axis, rolls: 2, along: approach, back, floor: f64::NEG_INFINITY }
     }
 }

@@ -13,7 +13,7 @@
 //! so a part is between the fingers when the grasp point lies near `frame * (0, 0, grip_height(height))`.
 //!
 //! # Grips
-//! [`Grips`] lists the ways in which the hand can take a [`Form`]: by the finger ends or with the whole hand, from above
+//! [`Grips`] lists the ways in which the hand can take a [`Graspable`]: by the finger ends or with the whole hand, from above
 //! or from the side, as far as the hand's kinematics allow them and what is done next with it.
 //!
 //! # Fingers
@@ -33,7 +33,7 @@ mod arm;
 mod arm_end;
 mod config;
 mod error;
-mod form;
+mod graspable;
 pub mod grip;
 mod grips;
 mod hand;
@@ -41,7 +41,7 @@ mod hand_goal;
 mod joint;
 mod limiter;
 mod mounting;
-mod movement;
+mod point_to_point;
 mod quintic;
 mod robot;
 mod srs;
@@ -51,13 +51,13 @@ mod xml_line;
 pub use arm::Arm;
 pub use arm_end::ArmEnd;
 pub use error::RobotError;
-pub use form::{Flat, Form};
-pub use grips::{Grip, GripKind, GripSide, Grips, Next};
+pub use graspable::{Flat, Graspable};
+pub use grips::{Grip, GripKind, GripSide, Grips, NextUse};
 pub use hand::{Finger, Grasp, HAND_JOINTS, Hand};
 pub use hand_goal::HandGoal;
 pub use joint::{Joint, JointLimits};
 pub use limiter::Limiter;
-pub use movement::Movement;
+pub use point_to_point::PointToPoint;
 pub use quintic::{MotionState, Quintic};
 pub use robot::{ROBOT_JOINTS, Robot};
 pub use srs::{Branches, NotSrs, Posture, Srs};

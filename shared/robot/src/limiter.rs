@@ -222,7 +222,7 @@ mod tests {
             jerk: 200.0,
         };
         let start = [crate::MotionState::at_rest(-0.9)];
-        let movement = crate::Movement::plan(start, [0.97], &[limits]).unwrap();
+        let movement = crate::PointToPoint::plan(start, [0.97], &[limits]).unwrap();
         let mut state = Limiter::at_rest(-0.9);
         let mut tick = 0;
         while tick as f64 * DT < movement.duration {

@@ -1,7 +1,7 @@
 //! Which grips a hand has for what it shall take.
 #![allow(clippy::unwrap_used)]
 
-use coact_robot::{Form, Grip, GripKind, GripSide, Grips, Hand, Next, Robot};
+use coact_robot::{Graspable, Grip, GripKind, GripSide, Grips, Hand, NextUse, Robot};
 use nalgebra::{Isometry3, Point3};
 use std::path::Path;
 use std::sync::LazyLock;
@@ -15,16 +15,16 @@ const ABOVE: (GripKind, GripSide) = (GripKind::Precision, GripSide::Above);
 const PINCHED: (GripKind, GripSide) = (GripKind::Precision, GripSide::Beside);
 const ENCLOSED: (GripKind, GripSide) = (GripKind::WholeHand, GripSide::Beside);
 
-fn column() -> Form {
-    Form::round(0.055, 0.12)
+fn column() -> Graspable {
+    Graspable::round(0.055, 0.12)
 }
 
-fn kinds(form: Form, next: Next) -> Vec<(GripKind, GripSide)> {
-    Grips::of(&HAND, form, next).all.iter().map(|grip| (grip.kind, grip.side)).collect()
+fn kinds(object: Graspable, next: NextUse) -> Vec<(GripKind, GripSide)> {
+    Grips::of(&HAND, object, next).all.iter().map(|grip| (grip.kind, grip.side)).collect()
 }
 
-fn grip(form: Form, wanted: (GripKind, GripSide)) -> Grip {
-    let grips = Grips::of(&HAND, form, Next::Anything);
+fn grip(object: Graspable, wanted: (GripKind, GripSide)) -> Grip {
+    let grips = Grips::of(&HAND, object, NextUse::Anything);
     *grips.all.iter().find(|grip| (grip.kind, grip.side) == wanted).unwrap()
 }
 
@@ -35,27 +35,30 @@ fn the_palm_is_known_from_its_form() {
 
 #[test]
 fn a_tall_column_can_be_taken_in_all_ways_and_a_low_part_only_from_above() {
-    assert_eq!(kinds(column(), Next::Anything), [ABOVE, PINCHED, ENCLOSED]);
+    assert_eq!(kinds(column(), NextUse::Anything), [ABOVE, PINCHED, ENCLOSED]);
     for (width, height) in [(0.025, 0.02), (0.075, 0.025), (0.055, 0.03), (0.03, 0.05)] {
-        assert_eq!(kinds(Form::round(width, height), Next::Anything), [ABOVE]);
+        assert_eq!(kinds(Graspable::round(width, height), NextUse::Anything), [ABOVE]);
     }
-    assert_eq!(kinds(Form::brick([0.1, 0.018, 0.012], 0.018), Next::Anything), [ABOVE]);
+    assert_eq!(kinds(Graspable::brick([0.1, 0.018, 0.012], 0.018), NextUse::Anything), [ABOVE]);
 }
 
 #[test]
 fn the_whole_hand_takes_only_what_it_can_reach_around() {
     for width in [0.04, 0.055, 0.07] {
-        assert!(kinds(Form::round(width, 0.15), Next::Anything).contains(&ENCLOSED), "{width}");
+        assert!(kinds(Graspable::round(width, 0.15), NextUse::Anything).contains(&ENCLOSED), "{width}");
     }
-    assert!(!kinds(Form::round(0.13, 0.15), Next::Anything).contains(&ENCLOSED));
-    assert!(!kinds(Form::brick([0.05, 0.2, 0.15], 0.05), Next::Anything).contains(&ENCLOSED));
+    assert!(!kinds(Graspable::round(0.13, 0.15), NextUse::Anything).contains(&ENCLOSED));
+    assert!(!kinds(Graspable::brick([0.05, 0.2, 0.15], 0.05), NextUse::Anything).contains(&ENCLOSED));
     let mut short = HAND.clone();
     for finger in &mut short.fingers {
         finger.end.translation.vector *= 0.3;
         finger.joints.last_mut().unwrap().origin.translation.vector *= 0.4;
     }
     assert!(
-        Grips::of(&short, column(), Next::Anything).all.iter().all(|grip| grip.kind == GripKind::Precision)
+        Grips::of(&short, column(), NextUse::Anything)
+            .all
+            .iter()
+            .all(|grip| grip.kind == GripKind::Precision)
     );
 }
 
@@ -70,7 +73,7 @@ fn what_is_enclosed_lies_deeper_in_the_hand_between_palm_and_fingers() {
     }
     assert!(HAND.interlaces && one.x < three.x, "finger 3 passes between the others: {one}, {three}");
     let meeting = Hand { interlaces: false, ..HAND.clone() };
-    let grips = Grips::of(&meeting, column(), Next::Anything);
+    let grips = Grips::of(&meeting, column(), NextUse::Anything);
     let enclosed = grips.all.iter().find(|grip| grip.kind == GripKind::WholeHand);
     for end in enclosed.iter().flat_map(|grip| meeting.ends(&grip.fingers(&meeting, &column(), 0.0))) {
         assert!(end.x.abs() > HAND.pad[1] - 1e-9, "fingers that do not pass each other do not meet: {end}");
@@ -79,7 +82,7 @@ fn what_is_enclosed_lies_deeper_in_the_hand_between_palm_and_fingers() {
 
 #[test]
 fn fingers_that_press_close_further_and_open_ones_are_clear() {
-    let grips = Grips::of(&HAND, column(), Next::Anything);
+    let grips = Grips::of(&HAND, column(), NextUse::Anything);
     for grip in &grips.all {
         let [open, touching, pressing] =
             [0.01, 0.0, -0.005].map(|gap| grip.fingers(&HAND, &column(), gap)[3]);
@@ -91,38 +94,41 @@ fn fingers_that_press_close_further_and_open_ones_are_clear() {
 #[test]
 fn what_follows_decides_how_it_is_taken() {
     // Deep into a hole: what would reach into it with the hand is out.
-    assert_eq!(kinds(column(), Next::Insert { depth: 0.02 }), [ABOVE, PINCHED]);
-    assert_eq!(kinds(column(), Next::Insert { depth: 0.05 }), [ABOVE]);
+    assert_eq!(kinds(column(), NextUse::Insert { depth: 0.02 }), [ABOVE, PINCHED]);
+    assert_eq!(kinds(column(), NextUse::Insert { depth: 0.05 }), [ABOVE]);
     // A person needs a place for the fingers.
-    assert_eq!(kinds(column(), Next::HandOver { room: 0.05 }), [ABOVE]);
-    assert_eq!(kinds(Form::round(0.055, 0.25), Next::HandOver { room: 0.05 }), [ABOVE, PINCHED, ENCLOSED]);
+    assert_eq!(kinds(column(), NextUse::HandOver { room: 0.05 }), [ABOVE]);
+    assert_eq!(
+        kinds(Graspable::round(0.055, 0.25), NextUse::HandOver { room: 0.05 }),
+        [ABOVE, PINCHED, ENCLOSED]
+    );
     // A nut has no such place, but must be taken all the same.
-    assert_eq!(kinds(Form::round(0.025, 0.02), Next::HandOver { room: 0.05 }), [ABOVE]);
+    assert_eq!(kinds(Graspable::round(0.025, 0.02), NextUse::HandOver { room: 0.05 }), [ABOVE]);
 }
 
 #[test]
 fn goals_bring_the_part_to_its_place_in_the_hand() {
     let frame = Isometry3::translation(-0.4, 0.5, 0.8);
-    let grips = Grips::of(&HAND, column(), Next::Anything);
+    let grips = Grips::of(&HAND, column(), NextUse::Anything);
     let goals = grips.goals(&frame, 0.15, 0.8);
     assert_eq!(goals.len(), 1 + 12 + 12);
     for (index, goal) in goals {
-        let palm = HAND.palm_at(&goal.point, &goal.approach, &goal.closing, 0.0);
+        let palm = HAND.palm_at(&goal.point, &goal.approach, &goal.closing_axis, 0.0);
         let grip = &grips.all[index];
         let held = palm * Point3::new(0.0, 0.0, grip.depth);
         assert!((held - frame * Point3::new(0.0, 0.0, grip.height)).norm() < 1e-9);
         assert!((goal.approach.z + 1.0).abs() < 1e-9 || goal.approach.z.abs() < 1e-9);
-        assert!(goal.closing.z.abs() < 1e-9);
+        assert!(goal.closing_axis.z.abs() < 1e-9);
     }
 }
 
 #[test]
 fn a_box_is_taken_across_the_side_that_is_named() {
     let frame = Isometry3::translation(-0.4, 0.5, 0.8);
-    let grips = Grips::of(&HAND, Form::brick([0.06, 0.04, 0.15], 0.04), Next::Anything);
+    let grips = Grips::of(&HAND, Graspable::brick([0.06, 0.04, 0.15], 0.04), NextUse::Anything);
     assert!(grips.all.iter().any(|grip| grip.side == GripSide::Beside));
     for (_, goal) in grips.goals(&frame, 0.15, 0.8) {
-        assert!((goal.closing.y.abs() - 1.0).abs() < 1e-9, "{}", goal.closing);
+        assert!((goal.closing_axis.y.abs() - 1.0).abs() < 1e-9, "{}", goal.closing_axis);
         assert_eq!(goal.rolls, 2);
     }
 }

@@ -1,4 +1,4 @@
-use coact_motion::{Aim, Body, Clearance, Margin, Mechanism, Problem, Scene, StageKind};
+use coact_motion::{Clearance, CollisionModel, Goal, Mechanism, MinClearance, Problem, Scene, SegmentKind};
 use coact_robot::MotionState;
 use nalgebra::Vector3;
 
@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 #[derive(Debug, Clone)]
 pub struct Case {
     /// Arm, hand and what it holds.
-    pub body: Body,
+    pub collision_model: CollisionModel,
     /// The surroundings.
     pub scene: Scene,
     /// State of the arm's joints at the start.
@@ -14,9 +14,9 @@ pub struct Case {
     /// Straight back first: direction and distance, m.
     pub leave: Option<(Vector3<f64>, f64)>,
     /// Where to.
-    pub aim: Aim,
+    pub goal: Goal,
     /// Last part of the approach on which the hand keeps to its line, m.
-    pub guide: f64,
+    pub insertion_depth: f64,
 }
 
 impl Case {
@@ -24,21 +24,25 @@ impl Case {
     pub fn problem<'a>(&'a self, mechanism: &'a Mechanism) -> Problem<'a> {
         Problem {
             mechanism,
-            body: &self.body,
+            collision_model: &self.collision_model,
             scene: &self.scene,
             start: self.start,
             leave: self.leave,
-            aim: self.aim.clone(),
-            then: Vec::new(),
-            guide: self.guide,
-            margin: Margin::default(),
+            goal: self.goal.clone(),
+            next_displacements: Vec::new(),
+            insertion_depth: self.insertion_depth,
+            min_clearance: MinClearance::default(),
         }
     }
 
     /// Whether it starts clear of everything.
     pub(crate) fn starts_clear(&self, mechanism: &Mechanism) -> bool {
-        let clearance =
-            Clearance { mechanism, body: &self.body, scene: &self.scene, stage: StageKind::Reach };
+        let clearance = Clearance {
+            mechanism,
+            collision_model: &self.collision_model,
+            scene: &self.scene,
+            segment: SegmentKind::Reach,
+        };
         clearance.is_clear(&self.start.map(|state| state.position), ROOM)
     }
 }

@@ -9,7 +9,7 @@ pub(crate) struct Chart<'a> {
     pub curves: Vec<(String, Vec<f64>)>,
     /// Time of the last value, s.
     pub duration: f64,
-    /// Where a new stage begins, s.
+    /// Where a new segment begins, s.
     pub marks: Vec<f64>,
 }
 

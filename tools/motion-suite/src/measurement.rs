@@ -1,5 +1,5 @@
 use crate::{Case, Quality, Scenario, Setting};
-use coact_motion::{Aim, Clearance, Margin, Mechanism, Plan, Refusal, StageKind, way_exists};
+use coact_motion::{Clearance, Goal, Mechanism, MinClearance, Plan, Refusal, SegmentKind, path_exists};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use rustix::time::{ClockId, clock_gettime};
@@ -74,15 +74,19 @@ fn judged(mechanism: &Mechanism, case: &Case) -> Outcome {
     let planning_ms = thread_ms() - began;
     let solvable = match &planned {
         Ok(_) => true,
-        Err(Refusal::Way { .. }) => {
+        Err(Refusal::NoPath { .. }) => {
             let from = case.start.map(|state| state.position);
-            let ends = match &case.aim {
-                Aim::Posture(at) => vec![*at],
-                Aim::Hand(_) => problem.targets_from(&from).iter().map(|target| target.before).collect(),
+            let ends = match &case.goal {
+                Goal::Posture(at) => vec![*at],
+                Goal::Hand(_) => problem.targets_from(&from).iter().map(|target| target.before).collect(),
             };
-            let clearance =
-                Clearance { mechanism, body: &case.body, scene: &case.scene, stage: StageKind::Reach };
-            ends.iter().any(|end| way_exists(&clearance, &from, end, Margin::default().way))
+            let clearance = Clearance {
+                mechanism,
+                collision_model: &case.collision_model,
+                scene: &case.scene,
+                segment: SegmentKind::Reach,
+            };
+            ends.iter().any(|end| path_exists(&clearance, &from, end, MinClearance::default().path))
         }
         Err(_) => false,
     };

@@ -1,7 +1,7 @@
 use crate::chart::Chart;
 use crate::{FAR, Quality, path};
 use coact_figures::{Anchor, Sheet, TELLING};
-use coact_motion::{Capsule, Clearance, Plan, Problem, StageKind};
+use coact_motion::{Capsule, Clearance, Plan, Problem, SegmentKind};
 use coact_pictures::{ARM, HAND, THINGS, View, paint};
 use nalgebra::Vector3;
 use plotters::prelude::RGBColor;
@@ -61,10 +61,14 @@ impl MovementPage<'_> {
             let corner = [24 + column * (PICTURE[0] + 6), top + row * PICTURE[1]];
             let t = self.plan.duration() * picture as f64 / (PICTURES.0 - 1) as f64;
             let view = view.moved_to([corner[0] + PICTURE[0] / 2, corner[1] + PICTURE[1] / 2]);
-            let hulls = self.problem.body.hulls(self.problem.mechanism, &self.posture(t));
-            let bones = self.problem.body.bones().iter().zip(&hulls);
-            let mut strokes: Vec<_> =
-                bones.map(|(bone, hull)| view.capsule(hull, if bone.hand { HAND } else { ARM })).collect();
+            let bounding_capsules =
+                self.problem.collision_model.bounding_capsules(self.problem.mechanism, &self.posture(t));
+            let links = self.problem.collision_model.links().iter().zip(&bounding_capsules);
+            let mut strokes: Vec<_> = links
+                .map(|(link, bounding_capsule)| {
+                    view.capsule(bounding_capsule, if link.hand { HAND } else { ARM })
+                })
+                .collect();
             let things = &self.problem.scene.obstacles;
             strokes.extend(things.iter().flat_map(|thing| view.edges(thing, THINGS)));
             paint(sheet, strokes);
@@ -82,9 +86,9 @@ impl MovementPage<'_> {
     fn view(&self) -> View {
         let capsules = (0..=4).flat_map(|step| {
             let posture = self.posture(self.plan.duration() * f64::from(step) / 4.0);
-            self.problem.body.hulls(self.problem.mechanism, &posture)
+            self.problem.collision_model.bounding_capsules(self.problem.mechanism, &posture)
         });
-        let things = self.problem.scene.obstacles.iter().map(|thing| thing.hull);
+        let things = self.problem.scene.obstacles.iter().map(|thing| thing.bounding_capsule);
         let capsules: Vec<Capsule> = capsules.chain(things).collect();
         View::of(&capsules, TOWARDS, PICTURE)
     }
@@ -99,12 +103,12 @@ impl MovementPage<'_> {
         };
         let clearance = Clearance {
             mechanism: problem.mechanism,
-            body: problem.body,
+            collision_model: problem.collision_model,
             scene: problem.scene,
-            stage: StageKind::Approach,
+            segment: SegmentKind::Approach,
         };
         let distance = |t: &f64| clearance.nearest(&self.posture(*t), FAR).map_or(FAR, |near| near.distance);
-        let mut marks: Vec<f64> = self.plan.stages.iter().map(|(_, end)| *end).collect();
+        let mut marks: Vec<f64> = self.plan.segments.iter().map(|(_, end)| *end).collect();
         marks.pop();
         let chart = |title, curves| Chart { title, curves, duration, marks: marks.clone() };
         [

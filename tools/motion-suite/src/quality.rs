@@ -1,4 +1,4 @@
-use coact_motion::{Aim, Clearance, HandPath, Plan, Problem, StageKind};
+use coact_motion::{Clearance, Goal, HandPath, Plan, Problem, SegmentKind};
 
 /// How a planned movement looks from outside.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -47,18 +47,18 @@ pub fn path(problem: &Problem, plan: &Plan) -> HandPath {
 }
 
 fn position_error(problem: &Problem, plan: &Plan) -> f64 {
-    let (Aim::Hand(goals), Some(target)) = (&problem.aim, &plan.target) else { return 0.0 };
+    let (Goal::Hand(goals), Some(target)) = (&problem.goal, &plan.target) else { return 0.0 };
     let grasp = problem.mechanism.arm.palm(&plan.end()) * problem.mechanism.grasp_point();
     (grasp - goals[target.goal].point).norm()
 }
 
 /// Smallest distance while the hand is on its way.
 fn clearance(problem: &Problem, plan: &Plan) -> f64 {
-    let Problem { mechanism, body, scene, .. } = *problem;
-    let clearance = Clearance { mechanism, body, scene, stage: StageKind::Reach };
-    let ends = plan.stages.iter().map(|(_, end)| *end);
+    let Problem { mechanism, collision_model, scene, .. } = *problem;
+    let clearance = Clearance { mechanism, collision_model, scene, segment: SegmentKind::Reach };
+    let ends = plan.segments.iter().map(|(_, end)| *end);
     let begins = std::iter::once(0.0).chain(ends);
-    let ways = plan.stages.iter().zip(begins).filter(|((kind, _), _)| *kind == StageKind::Reach);
+    let ways = plan.segments.iter().zip(begins).filter(|((kind, _), _)| *kind == SegmentKind::Reach);
     ways.flat_map(|((_, end), begin)| {
         (0..=200).map(move |step| begin + (end - begin) * f64::from(step) / 200.0)
     })

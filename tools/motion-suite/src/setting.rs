@@ -1,5 +1,5 @@
 use coact_joint_task::Task;
-use coact_motion::{Body, Mechanism};
+use coact_motion::{CollisionModel, Mechanism};
 use coact_robot::{HAND_JOINTS, Hand, Robot, RobotError};
 
 /// Who moves, and at which task.
@@ -12,7 +12,7 @@ pub struct Setting {
     /// The task at which it picks and inserts.
     pub task: Option<Task>,
     /// The open hand.
-    pub open: Body,
+    pub open: CollisionModel,
 }
 
 /// Clear width of the open hand, m.
@@ -35,12 +35,12 @@ impl Setting {
     /// # Errors
     /// What is wrong with its collision geometry.
     pub fn foreign(mechanism: Mechanism) -> Result<Self, RobotError> {
-        let open = mechanism.body(&|_| 0.0)?;
+        let open = mechanism.collision_model(&|_| 0.0)?;
         Ok(Self { mechanism, hand: None, task: None, open })
     }
 
     /// The arm with these angles of its hand's joints, rad. None without a hand of ours.
-    pub(crate) fn with_fingers(&self, angles: &[f64; HAND_JOINTS]) -> Option<Body> {
+    pub(crate) fn with_fingers(&self, angles: &[f64; HAND_JOINTS]) -> Option<CollisionModel> {
         self.mechanism.with_fingers(self.hand.as_ref()?, angles).ok()
     }
 }

@@ -4,7 +4,7 @@ use coact_figures::{Anchor, Lettering, Mark, Place, Sheet, TELLING};
 use coact_joint_task::{Fixture, Kind, Task};
 use coact_messages::ARM_JOINTS;
 use coact_monitor::{Moment, SeenPart};
-use coact_motion::{Body, Capsule, Mechanism, workplace};
+use coact_motion::{Capsule, CollisionModel, Mechanism};
 use coact_robot::{HAND_JOINTS, Robot, RobotError};
 use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion, Vector3};
 use plotters::prelude::RGBColor;
@@ -50,7 +50,7 @@ const FRAME: RGBColor = RGBColor(200, 200, 200);
 /// A moment, and the robot as it stood then.
 struct Picture<'a> {
     moment: &'a Moment,
-    body: Body,
+    body: CollisionModel,
     hulls: Vec<Capsule>,
 }
 
@@ -87,7 +87,7 @@ impl ContactSheet<'_> {
         let (arm, hand) = moment.joints.split_at(ARM_JOINTS);
         let fingers: [f64; HAND_JOINTS] = std::array::from_fn(|joint| hand[joint]);
         let body = mechanism.with_fingers(&self.robot.hand, &fingers)?;
-        let hulls = body.hulls(mechanism, &std::array::from_fn(|joint| arm[joint]));
+        let hulls = body.bounding_capsules(mechanism, &std::array::from_fn(|joint| arm[joint]));
         Ok(Picture { moment, body, hulls })
     }
 
@@ -120,17 +120,18 @@ impl ContactSheet<'_> {
 
     fn paint(&self, sheet: &mut Sheet, picture: &Picture, view: &View) -> Result<(), AlbumError> {
         // What stands still is below all that moves; foot and axles are below the base.
-        let (tables, others): (Vec<_>, Vec<_>) =
-            workplace::fixtures(self.task).into_iter().partition(|fixture| fixture.name == Fixture::TABLE);
+        let (tables, others): (Vec<_>, Vec<_>) = coact_workplace::fixtures(self.task)
+            .into_iter()
+            .partition(|fixture| fixture.name == Fixture::TABLE);
         tables.iter().for_each(|table| paint(sheet, view.solid(table, TABLE)));
         others.iter().rev().for_each(|other| paint(sheet, view.solid(other, THINGS)));
-        let bones = picture.body.bones().iter().zip(&picture.hulls);
+        let bones = picture.body.links().iter().zip(&picture.hulls);
         let mut strokes: Vec<Stroke> =
             bones.map(|(bone, hull)| view.capsule(hull, if bone.hand { HAND } else { ARM })).collect();
         strokes.extend(arm_and_hand(&picture.moment.keypoints).map(|bone| view.capsule(&bone, PERSON)));
         for part in &picture.moment.parts {
             let (index, kind) = self.kind(part)?;
-            let thing = workplace::upright(&kind.name, kind.shape, &frame(part));
+            let thing = coact_workplace::upright(&kind.name, kind.shape, &frame(part));
             strokes.extend(view.solid(&thing, colour(index)));
         }
         paint(sheet, strokes);

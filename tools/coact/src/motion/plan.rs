@@ -3,7 +3,7 @@
 use super::robot::RobotArgs;
 use anyhow::{Context, Result, bail, ensure};
 use coact_figures::Lettering;
-use coact_motion::{Aim, Margin, Obstacle, Plan, Problem, Scene, Solid, StageKind, workplace};
+use coact_motion::{Goal, MinClearance, Obstacle, Plan, Problem, Scene, SegmentKind, Solid};
 use coact_motion_suite::{MovementPage, Quality, Setting};
 use coact_robot::{HandGoal, MotionState};
 use nalgebra::{Isometry3, Point3, Vector3};
@@ -53,7 +53,7 @@ struct Record<'a> {
     joints: Vec<&'a str>,
     quality: Quality,
     bounces: bool,
-    stages: Vec<(&'static str, f64)>,
+    segments: Vec<(&'static str, f64)>,
     /// Every 10 ms: time, s; positions, rad; velocities, rad/s.
     samples: Vec<(f64, Vec<f64>, Vec<f64>)>,
 }
@@ -67,14 +67,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let scene = scene(&args, &setting)?;
     let problem = Problem {
         mechanism: &setting.mechanism,
-        body: &setting.open,
+        collision_model: &setting.open,
         scene: &scene,
         start: start(&args, &setting)?,
         leave: None,
-        aim: Aim::Hand(vec![goal(&args)?]),
-        then: Vec::new(),
-        guide: 0.0,
-        margin: Margin::default(),
+        goal: Goal::Hand(vec![goal(&args)?]),
+        next_displacements: Vec::new(),
+        insertion_depth: 0.0,
+        min_clearance: MinClearance::default(),
     };
     let plan = problem.plan()?;
     let quality = Quality::of(&problem, &plan);
@@ -132,7 +132,7 @@ fn goal(args: &Args) -> Result<HandGoal> {
     Ok(HandGoal {
         point: Point3::from(three("to", &args.to)?),
         approach,
-        closing: Vector3::y(),
+        closing_axis: Vector3::y(),
         rolls: 0,
         along: approach,
         back: args.back,
@@ -143,11 +143,15 @@ fn goal(args: &Args) -> Result<HandGoal> {
 fn scene(args: &Args, setting: &Setting) -> Result<Scene> {
     let mut scene = Scene::default();
     if let (Some(_), Some(task)) = (&args.task, &setting.task) {
-        scene.obstacles = workplace::fixtures(task);
+        scene.obstacles = coact_workplace::fixtures(task);
         for (index, part) in task.parts.iter().enumerate() {
             let place = Isometry3::translation(part.at[0], part.at[1], task.scene.table_height);
             let kind = &task.kinds[part.kind];
-            scene.obstacles.push(workplace::upright(&format!("{} ({index})", kind.name), kind.shape, &place));
+            scene.obstacles.push(coact_workplace::upright(
+                &format!("{} ({index})", kind.name),
+                kind.shape,
+                &place,
+            ));
         }
     }
     for (index, text) in args.obstacle.iter().enumerate() {
@@ -188,17 +192,17 @@ fn record<'a>(setting: &'a Setting, plan: &Plan, quality: Quality) -> Record<'a>
         let column = |of: fn(&MotionState) -> f64| states[..joints].iter().map(of).collect();
         (t, column(|state| state.position), column(|state| state.velocity))
     });
-    let name = |kind: &StageKind| match kind {
-        StageKind::Leave => "leave",
-        StageKind::Reach => "reach",
-        StageKind::Approach => "approach",
+    let name = |kind: &SegmentKind| match kind {
+        SegmentKind::Leave => "leave",
+        SegmentKind::Reach => "reach",
+        SegmentKind::Approach => "approach",
     };
     Record {
         robot: &setting.mechanism.name,
         joints: setting.mechanism.arm.joints.iter().map(|joint| joint.name.as_str()).collect(),
         quality,
         bounces: plan.bounces,
-        stages: plan.stages.iter().map(|(kind, end)| (name(kind), *end)).collect(),
+        segments: plan.segments.iter().map(|(kind, end)| (name(kind), *end)).collect(),
         samples: samples.collect(),
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::{Case, Setting};
 use coact_joint_task::{Agent, Fixture, Task};
-use coact_motion::{Aim, Scene, workplace};
-use coact_robot::{Form, Grip, Grips, HandGoal, MotionState, Next, Posture};
+use coact_motion::{Goal, Scene};
+use coact_robot::{Graspable, Grip, Grips, HandGoal, MotionState, NextUse, Posture};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -18,66 +18,68 @@ const TURNS: u32 = 12;
 
 /// To a part of the robot among others, until the hand is around it.
 pub(super) fn pick(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
-    pick_of(setting, Next::Anything, random).map(|pick| pick.case)
+    pick_of(setting, NextUse::Anything, random).map(|pick| pick.case)
 }
 
 /// A pick, the index of the part, and the grips that are offered, one for each goal.
 struct Pick {
     case: Case,
     part: usize,
-    form: Form,
+    object: Graspable,
     grips: Vec<Grip>,
 }
 
-fn pick_of(setting: &Setting, next: Next, random: &mut Pcg64) -> Option<Pick> {
+fn pick_of(setting: &Setting, next: NextUse, random: &mut Pcg64) -> Option<Pick> {
     let task = setting.task.as_ref()?;
     let (scene, places) = table(task, random);
     let own: Vec<usize> =
         (0..task.parts.len()).filter(|part| task.parts[*part].workspace == Agent::Robot).collect();
     let part = own[random.random_range(0..own.len())];
     let kind = &task.kinds[task.parts[part].kind];
-    let form = workplace::grasped(kind);
-    let grips = Grips::of(setting.hand.as_ref()?, form, next);
-    let body = setting.with_fingers(&grips.open)?;
+    let object = coact_workplace::graspable(kind);
+    let grips = Grips::of(setting.hand.as_ref()?, object, next);
+    let collision_model = setting.with_fingers(&grips.open)?;
     let start = near_park(setting, random);
     let offers = grips.goals(&places[part], BEFORE, f64::NEG_INFINITY);
     let (grips, goals) = offers.into_iter().map(|(index, goal)| (grips.all[index], goal)).unzip();
-    let (start, aim) = (start.map(MotionState::at_rest), Aim::Hand(goals));
-    let case = Case { body, scene, start, leave: None, aim, guide: 0.0 };
-    case.starts_clear(&setting.mechanism).then_some(Pick { case, part, form, grips })
+    let (start, goal) = (start.map(MotionState::at_rest), Goal::Hand(goals));
+    let case = Case { collision_model, scene, start, leave: None, goal, insertion_depth: 0.0 };
+    case.starts_clear(&setting.mechanism).then_some(Pick { case, part, object, grips })
 }
 
 /// With a part that was picked into its socket.
 pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
     let task = setting.task.as_ref()?;
-    let Pick { case: picked, part, form, grips } = pick_of(setting, Next::Insert { depth: DEEP }, random)?;
+    let Pick { case: picked, part, object, grips } =
+        pick_of(setting, NextUse::Insert { depth: DEEP }, random)?;
     let name = part_name(part);
     let plan = picked.problem(&setting.mechanism).plan().ok()?;
     let target = plan.target?;
     let kind_index = task.parts[part].kind;
     let kind = &task.kinds[kind_index];
     let goal = task.subgoals.iter().find(|goal| goal.kind == kind_index && goal.side == Agent::Robot)?;
-    let Aim::Hand(goals) = &picked.aim else { return None };
+    let Goal::Hand(goals) = &picked.goal else { return None };
     let palm = setting.mechanism.arm.palm(&target.at);
     let mut scene = picked.scene.touching(&[Fixture::TABLE, Fixture::PLATFORM]);
     let index = scene.obstacles.iter().position(|obstacle| obstacle.name == name)?;
     let centre = scene.obstacles.remove(index).place;
     let frame = centre * Isometry3::translation(0.0, 0.0, -0.5 * kind.shape.height());
-    let fingers = grips[target.goal].fingers(setting.hand.as_ref()?, &form, 0.0);
+    let fingers = grips[target.goal].fingers(setting.hand.as_ref()?, &object, 0.0);
     let closed = setting.with_fingers(&fingers)?;
-    let (solid, within) = workplace::form(kind.shape);
-    let body = closed.holding(&setting.mechanism, &name, solid, &(palm.inverse() * frame * within));
+    let (solid, within) = coact_workplace::solid(kind.shape);
+    let collision_model =
+        closed.holding(&setting.mechanism, &name, solid, &(palm.inverse() * frame * within));
     let socket = along(goal.socket, goal.axis);
     // The part goes into its socket as it is held, turned about its own axis at will if it is round.
     let in_part = frame.inverse() * palm;
-    let turns = if form.flat.is_none() { TURNS } else { 1 };
+    let turns = if object.flat.is_none() { TURNS } else { 1 };
     let goals = (0..turns).map(|side| {
         let turn = std::f64::consts::TAU * f64::from(side) / f64::from(turns);
         let place = socket * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn) * in_part;
         HandGoal {
             point: place * setting.mechanism.grasp_point(),
             approach: place.rotation * Vector3::z(),
-            closing: place.rotation * Vector3::x(),
+            closing_axis: place.rotation * Vector3::x(),
             rolls: 1,
             along: -(socket * Vector3::z()),
             ..goals[target.goal]
@@ -85,12 +87,12 @@ pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
     });
     let goals = goals.collect();
     let case = Case {
-        body,
+        collision_model,
         scene,
         start: plan.end().map(MotionState::at_rest),
         leave: Some((Vector3::z(), AWAY)),
-        aim: Aim::Hand(goals),
-        guide: DEEP,
+        goal: Goal::Hand(goals),
+        insertion_depth: DEEP,
     };
     Some(case)
 }
@@ -101,23 +103,27 @@ pub(super) fn park(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
     let plan = inserted.problem(&setting.mechanism).plan().ok()?;
     let palm = setting.mechanism.arm.palm(&plan.end());
     Some(Case {
-        body: setting.open.clone(),
+        collision_model: setting.open.clone(),
         scene: inserted.scene.clone(),
         start: plan.end().map(MotionState::at_rest),
         leave: Some((palm.rotation * -Vector3::z(), BEFORE)),
-        aim: Aim::Posture(setting.mechanism.park),
-        guide: 0.0,
+        goal: Goal::Posture(setting.mechanism.park),
+        insertion_depth: 0.0,
     })
 }
 
 /// The task's table, with every part moved a little from its place.
 fn table(task: &Task, random: &mut Pcg64) -> (Scene, Vec<Isometry3<f64>>) {
-    let mut scene = Scene { obstacles: workplace::fixtures(task), ..Scene::default() };
+    let mut scene = Scene { obstacles: coact_workplace::fixtures(task), ..Scene::default() };
     let mut places = Vec::new();
     for (index, part) in task.parts.iter().enumerate() {
         let [x, y] = part.at.map(|at| at + random.random_range(-0.02..0.02));
         let place = Isometry3::translation(x, y, task.scene.table_height + 0.001);
-        scene.obstacles.push(workplace::upright(&part_name(index), task.kinds[part.kind].shape, &place));
+        scene.obstacles.push(coact_workplace::upright(
+            &part_name(index),
+            task.kinds[part.kind].shape,
+            &place,
+        ));
         places.push(place);
     }
     (scene, places)

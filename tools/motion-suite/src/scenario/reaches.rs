@@ -1,7 +1,7 @@
 //! Reaches from anywhere to anywhere, that any arm can make.
 
 use crate::{Case, Setting};
-use coact_motion::{Aim, Clearance, Obstacle, Scene, Solid, StageKind};
+use coact_motion::{Clearance, Goal, Obstacle, Scene, SegmentKind, Solid};
 use coact_robot::{HandGoal, MotionState, Posture};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::RngExt;
@@ -23,12 +23,12 @@ pub(super) fn free_reach(setting: &Setting, random: &mut Pcg64) -> Case {
         let start = setting.mechanism.arm.palm(&from) * setting.mechanism.grasp_point();
         if (start - goal.point).norm() > 0.25 {
             return Case {
-                body: setting.open.clone(),
+                collision_model: setting.open.clone(),
                 scene: Scene::default(),
                 start: from.map(MotionState::at_rest),
                 leave: None,
-                aim: Aim::Hand(vec![goal]),
-                guide: 0.0,
+                goal: Goal::Hand(vec![goal]),
+                insertion_depth: 0.0,
             };
         }
     }
@@ -37,7 +37,7 @@ pub(super) fn free_reach(setting: &Setting, random: &mut Pcg64) -> Case {
 /// A reach past upright cylinders that stand between start and goal.
 pub(super) fn past(setting: &Setting, random: &mut Pcg64, sizes: &[(f64, f64)]) -> Option<Case> {
     let mut case = free_reach(setting, random);
-    let Aim::Hand(goals) = &case.aim else { return None };
+    let Goal::Hand(goals) = &case.goal else { return None };
     let grasp = |posture: &Posture| setting.mechanism.arm.palm(posture) * setting.mechanism.grasp_point();
     let from = grasp(&case.start.map(|state| state.position));
     let way = goals[0].point - from;
@@ -60,7 +60,7 @@ pub(super) fn past(setting: &Setting, random: &mut Pcg64, sizes: &[(f64, f64)]) 
 /// Two boards, a back and two sides, with a little more than the hand's own room between them.
 pub(super) fn shelf(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
     let mut case = free_reach(setting, random);
-    let Aim::Hand(goals) = &mut case.aim else { return None };
+    let Goal::Hand(goals) = &mut case.goal else { return None };
     let goal = &mut goals[0];
     let flat = Vector3::new(goal.approach.x, goal.approach.y, 0.0);
     if flat.norm() < 0.8 {
@@ -91,7 +91,7 @@ fn hand_at(setting: &Setting, posture: &Posture) -> HandGoal {
     HandGoal {
         point: palm * setting.mechanism.grasp_point(),
         approach: palm.rotation * Vector3::z(),
-        closing: palm.rotation * Vector3::x(),
+        closing_axis: palm.rotation * Vector3::x(),
         rolls: 0,
         along: palm.rotation * Vector3::z(),
         back: 0.0,
@@ -102,7 +102,8 @@ fn hand_at(setting: &Setting, posture: &Posture) -> HandGoal {
 /// A posture in the middle of the joint ranges, clear of itself.
 fn comfortable(setting: &Setting, random: &mut Pcg64) -> Posture {
     let (mechanism, scene) = (&setting.mechanism, Scene::default());
-    let clearance = Clearance { mechanism, body: &setting.open, scene: &scene, stage: StageKind::Reach };
+    let clearance =
+        Clearance { mechanism, collision_model: &setting.open, scene: &scene, segment: SegmentKind::Reach };
     loop {
         let mut posture = [0.0; 7];
         for (angle, joint) in posture.iter_mut().zip(&mechanism.arm.joints) {

@@ -5,9 +5,9 @@ use crate::{BodyKind, Partner, Script, Settings, World};
 use bytemuck::zeroed_box;
 use coact_joint_task::{Agent, Part, Subgoal, Task};
 use coact_messages::{ARM_JOINTS, Command};
-use coact_motion::{Aim, Margin, Mechanism, Problem, Scene, workplace};
+use coact_motion::{Goal, Mechanism, MinClearance, Problem, Scene};
 use coact_robot::{
-    Grip, GripKind, GripSide, Grips, HandGoal, JointLimits, MotionState, Movement, Next, Posture,
+    Grip, GripKind, GripSide, Grips, HandGoal, JointLimits, MotionState, NextUse, PointToPoint, Posture,
     ROBOT_JOINTS, Robot,
 };
 use glam::{DQuat, DVec3};
@@ -116,7 +116,7 @@ impl Manipulator {
     /// The grips for the part.
     fn grips(&self) -> Grips {
         let kind = &self.world.task.kinds[self.world.parts.kind(0)];
-        Grips::of(&self.robot.hand, workplace::grasped(kind), Next::Anything)
+        Grips::of(&self.robot.hand, coact_workplace::graspable(kind), NextUse::Anything)
     }
 
     /// Whether this is the grip that it uses.
@@ -153,14 +153,14 @@ impl Manipulator {
         let mechanism = Mechanism::of(&self.robot).unwrap();
         let problem = Problem {
             mechanism: &mechanism,
-            body: &mechanism.with_fingers(&self.robot.hand, &grips.open).unwrap(),
+            collision_model: &mechanism.with_fingers(&self.robot.hand, &grips.open).unwrap(),
             scene: &Scene::default(),
             start: from.map(MotionState::at_rest),
             leave: None,
-            aim: Aim::Hand(goals.collect()),
-            then: Vec::new(),
-            guide: 0.0,
-            margin: Margin::default(),
+            goal: Goal::Hand(goals.collect()),
+            next_displacements: Vec::new(),
+            insertion_depth: 0.0,
+            min_clearance: MinClearance::default(),
         };
         let target = problem.targets_from(&from)[0];
         (target.before, target.at)
@@ -177,12 +177,12 @@ impl Manipulator {
         let grip = grips.all.iter().find(|grip| self.uses(grip)).unwrap();
         let angles = match fingers {
             Fingers::Open => grips.open,
-            Fingers::Closed => grip.fingers(&self.robot.hand, &grips.form, -0.3 * grips.form.width),
+            Fingers::Closed => grip.fingers(&self.robot.hand, &grips.object, -0.3 * grips.object.width),
         };
         let mut target = [0.0; ROBOT_JOINTS];
         target[..ARM_JOINTS].copy_from_slice(arm);
         target[ARM_JOINTS..].copy_from_slice(&angles);
-        let movement = Movement::plan(self.at.map(MotionState::at_rest), target, &self.limits).unwrap();
+        let movement = PointToPoint::plan(self.at.map(MotionState::at_rest), target, &self.limits).unwrap();
         let ticks = (movement.duration * 1e3).ceil() as u64;
         for tick in 1..=ticks {
             self.step(&movement.at((tick as f64 * 1e-3).min(movement.duration)));

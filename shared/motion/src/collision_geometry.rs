@@ -1,6 +1,6 @@
-//! Links of a URDF as bones of a body.
+//! Links of a URDF as links of a collision_model.
 
-use crate::body::Bone;
+use crate::Link;
 use crate::{Capsule, Mechanism, Meshes, Solid};
 use coact_robot::{HAND_JOINTS, Joint, RobotError, Urdf, isometry};
 use nalgebra::{Isometry3, Point3, Vector3};
@@ -32,25 +32,25 @@ pub(crate) fn finger_length(urdf: &Urdf, palm: &str, arm_joints: usize) -> Resul
     Ok(longest)
 }
 
-/// Bones of all links that the arm's joints alone carry.
-pub(crate) fn arm_bones(mechanism: &Mechanism) -> Result<Vec<Bone>, RobotError> {
-    let mut bones = Vec::new();
+/// Links of all links that the arm's joints alone carry.
+pub(crate) fn arm_links(mechanism: &Mechanism) -> Result<Vec<Link>, RobotError> {
+    let mut links = Vec::new();
     for link in mechanism.urdf.links() {
         let (joints, tail) = mechanism.urdf.chain(None, &link.name)?;
         if joints.len() <= mechanism.joints() && is_along(mechanism, &joints) {
-            push(mechanism, link, joints.len(), &tail, false, &mut bones)?;
+            push(mechanism, link, joints.len(), &tail, false, &mut links)?;
         }
     }
-    Ok(bones)
+    Ok(links)
 }
 
-/// Bones of the links below the palm, with the fingers at these angles.
-pub(crate) fn hand_bones(
+/// Links of the links below the palm, with the fingers at these angles.
+pub(crate) fn hand_links(
     mechanism: &Mechanism,
     angle: &dyn Fn(&str) -> f64,
-) -> Result<Vec<Bone>, RobotError> {
+) -> Result<Vec<Link>, RobotError> {
     let arm = mechanism.joints();
-    let mut bones = Vec::new();
+    let mut links = Vec::new();
     for link in mechanism.urdf.links() {
         let (joints, tail) = mechanism.urdf.chain(None, &link.name)?;
         if joints.len() > arm && is_along(mechanism, &joints[..arm]) {
@@ -64,10 +64,10 @@ pub(crate) fn hand_bones(
             let chain = joints[arm..].iter();
             let place =
                 chain.fold(Isometry3::identity(), |pose, joint| pose * joint.transform(turned(joint)));
-            push(mechanism, link, arm, &(place * tail), true, &mut bones)?;
+            push(mechanism, link, arm, &(place * tail), true, &mut links)?;
         }
     }
-    Ok(bones)
+    Ok(links)
 }
 
 /// These shapes of a hand, and those between them, so many that no joint turns by more than 0.4 rad from one to the next.
@@ -95,7 +95,7 @@ fn push(
     carriers: usize,
     place: &Isometry3<f64>,
     finger: bool,
-    bones: &mut Vec<Bone>,
+    links: &mut Vec<Link>,
 ) -> Result<(), RobotError> {
     let hand = finger || carriers == mechanism.joints();
     for shape in &link.collision {
@@ -112,7 +112,7 @@ fn push(
                 mesh(mechanism, link, filename, scale, finger)?.map(Solid::Capsule)
             }
         };
-        bones.extend(solid.map(|solid| Bone::new(&link.name, carriers, solid, place, hand)));
+        links.extend(solid.map(|solid| Link::new(&link.name, carriers, solid, place, hand)));
     }
     Ok(())
 }

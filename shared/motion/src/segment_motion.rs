@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 ///
 /// theta(s) = direct(s) + (theta_b - theta_0) g(s), g(s) = 4 s (1 - s) sin²(pi s), s = t / T.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Trajectory {
+pub(crate) struct SegmentMotion {
     /// State at the start.
     pub start: [MotionState; 7],
     /// State at the end.
@@ -21,7 +21,7 @@ pub struct Trajectory {
 /// Instants at which a movement is held against the limits.
 const CHECKED: usize = 64;
 
-impl Trajectory {
+impl SegmentMotion {
     /// Positions at the share `s` of the time, rad.
     pub fn posture(&self, s: f64) -> Posture {
         let direct = |joint: usize| self.direct(joint).position(s * self.duration);
@@ -37,6 +37,7 @@ impl Trajectory {
         self.states(&self.all_direct(), t)
     }
 
+    #[cfg(test)]
     /// Jerk of all joints `t` s after the start, rad/s³.
     pub fn jerk(&self, t: f64) -> Posture {
         self.jerks(&self.all_direct(), t)
@@ -119,7 +120,7 @@ mod tests {
     proptest! {
         #[test]
         fn it_begins_and_ends_as_asked(start in states(), end in states(), bounce in prop::array::uniform7(-1.0..1.0)) {
-            let trajectory = Trajectory { start, end, bounce, duration: 1.3 };
+            let trajectory = SegmentMotion { start, end, bounce, duration: 1.3 };
             for (found, wanted) in [(trajectory.at(0.0), start), (trajectory.at(1.3), end)] {
                 for joint in 0..7 {
                     prop_assert!((found[joint].position - wanted[joint].position).abs() < 1e-9);
@@ -133,7 +134,7 @@ mod tests {
         fn derivatives_agree_with_numeric_ones(
             start in states(), end in states(), bounce in prop::array::uniform7(-1.0..1.0), s in 0.05..0.95,
         ) {
-            let trajectory = Trajectory { start, end, bounce, duration: 1.3 };
+            let trajectory = SegmentMotion { start, end, bounce, duration: 1.3 };
             let (t, h) = (1.3 * s, 1e-5);
             let (before, here, after) = (trajectory.at(t - h), trajectory.at(t), trajectory.at(t + h));
             let jerk = trajectory.jerk(t);

@@ -2,7 +2,7 @@ use crate::{JointLimits, MotionState, Quintic};
 
 /// A minimum-jerk movement of several joints that start and end together, and end at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Movement<const N: usize> {
+pub struct PointToPoint<const N: usize> {
     /// State of each joint at the start.
     pub start: [MotionState; N],
     /// Where each joint comes to rest, rad.
@@ -20,7 +20,7 @@ const SHORTEST: f64 = 0.1;
 /// Points at which a movement that does not start at rest is held against the limits.
 const CHECKED: usize = 24;
 
-impl<const N: usize> Movement<N> {
+impl<const N: usize> PointToPoint<N> {
     /// The shortest movement, to about 8 %, from `start` to rest at `target` within the limits; `None` when there is
     /// none that keeps them, as when a joint is so fast that it must overshoot a position limit. From rest there
     /// always is one, if `start` and `target` lie within the position limits.
@@ -93,7 +93,7 @@ mod tests {
     const LIMITS: JointLimits =
         JointLimits { lower: -2.0, upper: 2.0, velocity: 2.0, effort: 1.0, acceleration: 10.0, jerk: 200.0 };
 
-    fn peaks(movement: &Movement<2>) -> (f64, f64, f64) {
+    fn peaks(movement: &PointToPoint<2>) -> (f64, f64, f64) {
         let mut peak = (0.0f64, 0.0f64, 0.0f64);
         for joint in 0..2 {
             let path = movement.joint(joint);
@@ -114,7 +114,7 @@ mod tests {
             from in -1.9..1.9, to in -1.9..1.9, other in -1.9..1.9,
         ) {
             let start = [MotionState::at_rest(from), MotionState::at_rest(0.0)];
-            let movement = Movement::plan(start, [to, other], &[LIMITS; 2]).unwrap();
+            let movement = PointToPoint::plan(start, [to, other], &[LIMITS; 2]).unwrap();
             let (velocity, acceleration, jerk) = peaks(&movement);
             prop_assert!(velocity <= 2.0 && acceleration <= 10.0 && jerk <= 200.0);
             let used = (velocity / 2.0).max(acceleration / 10.0).max(jerk / 200.0);
@@ -126,7 +126,7 @@ mod tests {
             from in -1.0..1.0, velocity in -1.5..1.5, acceleration in -6.0..6.0, to in -1.5..1.5,
         ) {
             let start = [MotionState { position: from, velocity, acceleration }, MotionState::at_rest(0.0)];
-            if let Some(movement) = Movement::plan(start, [to, 0.5], &[LIMITS; 2]) {
+            if let Some(movement) = PointToPoint::plan(start, [to, 0.5], &[LIMITS; 2]) {
                 let (velocity, acceleration, jerk) = peaks(&movement);
                 prop_assert!(velocity <= 2.0 && acceleration <= 10.0 && jerk <= 200.0);
             }

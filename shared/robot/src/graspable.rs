@@ -2,7 +2,7 @@ use std::f64::consts::FRAC_PI_2;
 
 /// The form of something that is to be gripped, standing on its underside.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Form {
+pub struct Graspable {
     /// How far the fingers close on it, m.
     pub width: f64,
     /// Height, m.
@@ -11,7 +11,7 @@ pub struct Form {
     pub flat: Option<Flat>,
 }
 
-/// Flat sides of a [`Form`].
+/// Flat sides of a [`Graspable`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flat {
     /// Extent across the direction in which the fingers close, m.
@@ -20,7 +20,7 @@ pub struct Flat {
     pub turn: f64,
 }
 
-impl Form {
+impl Graspable {
     /// Something round: `width` m wide where the fingers close on it.
     pub fn round(width: f64, height: f64) -> Self {
         Self { width, height, flat: None }

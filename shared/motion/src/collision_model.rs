@@ -1,0 +1,121 @@
+use crate::frames::Frames;
+use crate::{Capsule, Clearance, Counterpart, Link, Mechanism, Scene, SegmentKind, Solid};
+use coact_robot::Posture;
+use nalgebra::{Isometry3, Point3};
+
+/// Arm, hand and what it holds, as forms that move with the arm's joints. The fingers stand still in it, or pass from one
+/// shape to another on the way.
+#[derive(Debug, Clone)]
+pub struct CollisionModel {
+    pub(crate) links: Vec<Link>,
+    /// Pairs of links that could touch each other.
+    pub(crate) pairs: Vec<(usize, usize)>,
+    /// A ball around all links of the hand, in the frame of the arm's last joint.
+    pub(crate) hand: Option<Capsule>,
+}
+
+impl CollisionModel {
+    /// A collision_model of these links. Pairs that at least two joints separate are watched, but for those that touch each other
+    /// at rest: their forms are too coarse to tell what is between them, or one is mounted on the other.
+    pub(crate) fn new(mechanism: &Mechanism, links: Vec<Link>) -> Self {
+        let apart = |one: &Link, other: &Link| one.carriers.abs_diff(other.carriers) >= 3;
+        let mut pairs = Vec::new();
+        for one in 0..links.len() {
+            pairs.extend(
+                (0..one).filter(|&other| apart(&links[one], &links[other])).map(|other| (one, other)),
+            );
+        }
+        let of_hand = || links.iter().filter(|link| link.hand);
+        let ends: Vec<Point3<f64>> =
+            of_hand().flat_map(|link| [link.bounding_capsule.start, link.bounding_capsule.end]).collect();
+        let hand = Capsule::around_points(&ends).map(|around| {
+            let centre = nalgebra::center(&around.start, &around.end);
+            let reach = |link: &Link| {
+                let ends = [link.bounding_capsule.start, link.bounding_capsule.end];
+                link.bounding_capsule.radius
+                    + ends.iter().map(|end| (end - centre).norm()).fold(0.0, f64::max)
+            };
+            Capsule { start: centre, end: centre, radius: of_hand().map(reach).fold(0.0, f64::max) }
+        });
+        let (mut collision_model, mut touching) = (Self { links, pairs, hand }, Vec::new());
+        let scene = Scene::default();
+        let mut near = Vec::new();
+        for segment in SegmentKind::ALL {
+            let clearance =
+                Clearance { mechanism, collision_model: &collision_model, scene: &scene, segment };
+            clearance.near(&mechanism.park, 0.0, &mut near);
+            touching.append(&mut near);
+        }
+        let touches = |&(one, other): &(usize, usize)| {
+            touching.iter().any(|near| near.link == one && near.other == Counterpart::Link(other))
+        };
+        collision_model.pairs.retain(|pair| !touches(pair));
+        collision_model
+    }
+
+    /// Its links.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// The same collision_model with a part in its hand, its form's frame at `place` in the palm frame.
+    pub fn holding(
+        mut self,
+        mechanism: &Mechanism,
+        name: &str,
+        solid: Solid,
+        place: &Isometry3<f64>,
+    ) -> Self {
+        let place = mechanism.arm.tool * place;
+        self.links.push(Link::new(name, mechanism.joints(), solid, place, true));
+        Self::new(mechanism, self.links)
+    }
+
+    /// Capsules around all links that the arm's joints move, in the world, for a posture of the arm.
+    pub fn moving_bounding_capsules(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Capsule> {
+        let bounding_capsules = self.links.iter().zip(self.bounding_capsules(mechanism, posture));
+        bounding_capsules
+            .filter(|(link, _)| link.carriers > 0)
+            .map(|(_, bounding_capsule)| bounding_capsule)
+            .collect()
+    }
+
+    /// Distance of what the arm's joints move, with or without the hand and what it holds, from the nearest of `others`
+    /// (world), for a posture of the arm, m, measured between capsules; `most` when it is more. Nothing is allocated.
+    pub fn distance(
+        &self,
+        mechanism: &Mechanism,
+        posture: &Posture,
+        others: &[Capsule],
+        with_hand: bool,
+        most: f64,
+    ) -> f64 {
+        let frames = Frames::of(mechanism, posture);
+        let nearer = |nearest: f64, link: &Link| {
+            let bounding_capsule = link.bounding_capsule.within(&frames.carrier(link));
+            others.iter().fold(nearest, |nearest, other| {
+                // Most pairs are certainly farther apart than the nearest one so far.
+                if bounding_capsule.least_distance(other) < nearest {
+                    nearest.min(bounding_capsule.distance(other))
+                } else {
+                    nearest
+                }
+            })
+        };
+        let moving = self.links.iter().filter(|link| link.carriers > 0);
+        let nearest = moving.clone().filter(|link| !link.hand).fold(most, nearer);
+        // What is far from a ball around the hand is far from all of its many links.
+        let ball = self.hand.map(|ball| ball.within(&frames.pose[mechanism.joints() - 1]));
+        let far = |ball: &Capsule| others.iter().all(|other| other.least_distance(ball) >= nearest);
+        if !with_hand || ball.is_some_and(|ball| far(&ball)) {
+            return nearest;
+        }
+        moving.filter(|link| link.hand).fold(nearest, nearer)
+    }
+
+    /// Capsules around all links in the world, for a posture of the arm.
+    pub fn bounding_capsules(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Capsule> {
+        let frames = Frames::of(mechanism, posture);
+        self.links.iter().map(|link| link.bounding_capsule.within(&frames.carrier(link))).collect()
+    }
+}
