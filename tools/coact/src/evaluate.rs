@@ -23,19 +23,20 @@ use std::process::ExitCode;
   coact evaluate                                      100 assemblies with a partner who errs now and then
   coact evaluate --trials 10000 --out reports/random  ... many, with every action written down
   coact evaluate --baseline reactive                  against the same robot without anticipation
-  coact evaluate --without oml                        without object memory
+  coact evaluate --ablate oml                         without object memory
   coact evaluate --partner random:goal=0.2,clarity=0.3..1
 
 Keys of random, after a colon, separated by commas:
-  idle, goal, ask, means   shares of the person's choices: idling, a part taken for a subgoal whose turn has not come
-                           or that is achieved, a part asked for out of turn, a part asked for that is at hand
-  hidden, words            shares as well, of valid actions: a part taken behind something that hides it and the hand
-                           at it; an action that comes with a sentence of the task that means the same
-  clarity=LOW..HIGH        of a grip: 1 its own pitch, 0 the middle between it and the nearest other grip's
-  dropouts                 bursts per second in which the tracker loses the hand
-  withdraws, late          shares: parts in both hands that the person lets go, or takes back, too early; offered parts
-                           for which the person comes 2 to 6 s late
-  movement=LOW..HIGH       movement time of a reach, ms
+  idle, goal, ask, means  fractions of the person's choices: idling; a part taken for a subgoal whose
+                          turn has not come or that is achieved; a part requested out of turn; a part
+                          requested that is at hand
+  hidden, words           fractions of valid actions: a part taken behind an occluder that hides it and
+                          the hand at it; an action that comes with a sentence that means the same
+  clarity=LOW..HIGH       of a grip: 1 its own pitch, 0 the middle between it and the nearest other one
+  dropouts                bursts per second in which the tracker loses the hand
+  withdraws, late         fractions of handovers: the person lets go, or takes back, too early; the
+                          person comes 2 to 6 s late for the part
+  movement=LOW..HIGH      movement time of a reach, ms
 
 Exit status: 0, or 2 for bad usage or configuration.")]
 pub struct Args {
@@ -48,15 +49,15 @@ pub struct Args {
     /// Seed of the first assembly; the others follow
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Who works with the robot: random[:KEY=VALUE,...], synthetic, script:FILE or recorded:DIR
+    /// Who works with the robot: random[:KEY=VALUE,...], synthetic, script:FILE or recorded[:DIR]
     #[arg(long, default_value = "random")]
     partner: String,
     /// Evaluate another robot with the same seeds, and compare
     #[arg(long, value_enum)]
     baseline: Option<Baseline>,
-    /// Take a layer, or the noise, away from the network; may be repeated
+    /// Evaluate an ablation: without this layer, or without noise; may be repeated
     #[arg(long, value_enum, value_name = "LAYER")]
-    without: Vec<Without>,
+    ablate: Vec<Ablated>,
     /// How many assemblies at the same time [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -75,9 +76,9 @@ enum Baseline {
     Reactive,
 }
 
-/// What is taken away.
+/// What is taken away from the network.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Without {
+enum Ablated {
     /// Object memory
     Oml,
     /// Common subgoals
@@ -114,7 +115,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         std::fs::create_dir_all(out)
             .with_context(|| format!("--out {}: expected a folder that can be written to", out.display()))?;
     }
-    let mind = Mind { reactive: false, without: args.without.iter().map(|layer| layer.ablation()).collect() };
+    let mind = Mind { reactive: false, without: args.ablate.iter().map(|layer| layer.ablation()).collect() };
     let trials = assemble(&args, &settings, &mind, "assemblies")?;
     let baseline = match args.baseline {
         None => None,
@@ -143,7 +144,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-impl Without {
+impl Ablated {
     fn ablation(self) -> Ablation {
         match self {
             Self::Oml => Ablation::Oml,
@@ -155,7 +156,7 @@ impl Without {
 }
 
 fn settings(args: &Args) -> Result<RunSettings> {
-    let Installation { configuration, .. } = Installation::find()?;
+    let Installation { configuration, reaches, .. } = Installation::find()?;
     let below = |path: &str| configuration.join(path);
     if args.seed.checked_add(args.trials).is_none() {
         bail!("--seed {}: too large for {} trials", args.seed, args.trials);
@@ -167,7 +168,7 @@ fn settings(args: &Args) -> Result<RunSettings> {
         pipeline: below("pipeline.toml"),
         report: PathBuf::new(),
         seed: args.seed,
-        partner: partner::absolute(&args.partner),
+        partner: partner::setting(&args.partner, &reaches),
         world: WorldMode::Kinematic,
     })
 }
@@ -216,11 +217,11 @@ fn show(evaluation: &Evaluation) {
     let one = rows(report);
     match baseline.as_ref().map(rows) {
         None => {
-            table.set_header(["figure", "value"]);
+            table.set_header(["metric", "value"]);
             table.add_rows(one.into_iter().map(|(name, value)| [name, value]));
         }
         Some(other) => {
-            table.set_header(["figure", "with anticipation", "without"]);
+            table.set_header(["metric", "with anticipation", "without"]);
             let both = one.into_iter().zip(other);
             table.add_rows(both.map(|((name, value), (_, rival))| [name, value, rival]));
         }
@@ -229,7 +230,7 @@ fn show(evaluation: &Evaluation) {
     if let Some(Comparison { pairs, .. }) = comparison {
         println!("with against without anticipation, {pairs} assemblies that both completed:");
     }
-    for (name, figure) in comparison.iter().flat_map(|comparison| {
+    for (name, ratio) in comparison.iter().flat_map(|comparison| {
         [
             ("functional delay, ratio", comparison.functional_delay_ratio),
             ("functional delay, difference", comparison.functional_delay_difference),
@@ -238,13 +239,13 @@ fn show(evaluation: &Evaluation) {
             ("task time, ratio", comparison.time_ratio),
         ]
     }) {
-        println!("  {name:30} {}", interval(figure, 1.0, 3, ""));
+        println!("  {name:30} {}", interval(ratio, 1.0, 3, ""));
     }
 }
 
 fn rows(report: &Report) -> Vec<(String, String)> {
     let row = |name: &str, value: String| (name.to_owned(), value);
-    let percent = |figure: Option<Interval>| interval(figure, 100.0, 1, " %");
+    let percent = |fraction: Option<Interval>| interval(fraction, 100.0, 1, " %");
     let lead =
         report.lead_ms.map_or("-".into(), |lead| format!("{:.0} {:.0} {:.0}", lead.p5, lead.p50, lead.p95));
     let mut rows = vec![
@@ -287,9 +288,9 @@ fn share(share: &Share) -> String {
     }
 }
 
-fn interval(figure: Option<Interval>, scale: f64, digits: usize, unit: &str) -> String {
-    figure.map_or("-".into(), |Interval { value, low, high, .. }| {
-        let [value, low, high] = [value, low, high].map(|figure| format!("{:.digits$}", scale * figure));
+fn interval(metric: Option<Interval>, scale: f64, digits: usize, unit: &str) -> String {
+    metric.map_or("-".into(), |Interval { value, low, high, .. }| {
+        let [value, low, high] = [value, low, high].map(|value| format!("{:.digits$}", scale * value));
         format!("{value}{unit} ({low} to {high})")
     })
 }

@@ -1,13 +1,15 @@
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
-/// Where this installation's programs and configuration are.
+/// Where this installation's programs, configuration and data are.
 #[derive(Debug, Clone)]
 pub struct Installation {
     /// Folder of the programs: that of this one.
     pub programs: PathBuf,
     /// Folder `rt-config`.
     pub configuration: PathBuf,
+    /// Folder of the shipped recorded reaches, beside `rt-config`.
+    pub reaches: PathBuf,
 }
 
 impl Installation {
@@ -19,14 +21,12 @@ impl Installation {
         let program = std::env::current_exe().context("this program's own place is unknown")?;
         let programs = program.parent().unwrap_or(Path::new("/")).to_owned();
         let here = std::env::current_dir().context("there is no current folder")?;
-        let above = programs.ancestors().chain(here.ancestors());
-        let configuration = above
-            .map(|folder| folder.join("rt-config"))
-            .find(|folder| folder.join("pipeline.toml").is_file())
-            .with_context(|| {
-                let (programs, here) = (programs.display(), here.display());
-                format!("no rt-config/pipeline.toml above {programs} or {here}; expected it in the checkout's root")
-            })?;
-        Ok(Self { programs, configuration })
+        let mut above = programs.ancestors().chain(here.ancestors());
+        let root = above.find(|folder| folder.join("rt-config/pipeline.toml").is_file()).with_context(|| {
+            let (programs, here) = (programs.display(), here.display());
+            format!("no rt-config/pipeline.toml above {programs} or {here}; expected it in the checkout's root")
+        })?;
+        let (configuration, reaches) = (root.join("rt-config"), root.join("data/reaches"));
+        Ok(Self { programs, configuration, reaches })
     }
 }

@@ -12,16 +12,20 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// What to show.
+/// Shows how punctual and how fast a run was, or is.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  coact latency reports/long          percentiles and curves of a run that has ended
+  coact latency --live                of a running set, second by second
+  coact latency --live --json         the same, one line of JSON a second")]
 pub struct Args {
     /// Report directory of a run (or its folder of .hlog files)
-    #[arg(required_unless_present = "live", conflicts_with = "live", value_name = "DIR")]
+    #[arg(required_unless_present = "live", conflicts_with = "live", value_name = "REPORT")]
     directory: Option<PathBuf>,
-    /// Attach to a running set and show its figures every second, until Ctrl-C or its end
+    /// Attach to a running set and show its metrics every second, until Ctrl-C or its end
     #[arg(long)]
     live: bool,
-    /// The run to attach to, when several are running; default: the newest
+    /// The run to attach to, when several are running [default: the newest]
     #[arg(long, value_name = "ID", requires = "live")]
     run: Option<String>,
     /// Print JSON (with --live, one line a second)
@@ -29,7 +33,7 @@ pub struct Args {
     json: bool,
 }
 
-/// The same figures for programs.
+/// The same metrics for programs.
 #[derive(Debug, Serialize)]
 struct Report<'a> {
     processes: BTreeMap<&'a str, Deadlines>,
@@ -37,7 +41,7 @@ struct Report<'a> {
     histograms: BTreeMap<&'a str, Curve>,
 }
 
-/// Deadline account of one process.
+/// Cycles and deadline misses of one process.
 #[derive(Debug, Serialize)]
 struct Deadlines {
     cycles: u64,
@@ -63,7 +67,7 @@ impl From<&Account> for Deadlines {
     }
 }
 
-/// Shows the figures of a report, or of a running set.
+/// Shows the metrics of a report, or of a running set.
 ///
 /// # Errors
 /// There are none, or what is there is damaged.
@@ -206,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn json_has_figures_raw_and_corrected() {
+    fn json_has_percentiles_raw_and_corrected() {
         let figures = load(written().path()).unwrap();
         let json = serde_json::to_value(report(&figures)).unwrap();
         assert_eq!(json["processes"]["control"]["cycles"], 100);

@@ -1,6 +1,6 @@
-use crate::folder_name::unused_report_folder;
 use crate::installation::Installation;
-use crate::{album, closed_pipe, closing, lockstep, partner};
+use crate::report_folder::unused_report_folder;
+use crate::{closed_pipe, lockstep, partner, run_report, snapshots};
 use anyhow::{Context, Result};
 use coact_joint_task::NetworkPlan;
 use coact_monitor::Album;
@@ -13,13 +13,14 @@ use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// Starts the processes of the pipeline, shows their progress, and reports how fast, regular and anticipatory they were.
+/// Starts the processes of the pipeline, shows their progress, and reports how fast, punctual and anticipatory they
+/// were.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   coact launch                                        the toy vehicle, with a simulated partner
   coact launch --duration 600 --report reports/long   ten minutes, one assembly after another
-  coact launch --inject fields:kill@20s               what if the mind is killed after 20 s?
-  coact launch --partner recorded:DIR                 recorded reaches move the partner's hand
+  coact launch --inject fields:kill@20s               what if fields is killed after 20 s?
+  coact launch --partner recorded                     hands of real people; recorded:DIR for others
   coact launch --lockstep --world kinematic --json    as fast as the machine can
 
 Exit status: 0 every verdict holds, 1 one does not, 2 bad usage or configuration.")]
@@ -27,7 +28,7 @@ pub struct Args {
     /// The task [default: the toy vehicle]
     #[arg(long, value_name = "FILE")]
     task: Option<PathBuf>,
-    /// Who works with the robot: synthetic, random[:KEY=VALUE,...], script:FILE or recorded:DIR
+    /// Who works with the robot: synthetic, random[:KEY=VALUE,...], script:FILE or recorded[:DIR]
     #[arg(long, default_value = "synthetic")]
     partner: String,
     /// Seed of everything random
@@ -76,14 +77,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
     } else if let Err(error) = launch.run() {
         return gave_up(error, &settings, json);
     }
-    draw_album(&settings);
+    draw_snapshots(&settings);
     closed_pipe::ends_the_program();
-    closing::show(&settings.report, json)
+    run_report::show(&settings.report, json)
 }
 
 /// Reads and checks every file before anything is started.
 fn prepare(args: Args) -> Result<Launch> {
-    let Installation { programs, configuration } = Installation::find()?;
+    let Installation { programs, configuration, reaches } = Installation::find()?;
     let below = |path: &str| configuration.join(path);
     let task = absolute(args.task.unwrap_or_else(|| below("tasks/toy-vehicle.toml")))?;
     let pipeline = absolute(args.pipeline.unwrap_or_else(|| below("pipeline.toml")))?;
@@ -96,7 +97,7 @@ fn prepare(args: Args) -> Result<Launch> {
         pipeline: pipeline.clone(),
         report,
         seed: args.seed,
-        partner: partner::absolute(&args.partner),
+        partner: partner::setting(&args.partner, &reaches),
         world: args.world,
     };
     let (task, _) = NetworkPlan::load(&settings.task)?;
@@ -113,10 +114,10 @@ fn prepare(args: Args) -> Result<Launch> {
     })
 }
 
-/// The run has its verdict without it: an album that cannot be drawn is warned of.
-fn draw_album(settings: &RunSettings) {
-    if let Err(error) = album::draw(&settings.report, &settings.task, &settings.robot) {
-        closing::alarm(&format!("the album was not drawn: {error:#}"));
+/// The run has its verdict without them: snapshots that cannot be drawn cost a warning only.
+fn draw_snapshots(settings: &RunSettings) {
+    if let Err(error) = snapshots::draw(&settings.report, &settings.task, &settings.robot) {
+        run_report::warn(&format!("the snapshots were not drawn: {error:#}"));
     }
 }
 
@@ -126,9 +127,9 @@ fn gave_up(error: LaunchError, settings: &RunSettings, json: bool) -> Result<Exi
         return Err(error.into());
     }
     if settings.report.join(Album::FILE).is_file() {
-        draw_album(settings);
+        draw_snapshots(settings);
     }
-    closing::show(&settings.report, json).with_context(|| error.to_string()).ok();
-    closing::alarm(&error.to_string());
+    run_report::show(&settings.report, json).with_context(|| error.to_string()).ok();
+    run_report::warn(&error.to_string());
     Ok(ExitCode::FAILURE)
 }

@@ -5,8 +5,11 @@ mod order;
 
 use std::process::ExitCode;
 
-/// Arguments of `coact learn`.
+/// Learns connections of the network.
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  coact learn order --demonstrations reports/* --out mine.toml
+  coact learn mapping --out acts.toml")]
 pub struct Args {
     #[command(subcommand)]
     command: Command,

@@ -1,11 +1,9 @@
 //! The operator's command line.
 
-mod album;
 mod closed_pipe;
-mod closing;
+mod completions;
 mod evaluate;
 mod figures;
-mod folder_name;
 mod inject;
 mod installation;
 mod latency;
@@ -15,7 +13,10 @@ mod lockstep;
 mod motion;
 mod partner;
 mod reaches;
+mod report_folder;
+mod run_report;
 mod say;
+mod snapshots;
 mod task;
 mod train;
 
@@ -24,8 +25,14 @@ use owo_colors::{OwoColorize, Stream};
 use std::process::ExitCode;
 
 /// A robot that builds together with a person.
+///
+/// Every command has --help with examples.
 #[derive(Parser)]
-#[command(name = "coact", version, max_term_width = 110)]
+#[command(name = "coact", version, max_term_width = 100)]
+#[command(after_help = "Examples:
+  coact launch                          a robot and a simulated partner build a toy vehicle
+  coact task check mine.toml            what is wrong with a task of one's own
+  coact completions bash                what makes the shell complete all this")]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -39,17 +46,17 @@ enum Command {
     Inject(inject::Args),
     /// Say something to the robot of a running set
     Say(say::Args),
-    /// Show how regular and how fast a run was, or is
+    /// Show how punctual and how fast a run was, or is
     Latency(latency::Args),
-    /// Draw a run's album: pictures of who took what
-    Album(album::Args),
+    /// Draw a run's snapshots: pictures of who took what
+    Snapshots(snapshots::Args),
     /// Show what is made of a task file
     Task(task::Args),
-    /// Learn connections of the network: a task's plan from demonstrations
+    /// Learn connections of the network: a plan from demonstrations, what acts show
     Learn(learn::Args),
     /// Measure anticipation on recorded reaches of real people
     Reaches(reaches::Args),
-    /// Evaluate whole assemblies with random partners, against other minds
+    /// Evaluate whole assemblies with random partners, and compare with ablations
     Evaluate(evaluate::Args),
     /// Draw the chapter's figures from runs made now
     Figures(figures::Args),
@@ -57,6 +64,8 @@ enum Command {
     Motion(motion::Args),
     /// Train the model of preshaping from recorded reaches
     Train(train::Args),
+    /// Print completions for a shell
+    Completions(completions::Args),
 }
 
 /// Bad usage, configuration or input.
@@ -64,8 +73,11 @@ const REFUSED: u8 = 2;
 
 /// Whether a command neither starts processes nor speaks with running ones.
 fn works_on_files_alone(command: &Command) -> bool {
-    use Command::{Album, Evaluate, Figures, Learn, Motion, Task, Train};
-    matches!(command, Album(_) | Task(_) | Learn(_) | Evaluate(_) | Figures(_) | Motion(_) | Train(_))
+    use Command::{Completions, Evaluate, Figures, Learn, Motion, Snapshots, Task, Train};
+    matches!(
+        command,
+        Completions(_) | Evaluate(_) | Figures(_) | Learn(_) | Motion(_) | Snapshots(_) | Task(_) | Train(_)
+    )
 }
 
 fn main() -> ExitCode {
@@ -88,7 +100,7 @@ fn main() -> ExitCode {
         Command::Inject(args) => inject::run(args),
         Command::Say(args) => say::run(args),
         Command::Latency(args) => latency::run(args),
-        Command::Album(args) => album::run(args),
+        Command::Snapshots(args) => snapshots::run(args),
         Command::Task(args) => task::run(args),
         Command::Learn(args) => learn::run(args),
         Command::Reaches(args) => reaches::run(args),
@@ -96,6 +108,7 @@ fn main() -> ExitCode {
         Command::Figures(args) => figures::run(args),
         Command::Motion(args) => motion::run(args),
         Command::Train(args) => train::run(args),
+        Command::Completions(args) => Ok(completions::run(&args)),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("{} {error:#}", "error:".if_supports_color(Stream::Stderr, |text| text.red()));

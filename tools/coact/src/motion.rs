@@ -9,6 +9,9 @@ use std::process::ExitCode;
 
 /// Plans movements of arm and hand.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  coact motion plan --to=-0.4,0.55,0.83 --out motion
+  coact motion bench")]
 pub struct Args {
     #[command(subcommand)]
     command: Command,

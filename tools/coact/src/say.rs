@@ -19,7 +19,9 @@ pub struct Args {
     run: Option<String>,
 }
 
-/// How long the sentence is kept for the world to hear it.
+/// How long this program waits for the world to read the sentence, before it takes its end of the topic away.
+///
+/// Chosen by hand: hundreds of the world's cycles.
 const HEARD_WITHIN: Duration = Duration::from_millis(300);
 
 /// Publishes the sentence to the run's world.

@@ -6,8 +6,12 @@ mod show;
 
 use std::process::ExitCode;
 
-/// Arguments of `coact task`.
+/// Shows, checks and begins task files.
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  coact task new --out mine.toml
+  coact task check mine.toml
+  coact task show mine.toml")]
 pub struct Args {
     #[command(subcommand)]
     command: Command,

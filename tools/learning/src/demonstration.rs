@@ -3,7 +3,7 @@ use serde::Deserialize;
 use std::collections::HashSet;
 use std::path::Path;
 
-/// One construction of the whole, as it was perceived: which subgoal came about when.
+/// One whole assembly as it was perceived: which subgoal was achieved when.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Demonstration {
     /// Where it was read, in words.
@@ -12,17 +12,17 @@ pub struct Demonstration {
     pub steps: Vec<Step>,
 }
 
-/// A perceived change of the construction.
+/// A subgoal that was perceived to be achieved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
-    /// When, ms from the start.
+    /// Time from the start, ms.
     pub at_ms: u64,
-    /// Index of the subgoal that came about.
+    /// Index of the subgoal.
     pub subgoal: usize,
 }
 
-/// A change as files name it.
-struct Named {
+/// A step as files name it.
+struct NamedStep {
     place: String,
     at_ms: u64,
     name: String,
@@ -51,7 +51,7 @@ enum Event {
         name: String,
     },
     #[serde(other)]
-    Else,
+    Other,
 }
 
 impl Demonstration {
@@ -60,7 +60,7 @@ impl Demonstration {
     /// a report folder or its `events.jsonl` holds one for each completed assembly.
     ///
     /// # Errors
-    /// A file that cannot be read as such, an unknown subgoal, one that comes about twice or never.
+    /// A file that cannot be read as such, an unknown subgoal, one that is achieved twice or never.
     pub fn read(path: &Path, known: &[String]) -> Result<Vec<Self>, LearnError> {
         let path = if path.is_dir() { path.join("events.jsonl") } else { path.to_owned() };
         let text =
@@ -77,10 +77,10 @@ impl Demonstration {
         }
     }
 
-    fn new(source: &str, named: Vec<Named>, known: &[String]) -> Result<Self, LearnError> {
+    fn new(source: &str, named: Vec<NamedStep>, known: &[String]) -> Result<Self, LearnError> {
         let mut steps = Vec::new();
         let mut seen = HashSet::new();
-        for Named { place, at_ms, name } in named {
+        for NamedStep { place, at_ms, name } in named {
             let subgoal = known.iter().position(|own| *own == name).ok_or_else(|| {
                 let names: Vec<_> = known.iter().map(|name| format!("{name:?}")).collect();
                 let problem =
@@ -88,22 +88,22 @@ impl Demonstration {
                 LearnError::content(&place, problem)
             })?;
             if !seen.insert(subgoal) {
-                let problem = format!("{name:?} comes about a second time; expected every subgoal once");
+                let problem = format!("{name:?} is achieved a second time; expected every subgoal once");
                 return Err(LearnError::content(&place, problem));
             }
             steps.push(Step { at_ms, subgoal });
         }
         if let Some(missing) = (0..known.len()).find(|subgoal| !seen.contains(subgoal)) {
-            let problem = format!("{:?} never comes about; expected the whole construction", known[missing]);
+            let problem = format!("{:?} is never achieved; expected the whole assembly", known[missing]);
             return Err(LearnError::content(source, problem));
         }
         steps.sort_by_key(|step| step.at_ms);
         Ok(Self { source: source.into(), steps })
     }
 
-    /// One demonstration for each assembly that was completed; one that was broken off shows no whole construction.
+    /// One demonstration for each assembly that was completed; one that was broken off is left out.
     fn of_report(name: &str, text: &str, known: &[String]) -> Result<Vec<Self>, LearnError> {
-        let mut assemblies: Vec<(u64, Vec<Named>)> = Vec::new();
+        let mut assemblies: Vec<(u64, Vec<NamedStep>)> = Vec::new();
         for (line, text) in text.lines().enumerate() {
             let place = format!("{name}:{}", line + 1);
             let event = serde_json::from_str(text)
@@ -113,14 +113,17 @@ impl Demonstration {
                 assemblies.push((assembly, Vec::new()));
             }
             if let Some((_, steps)) = assemblies.last_mut() {
-                steps.push(Named { place, at_ms, name });
+                steps.push(NamedStep { place, at_ms, name });
             }
         }
         if assemblies.len() > 1 && assemblies.last().is_some_and(|(_, steps)| steps.len() < known.len()) {
             assemblies.pop();
         }
         if assemblies.is_empty() {
-            return Err(LearnError::content(name, "no subgoal came about in this run; expected an assembly"));
+            return Err(LearnError::content(
+                name,
+                "no subgoal was achieved in this run; expected an assembly",
+            ));
         }
         let demonstration =
             |(assembly, steps)| Self::new(&format!("{name} (assembly {})", assembly + 1), steps, known);
@@ -128,7 +131,7 @@ impl Demonstration {
     }
 }
 
-fn entries_of_toml(name: &str, text: &str) -> Result<Vec<Named>, LearnError> {
+fn entries_of_toml(name: &str, text: &str) -> Result<Vec<NamedStep>, LearnError> {
     let file: TomlFile = toml::from_str(text).map_err(|error| {
         let start = error.span().map_or(0, |span| span.start);
         let line = 1 + text.bytes().take(start).filter(|&byte| byte == b'\n').count();
@@ -138,7 +141,7 @@ fn entries_of_toml(name: &str, text: &str) -> Result<Vec<Named>, LearnError> {
     file.achieved.into_iter().enumerate().map(named).collect()
 }
 
-fn entries_of_csv(name: &str, text: &str) -> Result<Vec<Named>, LearnError> {
+fn entries_of_csv(name: &str, text: &str) -> Result<Vec<NamedStep>, LearnError> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
     let entry = |(index, entry): (usize, Result<Entry, csv::Error>)| {
         let place = format!("{name}:{}", index + 2);
@@ -153,10 +156,10 @@ fn entries_of_csv(name: &str, text: &str) -> Result<Vec<Named>, LearnError> {
     reader.deserialize().enumerate().map(entry).collect()
 }
 
-fn named(place: String, Entry { seconds, subgoal }: Entry) -> Result<Named, LearnError> {
+fn named(place: String, Entry { seconds, subgoal }: Entry) -> Result<NamedStep, LearnError> {
     if !(0.0..1e6).contains(&seconds) {
         let problem = format!("seconds is {seconds}; expected a time from the start, 0 to 1000000");
         return Err(LearnError::content(place, problem));
     }
-    Ok(Named { place, at_ms: (seconds * 1e3).round() as u64, name: subgoal })
+    Ok(NamedStep { place, at_ms: (seconds * 1e3).round() as u64, name: subgoal })
 }

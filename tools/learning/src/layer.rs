@@ -1,7 +1,11 @@
 use coact_joint_task::LayerPlan;
 use coact_neural_field::{Field, ParameterError};
+use coact_period::PERIOD_S;
 
-/// One field and its state.
+/// The period in ms, the unit of the fields' time constants.
+const PERIOD_MS: f64 = PERIOD_S * 1e3;
+
+/// One layer of the network that runs by itself: a field and its state.
 pub(crate) struct Layer {
     field: Field,
     gain: f64,
@@ -28,17 +32,17 @@ impl Layer {
         })
     }
 
-    /// Nothing stands.
+    /// Brings every site to the resting level: no peak stands.
     pub fn rest(&mut self) {
         self.now.fill(self.resting[0]);
         self.signal.fill(0.0);
     }
 
-    /// One step of 1 ms under inputs in units of the ignition threshold.
+    /// Advances by one period under inputs in units of the ignition threshold.
     pub fn step(&mut self, strength: &[f64]) {
         let strength: Vec<f64> = strength.iter().map(|strength| self.gain * strength).collect();
         self.field.spread(&strength, &mut self.input);
-        self.field.step(1.0, &self.now, &self.input, &self.resting, &mut self.next);
+        self.field.step(PERIOD_MS, &self.now, &self.input, &self.resting, &mut self.next);
         std::mem::swap(&mut self.now, &mut self.next);
         self.field.signals(&self.now, &mut self.signal);
     }

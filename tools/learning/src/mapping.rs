@@ -1,27 +1,40 @@
+use crate::Connection;
 use crate::layer::Layer;
-use crate::outcomes::{Outcome, Outcomes};
+use crate::success_detector::{Success, SuccessDetector};
 use coact_joint_task::{NetworkPlan, Task};
 use coact_messages::{FieldFrame, LayerKind, Percept};
 use coact_neural_field::ParameterError;
+use coact_period::cycles;
+use std::time::Duration;
 
-/// How long a success is replayed, ms, and the strength with which it activates its chain, in ignition thresholds.
-const REPLAY: u32 = 200;
-const TEACHES: f64 = 1.5;
-/// How fast a connection follows the trace of its act, per ms of a full peak.
-const LEARN: f64 = 0.005;
-/// Of the acts that were observed, those with less than this share of the strongest did not show the chain.
+/// How long a success is replayed.
+///
+/// Chosen by hand, together with [`LEARNING_RATE`]: in so long a full peak takes a connection 63 % of the way to the
+/// trace, so that a few successes teach, and later ones outweigh a single odd one.
+const REPLAY: u64 = cycles(Duration::from_millis(200));
+/// Input with which a success activates its chain, in ignition thresholds.
+///
+/// As what is surely perceived has in the network file: clearly above 1, which ignites.
+const TEACHING_INPUT: f64 = 1.5;
+/// How fast a connection follows the trace of its act, per cycle of a full peak. Chosen with [`REPLAY`].
+const LEARNING_RATE: f64 = 0.005;
+/// Of the acts that were observed, those with less than this fraction of the strongest did not show the chain.
+///
+/// Chosen by hand: an act of the same strength 1.4 s earlier has fallen to half. Untested with other tasks.
 const SHOWN: f64 = 0.5;
-/// Least trace of an act that was observed at all.
+/// Least trace of an act that was observed at all: below, it is noise of the field. Chosen by hand; not sensitive.
 const OBSERVED: f64 = 0.3;
+/// Weakest connection that is worth writing down, in ignition thresholds. Chosen by hand: it moves no decision.
+const WORTH_WRITING: f64 = 0.05;
 
 /// Learns which observed act shows which chain of the person (chapter, section 7; Erlhagen, Mukovskiy, Bicho 2006).
 ///
-/// The rule correlates three things: the trace x of an act in AOL, the activity c of a chain in ASL, and success. What
-/// a chain was is known only by its outcome: when the part has come to a place or hand that somebody wanted, the
-/// outcome activates its chain in a field with ASL's constants, and while its peak stands the weights follow the trace,
+/// The rule correlates three things: the trace x of an act in AOL, the signal c of a chain in ASL, and success. Which
+/// chain it was is known only when it has succeeded: when the part has come to a place or hand that needs it, the
+/// success activates its chain in a field with ASL's constants, and while its peak stands the weights follow the trace,
 ///
 /// ```text
-/// dw/dt = LEARN success c (x - w)
+/// dw/dt = LEARNING_RATE success c (x - w)
 /// ```
 ///
 /// Acts with a part connect to chains with the same kind of part only; gestures connect to all.
@@ -29,23 +42,10 @@ pub struct Mapping {
     task: Task,
     plan: NetworkPlan,
     simulation: Layer,
-    outcomes: Outcomes,
+    detector: SuccessDetector,
     /// Of each act (row) to each chain.
     weights: Vec<f64>,
     successes: Vec<u32>,
-}
-
-/// A learned connection.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Connection {
-    /// Label of the act in AOL.
-    pub act: String,
-    /// Label of the chain in ASL.
-    pub chain: String,
-    /// Strength, in units of the ignition threshold.
-    pub weight: f64,
-    /// Successes of that chain; 0 when it was carried over from other kinds of part.
-    pub successes: u32,
 }
 
 impl Mapping {
@@ -57,7 +57,7 @@ impl Mapping {
         let simulation = Layer::new(plan.layer(LayerKind::ActionSimulation), plan.sites_per_population)?;
         Ok(Self {
             simulation,
-            outcomes: Outcomes::new(task),
+            detector: SuccessDetector::new(task),
             weights: vec![0.0; task.acts.len() * task.chains.len()],
             successes: vec![0; task.chains.len()],
             task: task.clone(),
@@ -67,23 +67,23 @@ impl Mapping {
 
     /// Another construction begins: what was under way is forgotten, what was learned is not.
     pub fn begin(&mut self) {
-        self.outcomes = Outcomes::new(&self.task);
+        self.detector = SuccessDetector::new(&self.task);
     }
 
-    /// Watches one ms: what AOL observes, and what is perceived to come of it.
+    /// Watches one cycle: what AOL observes, and what is perceived to come of it.
     pub fn watch(&mut self, tick: u64, frame: &FieldFrame, percept: &Percept) {
         let observed = &frame.signal[self.plan.layer(LayerKind::ActionObservation).populations.clone()];
-        for outcome in self.outcomes.observe(tick, &self.task, observed, percept) {
-            self.succeed(&outcome);
+        for success in self.detector.observe(tick, &self.task, observed, percept) {
+            self.succeed(&success);
         }
     }
 
-    fn succeed(&mut self, outcome: &Outcome) {
-        let Outcome { kind, from, side, .. } = *outcome;
+    fn succeed(&mut self, success: &Success) {
+        let Success { kind, from, side, .. } = *success;
         for chain in 0..self.task.chains.len() {
             let own = &self.task.chains[chain];
             if (own.kind, own.from, own.side) == (kind, from, side)
-                && let Some(shown) = self.shown(chain, &outcome.trace)
+                && let Some(shown) = self.shown(chain, &success.trace)
             {
                 self.replay(chain, &shown);
             }
@@ -94,9 +94,9 @@ impl Mapping {
     fn shown(&self, chain: usize, trace: &[f64]) -> Option<Vec<f64>> {
         let possible = |act: usize| if self.connects(act, chain) { trace[act] } else { 0.0 };
         let strongest = (0..trace.len()).map(possible).fold(0.0, f64::max);
-        let share =
-            |act: usize| Some(possible(act) / strongest).filter(|share| *share >= SHOWN).unwrap_or(0.0);
-        (strongest >= OBSERVED).then(|| (0..trace.len()).map(share).collect())
+        let fraction =
+            |act: usize| Some(possible(act) / strongest).filter(|fraction| *fraction >= SHOWN).unwrap_or(0.0);
+        (strongest >= OBSERVED).then(|| (0..trace.len()).map(fraction).collect())
     }
 
     fn connects(&self, act: usize, chain: usize) -> bool {
@@ -110,7 +110,7 @@ impl Mapping {
     fn replay(&mut self, chain: usize, shown: &[f64]) {
         let chains = self.task.chains.len();
         let mut teacher = vec![0.0; chains];
-        teacher[chain] = TEACHES;
+        teacher[chain] = TEACHING_INPUT;
         self.simulation.rest();
         self.successes[chain] += 1;
         for _ in 0..REPLAY {
@@ -118,7 +118,7 @@ impl Mapping {
             for (act, shown) in shown.iter().enumerate() {
                 for (chain, activity) in self.simulation.signal.iter().enumerate() {
                     let weight = &mut self.weights[act * chains + chain];
-                    *weight += LEARN * activity * (shown - *weight);
+                    *weight += LEARNING_RATE * activity * (shown - *weight);
                 }
             }
         }
@@ -135,10 +135,10 @@ impl Mapping {
         let (acts, chains) = (self.task.acts.len(), self.task.chains.len());
         let pairs = (0..chains).flat_map(|chain| (0..acts).map(move |act| (act, chain)));
         let connection = |(act, chain): (usize, usize)| {
-            let share = self.share(act, chain)?;
+            let fraction = self.fraction(act, chain)?;
             let label = |layer, index: usize| self.plan.populations_of(layer)[index].label.clone();
-            let weight = self.ceiling(act) * share;
-            (weight >= 0.05).then(|| Connection {
+            let weight = self.ceiling(act) * fraction;
+            (weight >= WORTH_WRITING).then(|| Connection {
                 act: label(LayerKind::ActionObservation, act),
                 chain: label(LayerKind::ActionSimulation, chain),
                 weight,
@@ -148,7 +148,8 @@ impl Mapping {
         pairs.filter_map(connection).collect()
     }
 
-    fn share(&self, act: usize, chain: usize) -> Option<f64> {
+    /// How strong the connection is as a fraction of what the network file allows; `None` where nothing was learned.
+    fn fraction(&self, act: usize, chain: usize) -> Option<f64> {
         let weight = |act: usize, chain: usize| self.weights[act * self.task.chains.len() + chain];
         if !self.connects(act, chain) {
             return None;
@@ -176,6 +177,7 @@ impl Mapping {
         }
     }
 
+    /// Strength of the connections that the network file gives to acts of the same role.
     fn ceiling(&self, act: usize) -> f64 {
         let plan = &self.plan;
         let role = plan.populations_of(LayerKind::ActionObservation)[act].role;

@@ -2,12 +2,12 @@ use crate::{Connection, LearnError};
 use std::path::Path;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, value};
 
-/// How learned weights came about.
+/// From what the weights were learned.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Provenance {
     /// Name of the task.
     pub task: String,
-    /// Constructions that were watched.
+    /// Assemblies that were watched.
     pub trials: u32,
     /// Seed of the first one.
     pub seed: u64,
@@ -18,12 +18,13 @@ pub struct Provenance {
 /// Learned connections as a file that a task names with `learned = "FILE"`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MappingFile {
-    /// How they came about.
+    /// From what they were learned.
     pub provenance: Provenance,
     /// From acts to chains.
     pub connections: Vec<Connection>,
 }
 
+/// Comment at the head of the file.
 const HEAD: &str = "# Connections from observed acts (AOL) to simulated chains (ASL), learned from actions that succeeded.\n\
                     # A task uses them with the key: learned = \"THIS FILE\"\n\n";
 

@@ -1,20 +1,24 @@
-use crate::rule::Connection;
+use crate::plastic_connection::PlasticConnection;
 use crate::sublayers::Sublayers;
-use crate::{Demonstration, Order};
+use crate::{Demonstration, LearnedOrder};
 use coact_joint_task::NetworkPlan;
 use coact_neural_field::ParameterError;
+use coact_period::cycles;
+use std::time::Duration;
 
-/// How long the fields go on after the last change, ms: longer than a change of the construction echoes in them.
-const ECHO: u64 = 400;
-/// A longer pause between two changes is cut to this, ms: memories sustain themselves, and nothing is learned meanwhile.
-const PAUSE: u64 = 1000;
+/// How long the fields go on after the last change: longer than the transient peak of a change lasts, some 80 ms, with
+/// the ignition of its memory. Chosen by hand; not sensitive.
+const AFTER_LAST_STEP: u64 = cycles(Duration::from_millis(400));
+/// A longer pause between two changes is cut to this: memories sustain themselves, and nothing is learned meanwhile.
+/// Chosen by hand; not sensitive.
+const LONGEST_PAUSE: u64 = cycles(Duration::from_millis(1000));
 
 /// Learns by demonstration which step of a task needs which (chapter, section 7).
 pub struct SerialOrder {
     sublayers: Sublayers,
     subgoals: usize,
     /// From each memorised subgoal (row) to each newly achieved one.
-    connections: Vec<Connection>,
+    connections: Vec<PlasticConnection>,
 }
 
 impl SerialOrder {
@@ -27,7 +31,7 @@ impl SerialOrder {
         Ok(Self {
             sublayers: Sublayers::new(plan)?,
             subgoals,
-            connections: vec![Connection::NEW; subgoals * subgoals],
+            connections: vec![PlasticConnection::NEW; subgoals * subgoals],
         })
     }
 
@@ -38,7 +42,7 @@ impl SerialOrder {
         for (index, step) in demonstration.steps.iter().enumerate() {
             seen[step.subgoal] = true;
             let next = demonstration.steps.get(index + 1);
-            let pause = next.map_or(ECHO, |next| (next.at_ms - step.at_ms).min(PAUSE));
+            let pause = next.map_or(AFTER_LAST_STEP, |next| (next.at_ms - step.at_ms).min(LONGEST_PAUSE));
             (0..pause).for_each(|_| self.step(&seen));
         }
     }
@@ -53,9 +57,9 @@ impl SerialOrder {
         }
     }
 
-    /// What the strengths say so far.
-    pub fn order(&self) -> Order {
+    /// What has been learned so far.
+    pub fn order(&self) -> LearnedOrder {
         let strengths = self.connections.iter().map(|connection| connection.weight).collect();
-        Order::new(self.subgoals, strengths)
+        LearnedOrder::new(self.subgoals, strengths)
     }
 }

@@ -3,21 +3,23 @@ use coact_joint_task::NetworkPlan;
 use coact_messages::LayerKind;
 use coact_neural_field::ParameterError;
 
-/// Strength of what is seen and of the way from the second sublayer to the first, in units of the ignition threshold:
-/// each ignites its target alone. The network file has the same for what is seen to be achieved.
-const EXCITES: f64 = 1.5;
+/// Strength of what is seen, and of the synapses from the second sublayer to the first, in ignition thresholds: each
+/// ignites its target alone. The network file has the same for what is seen to be achieved.
+const EXCITATION: f64 = 1.5;
 /// Strength by which a memory silences the same subgoal in the second sublayer, where the network file has none.
-const SILENCES: f64 = -2.0;
+///
+/// Chosen by hand: it outweighs [`EXCITATION`], so that no peak stands for what is memorised, though it is still seen.
+const INHIBITION: f64 = -2.0;
 
 /// The two sublayers of CSGL while a teacher demonstrates (chapter, section 7): what is seen ignites its subgoal in the
 /// second; that peak ignites the same subgoal in the first, which sustains itself and silences the second.
 ///
-/// What is seen lasts; that the second sublayer's peak does not is the work of the fields alone.
+/// What is seen stays in sight; the second sublayer's peak is transient all the same, by the interaction of the fields.
 pub(crate) struct Sublayers {
     memory: Layer,
     change: Layer,
     /// From each memory to the same subgoal of the second sublayer.
-    silences: Vec<f64>,
+    inhibition: Vec<f64>,
     input: Vec<f64>,
 }
 
@@ -30,12 +32,12 @@ impl Sublayers {
         let own = |(from, to)| {
             let synapses = plan.synapses.iter().filter(|synapse| (synapse.from, synapse.to) == (from, to));
             let weight: f64 = synapses.map(|synapse| synapse.weight).sum();
-            if weight < 0.0 { weight } else { SILENCES }
+            if weight < 0.0 { weight } else { INHIBITION }
         };
         Ok(Self {
             memory: Layer::new(achieved, width)?,
             change: Layer::new(available, width)?,
-            silences: achieved.populations.clone().zip(available.populations.clone()).map(own).collect(),
+            inhibition: achieved.populations.clone().zip(available.populations.clone()).map(own).collect(),
             input: vec![0.0; achieved.populations.len()],
         })
     }
@@ -46,13 +48,13 @@ impl Sublayers {
         self.change.rest();
     }
 
-    /// One step of 1 ms, while the subgoals that `seen` names are seen to be achieved.
+    /// Advances by one period, while the subgoals that `seen` names are seen to be achieved.
     pub fn step(&mut self, seen: &[bool]) {
         for (subgoal, input) in self.input.iter_mut().enumerate() {
-            let sight = EXCITES * f64::from(u8::from(seen[subgoal]));
-            *input = sight + self.silences[subgoal] * self.memory.signal[subgoal];
+            let sight = EXCITATION * f64::from(u8::from(seen[subgoal]));
+            *input = sight + self.inhibition[subgoal] * self.memory.signal[subgoal];
         }
-        let excited = self.change.signal.iter().map(|signal| EXCITES * signal);
+        let excited = self.change.signal.iter().map(|signal| EXCITATION * signal);
         let memories: Vec<f64> = excited.collect();
         self.change.step(&self.input);
         self.memory.step(&memories);

@@ -2,7 +2,7 @@ use crate::LearnError;
 use std::path::{Component, Path, PathBuf};
 use toml_edit::{Array, DocumentMut, Item, Value};
 
-/// A task file as text: comments and layout stay, what was learned is put in its place.
+/// A task file as text: comments and layout stay, only what was learned is replaced.
 #[derive(Debug, Clone)]
 pub struct TaskText {
     path: PathBuf,
@@ -63,7 +63,7 @@ impl TaskText {
             let Some(name) = value.as_str().map(PathBuf::from) else { continue };
             if from != to && name.is_relative() {
                 let decor = value.decor().clone();
-                *value = Value::from(seen_from(&to, &from.join(name)).display().to_string());
+                *value = Value::from(relative(&to, &from.join(name)).display().to_string());
                 *value.decor_mut() = decor;
             }
         }
@@ -77,8 +77,8 @@ fn folder(file: &Path) -> std::io::Result<PathBuf> {
     std::fs::canonicalize(folder.unwrap_or(Path::new(".")))
 }
 
-/// The way from the absolute `folder` to the absolute `file`.
-fn seen_from(folder: &Path, file: &Path) -> PathBuf {
+/// The path of the absolute `file` relative to the absolute `folder`.
+fn relative(folder: &Path, file: &Path) -> PathBuf {
     let file = plain(file);
     let common = folder.components().zip(file.components()).take_while(|(one, other)| one == other).count();
     let up = folder.components().skip(common).map(|_| Component::ParentDir);
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_file_is_found_from_another_folder() {
-        let way = seen_from(Path::new("/a/b/out"), Path::new("/a/b/tasks/../net.toml"));
-        assert_eq!(way, Path::new("../net.toml"));
+        let path = relative(Path::new("/a/b/out"), Path::new("/a/b/tasks/../net.toml"));
+        assert_eq!(path, Path::new("../net.toml"));
     }
 }

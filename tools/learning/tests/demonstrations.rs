@@ -47,9 +47,9 @@ fn unknown_subgoal_is_named_with_the_known_ones() {
 #[test]
 fn contradictory_or_incomplete_demonstrations_are_refused() {
     let twice = refused("a.csv", "seconds,subgoal\n1.5,cup\n3,cup\n4,spoon\n");
-    assert!(twice.contains("a.csv:3: \"cup\" comes about a second time"), "{twice}");
+    assert!(twice.contains("a.csv:3: \"cup\" is achieved a second time"), "{twice}");
     let missing = refused("a.csv", "seconds,subgoal\n1.5,cup\n");
-    assert!(missing.contains("\"spoon\" never comes about"), "{missing}");
+    assert!(missing.contains("\"spoon\" is never achieved"), "{missing}");
 }
 
 #[test]
@@ -61,5 +61,5 @@ fn what_is_no_demonstration_is_refused_with_its_place() {
     assert!(refused("a.csv", "seconds,subgoal\n-1,cup\n").contains("expected a time from the start"));
     assert!(refused("events.jsonl", "{\"event\":\n").contains("events.jsonl:1: not an event"));
     assert!(refused("a.txt", "").contains("expected a demonstration"));
-    assert!(read("empty.jsonl", "").unwrap_err().to_string().contains("no subgoal came about"));
+    assert!(read("empty.jsonl", "").unwrap_err().to_string().contains("no subgoal was achieved"));
 }

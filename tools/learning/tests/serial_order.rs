@@ -70,7 +70,7 @@ fn steps_at_the_same_instant_have_no_order() {
     together.steps[1].at_ms = together.steps[0].at_ms;
     learned.watch(&together);
     let order = learned.order();
-    assert!(!order.stands(0, 1) && !order.stands(1, 0));
+    assert!(!order.is_condition(0, 1) && !order.is_condition(1, 0));
     assert_eq!(order.plan()[2], [0, 1]);
 }
 

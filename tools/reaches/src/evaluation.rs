@@ -1,6 +1,6 @@
-use crate::course::Course;
-use crate::extraction::{Labelled, extract};
-use crate::outcome::Outcome;
+use crate::extraction::{LabelledReach, extract};
+use crate::inference_trace::InferenceTrace;
+use crate::reach_outcome::ReachOutcome;
 use crate::subject::Subject;
 use crate::training::fit;
 use anyhow::Context;
@@ -14,11 +14,11 @@ use coact_world::{Replay, has_part_for};
 /// What is evaluated.
 #[derive(Debug, Clone, Copy)]
 pub struct Evaluation<'a> {
-    /// The plan that leaves some goals.
+    /// A task whose plan leaves several goals possible.
     pub task: &'a Task,
     /// The network that is made of it.
     pub plan: &'a NetworkPlan,
-    /// The robot that looks on.
+    /// The robot, which perception leaves out of what it sees.
     pub robot: &'a Robot,
     /// Model of preshaping, from other people than the recorded ones; `None`: leave one person out.
     pub model: Option<&'a PreshapeModel>,
@@ -43,7 +43,7 @@ impl Evaluation<'_> {
             let participant = person[0].participant;
             let model = match self.model {
                 Some(model) => model.clone(),
-                None => without(participant, &labelled)?,
+                None => all_but(participant, &labelled)?,
             };
             let replay = Replay::new(self.task, self.robot, person, |reach| has_part_for(self.task, reach));
             Ok(Subject { participant, model, replay })
@@ -52,25 +52,25 @@ impl Evaluation<'_> {
         Ok(subjects?.into_iter().filter(|subject| !subject.replay.reaches().is_empty()).collect())
     }
 
-    /// Plays each subject's reaches through perception and the field network in lockstep, and judges what was decided.
-    /// Outcomes stand subject by subject, in the order of the replay.
+    /// Plays each subject's reaches through perception and the field network in lockstep, and judges what was decided:
+    /// subject by subject, in the order of the replay.
     ///
     /// # Errors
     /// The network's parameters are refused.
-    pub fn in_lockstep(&self, subjects: &[Subject]) -> anyhow::Result<Vec<Outcome>> {
+    pub fn in_lockstep(&self, subjects: &[Subject]) -> anyhow::Result<Vec<ReachOutcome>> {
         let outcomes =
-            in_parallel(subjects, |subject| Ok(self.watch(subject)?.judge(self.task, &subject.replay)))?;
+            in_parallel(subjects, |subject| Ok(self.play(subject)?.judge(self.task, &subject.replay)))?;
         Ok(outcomes.into_iter().flatten().collect())
     }
 
-    fn watch(&self, subject: &Subject) -> anyhow::Result<Course> {
+    fn play(&self, subject: &Subject) -> anyhow::Result<InferenceTrace> {
         let mut perception = Perception::new(self.task, &subject.model)?.with_robot(self.robot.clone());
         let mut network = Network::new(self.plan.clone(), self.task.fingerprint, self.seed)?;
         let (mut sample, mut truth) = (bytemuck::zeroed_box(), bytemuck::zeroed_box());
         let mut percept = bytemuck::zeroed_box();
         let (mut previous, mut next) = (bytemuck::zeroed_box(), bytemuck::zeroed_box());
         network.rest(&mut previous);
-        let mut course = Course::default();
+        let mut trace = InferenceTrace::default();
         let end = subject.replay.spans().last().map_or(0, |span| span.end);
         for tick in 1..end {
             subject.replay.step(tick, &mut sample, &mut truth);
@@ -79,18 +79,18 @@ impl Evaluation<'_> {
             percept.header.cycle = tick;
             network.step(tick, Some(&percept), &previous, &mut next);
             next.header.cycle = tick;
-            course.percept(&percept);
-            course.frame(self.plan, &next);
+            trace.percept(&percept);
+            trace.frame(self.plan, &next);
             std::mem::swap(&mut previous, &mut next);
         }
-        Ok(course)
+        Ok(trace)
     }
 }
 
 /// A model of all people but one.
-fn without(participant: u32, labelled: &[Vec<Labelled>]) -> anyhow::Result<PreshapeModel> {
+fn all_but(participant: u32, labelled: &[Vec<LabelledReach>]) -> anyhow::Result<PreshapeModel> {
     let others = labelled.iter().flatten().filter(|reach| reach.participant != participant);
-    let others: Vec<Labelled> = others.cloned().collect();
+    let others: Vec<LabelledReach> = others.cloned().collect();
     fit(&others).with_context(|| format!("leaving out participant {participant}"))
 }
 

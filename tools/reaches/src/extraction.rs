@@ -2,30 +2,35 @@ use coact_joint_task::Task;
 use coact_perception::{
     CLASSES, FEATURES, Level, Perception, PreshapeModel, READ, ReachRecord, SingularModel, WHOLE_LENGTH,
 };
-use coact_recordings::Reach;
+use coact_recordings::{Reach, Size};
 use coact_robot::Robot;
 use coact_world::Replay;
 
-/// Tempo that is assumed of people whom nobody has seen yet, s.
-const USUAL_TEMPO: f64 = 0.33;
+/// Tempo that is assumed of people whom nobody has seen yet, s: the median of the shipped recordings, rounded.
+pub(crate) const USUAL_TEMPO: f64 = 0.33;
 
-/// What perception kept of one reach, and what it was for.
+/// What perception read from one reach, and what the reach was for.
 #[derive(Debug, Clone)]
-pub(crate) struct Labelled {
+pub(crate) struct LabelledReach {
     pub participant: u32,
     /// Size class.
     pub class: usize,
     pub record: ReachRecord,
 }
 
-/// Replays one person's reaches through perception and keeps what it reads from the hand. Reaches in which it found no
-/// onset, no slow phase or no grasp are left out.
-pub(crate) fn extract(task: &Task, robot: &Robot, person: &[&Reach]) -> Result<Vec<Labelled>, SingularModel> {
+/// What perception reads from one person's hand while the reaches are replayed.
+///
+/// Reaches in which it finds no onset, no slow phase or no grasp are left out.
+pub(crate) fn extract(
+    task: &Task,
+    robot: &Robot,
+    person: &[&Reach],
+) -> Result<Vec<LabelledReach>, SingularModel> {
     let replay = Replay::new(task, robot, person, |_| true);
     let mut perception = Perception::new(task, &blank())?.with_robot(robot.clone());
     let (mut sample, mut truth) = (bytemuck::zeroed_box(), bytemuck::zeroed_box());
     let mut percept = bytemuck::zeroed_box();
-    let mut kept = Vec::new();
+    let mut labelled = Vec::new();
     for (reach, span) in replay.reaches().iter().zip(replay.spans()) {
         for tick in span.begin..span.end {
             replay.step(tick, &mut sample, &mut truth);
@@ -34,13 +39,17 @@ pub(crate) fn extract(task: &Task, robot: &Robot, person: &[&Reach]) -> Result<V
         }
         let record = *perception.reach();
         if record.is_complete() && record.tempo > 0.0 {
-            kept.push(Labelled { participant: reach.participant, class: reach.size.index(), record });
+            labelled.push(LabelledReach {
+                participant: reach.participant,
+                class: reach.size.index(),
+                record,
+            });
         }
     }
-    Ok(kept)
+    Ok(labelled)
 }
 
-/// A model that knows nothing: features are read alike under every model.
+/// A model without any knowledge: features are read alike under every model.
 fn blank() -> PreshapeModel {
     let level = |length: usize| Level {
         direction: vec![0.0; length],
@@ -50,7 +59,7 @@ fn blank() -> PreshapeModel {
         person: 1.0,
     };
     PreshapeModel {
-        sizes: [0.025, 0.055, 0.075],
+        sizes: Size::ALL.map(Size::width),
         tempo: USUAL_TEMPO,
         phase: vec![level(FEATURES); READ],
         whole: level(WHOLE_LENGTH),

@@ -1,5 +1,5 @@
-use crate::extraction::{Labelled, extract};
-use crate::fit::{Person, level, rounded};
+use crate::extraction::{LabelledReach, USUAL_TEMPO, extract};
+use crate::level_fit::{PersonFeatures, level, rounded};
 use coact_joint_task::Task;
 use coact_perception::{
     CLASSES, FEATURES, PreshapeModel, READ, ReachRecord, SNAPSHOTS, SingularModel, WHOLE,
@@ -45,13 +45,14 @@ pub fn train(
 }
 
 /// The model that these reaches make.
-pub(crate) fn fit(labelled: &[Labelled]) -> Result<PreshapeModel, TrainError> {
+pub(crate) fn fit(labelled: &[LabelledReach]) -> Result<PreshapeModel, TrainError> {
     let mut people: Vec<u32> = labelled.iter().map(|reach| reach.participant).collect();
     people.sort_unstable();
     people.dedup();
     let too_few = || TrainError::TooFew { people: people.len(), reaches: labelled.len() };
     let make = |features: &dyn Fn(&ReachRecord) -> Vec<f64>| {
-        let all: Vec<Person> = people.iter().map(|person| by_class(labelled, *person, features)).collect();
+        let all: Vec<PersonFeatures> =
+            people.iter().map(|person| by_class(labelled, *person, features)).collect();
         level(&all).ok_or_else(too_few)
     };
     let phase = (0..READ).map(|at| make(&|record| record.features[at].to_vec())).collect::<Result<_, _>>()?;
@@ -64,7 +65,11 @@ pub(crate) fn fit(labelled: &[Labelled]) -> Result<PreshapeModel, TrainError> {
     })
 }
 
-fn by_class(labelled: &[Labelled], participant: u32, features: &dyn Fn(&ReachRecord) -> Vec<f64>) -> Person {
+fn by_class(
+    labelled: &[LabelledReach],
+    participant: u32,
+    features: &dyn Fn(&ReachRecord) -> Vec<f64>,
+) -> PersonFeatures {
     let of_class = |class: usize| {
         let own = labelled.iter().filter(|reach| reach.participant == participant && reach.class == class);
         own.map(|reach| DVector::from_vec(features(&reach.record))).collect()
@@ -72,10 +77,10 @@ fn by_class(labelled: &[Labelled], participant: u32, features: &dyn Fn(&ReachRec
     std::array::from_fn::<_, CLASSES, _>(of_class)
 }
 
-fn median_tempo(labelled: &[Labelled]) -> f64 {
+fn median_tempo(labelled: &[LabelledReach]) -> f64 {
     let mut tempos: Vec<f64> = labelled.iter().map(|reach| reach.record.tempo).collect();
     tempos.sort_unstable_by(f64::total_cmp);
-    tempos.get(tempos.len() / 2).copied().unwrap_or(0.45)
+    tempos.get(tempos.len() / 2).copied().unwrap_or(USUAL_TEMPO)
 }
 
 /// The text of a model file: the numbers, and where they come from. `source` names the recordings.

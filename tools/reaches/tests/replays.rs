@@ -3,7 +3,7 @@
 
 use coact_joint_task::{NetworkPlan, Task};
 use coact_perception::PreshapeModel;
-use coact_reaches::{Evaluation, Outcome, Report, model_file, train};
+use coact_reaches::{AnticipationReport, Evaluation, ReachOutcome, model_file, train};
 use coact_recordings::{Frame, ImagePoint, Order, Reach, Size};
 use coact_robot::Robot;
 use coact_world::METRES_PER_PIXEL;
@@ -78,7 +78,7 @@ fn people(count: u32, trials: u32) -> Vec<Reach> {
     all
 }
 
-fn decide(file: &str, reaches: &[Reach], model: Option<&PreshapeModel>) -> Vec<Outcome> {
+fn decide(file: &str, reaches: &[Reach], model: Option<&PreshapeModel>) -> Vec<ReachOutcome> {
     let (task, plan) = plan(file);
     let order = Order::Trial { seed: 3 };
     let evaluation = Evaluation { task: &task, plan: &plan, robot: &robot(), model, order, seed: 1 };
@@ -112,18 +112,18 @@ fn too_few_people_make_no_model() {
 
 #[test]
 fn goals_of_unseen_people_are_decided_before_contact() {
-    let report = Report::new("three", 3, decide("tasks/three-objects.toml", &people(4, 5), None));
+    let report = AnticipationReport::new("three", 3, decide("tasks/three-objects.toml", &people(4, 5), None));
     assert_eq!((report.overall.reaches, report.people.len()), (60, 4));
-    assert!(report.overall.right_share > 0.85, "{:?}", report.overall);
-    let two = Report::new("two", 2, decide("tasks/two-objects.toml", &people(4, 5), None));
+    assert!(report.overall.right_fraction > 0.85, "{:?}", report.overall);
+    let two = AnticipationReport::new("two", 2, decide("tasks/two-objects.toml", &people(4, 5), None));
     assert_eq!(two.overall.reaches, 40);
-    assert!(two.overall.right_share > 0.95, "{:?}", two.overall);
+    assert!(two.overall.right_fraction > 0.95, "{:?}", two.overall);
     let lead = two.overall.lead_ms.unwrap();
     assert!(lead[0] > 0 && lead.is_sorted(), "{lead:?}");
 }
 
 /// What was decided, without what it is compared with.
-fn decisions(outcomes: &[Outcome], participant: u32) -> Vec<Option<(i64, u64)>> {
+fn decisions(outcomes: &[ReachOutcome], participant: u32) -> Vec<Option<(i64, u64)>> {
     let own = outcomes.iter().filter(|outcome| outcome.participant == participant);
     own.map(|outcome| outcome.decision.map(|decided| (decided.lead_ms, decided.width.to_bits()))).collect()
 }
@@ -145,16 +145,12 @@ fn labels_of_the_tested_person_change_no_decision_about_him() {
 }
 
 #[test]
-fn recordings_of_real_people_reach_the_figures() {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/reaches");
-    if !folder.is_dir() {
-        eprintln!("skipped: no recordings in {}", folder.display());
-        return;
-    }
+fn goals_of_recorded_people_are_inferred_as_often_as_measured() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../data/reaches");
     let reaches = coact_recordings::read_folder(&folder).unwrap();
     for (task, goals, least) in [("tasks/three-objects.toml", 3, 0.78), ("tasks/two-objects.toml", 2, 0.95)] {
-        let report = Report::new(task, goals, decide(task, &reaches, None));
-        assert!(report.overall.right_share >= least, "{task}: {:?}", report.overall);
+        let report = AnticipationReport::new(task, goals, decide(task, &reaches, None));
+        assert!(report.overall.right_fraction >= least, "{task}: {:?}", report.overall);
         assert!(report.overall.lead_ms.unwrap()[1] >= 100, "{task}: {:?}", report.overall);
     }
 }

@@ -61,7 +61,7 @@ impl Recorded {
             |message: &str| WorldError::Recordings { path: folder.to_owned(), message: message.to_owned() };
         let person = *people
             .get((seed % people.len().max(1) as u64) as usize)
-            .ok_or_else(|| lacking("holds no reach; expected CSV files as in shared/data/reaches"))?;
+            .ok_or_else(|| lacking("holds no reach; expected CSV files as in data/reaches"))?;
         let own: Vec<&Reach> = all.iter().filter(|reach| reach.participant == person).collect();
         let scale = metres_per_pixel(&own)
             .ok_or_else(|| lacking("shows no forearm at rest; expected elbow and wrist before the onset"))?;

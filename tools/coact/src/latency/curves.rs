@@ -10,7 +10,9 @@ use ratatui::symbols::Marker;
 use ratatui::text::Line;
 use ratatui::widgets::{Axis, Chart, Dataset, GraphType, LegendPosition, Widget};
 
+/// Size of a chart in characters: a terminal of 100 columns.
 const AREA: Rect = Rect { x: 0, y: 0, width: 100, height: 16 };
+/// Colours of the curves, told apart on dark and light terminals; after six, the first again.
 const COLOURS: [(Color, AnsiColors); 6] = [
     (Color::Cyan, AnsiColors::Cyan),
     (Color::Yellow, AnsiColors::Yellow),

@@ -1,4 +1,4 @@
-//! The figures of a running set, second by second.
+//! The metrics of a running set, second by second.
 
 use super::{report, show, write};
 use anyhow::{Context, bail};
@@ -11,10 +11,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+/// How often the tables are printed anew: fast enough to follow, slow enough to read.
 const SHOW_EVERY: Duration = Duration::from_secs(1);
-/// Much shorter than the readers' buffers last.
+/// How often the pulses are read: much shorter than the time in which they fill the reader's buffer.
 const DRAIN_EVERY: Duration = Duration::from_millis(50);
-/// Moves to the upper left and clears what is below.
+/// ANSI: moves to the upper left and clears what is below.
 const CLEAR: &str = "\x1b[H\x1b[J";
 
 /// Attaches to a run until Ctrl-C or its end.

@@ -1,20 +1,28 @@
-//! The figures as tables.
+//! Latencies and deadline misses as tables.
 
 use super::Group;
 use coact_monitor::{Figures, Percentiles};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 
-/// Deadline accounts, one process a row.
+/// Cycles and deadline misses, one process a row.
 pub(super) fn deadlines(figures: &Figures) -> Table {
-    let mut table =
-        table(&["process", "cycles", "missed", "share", "longest run", "skipped", "stale input", "restarts"]);
+    let mut table = table(&[
+        "process",
+        "cycles",
+        "missed",
+        "fraction",
+        "longest run",
+        "skipped",
+        "stale input",
+        "restarts",
+    ]);
     for (process, account) in figures.accounts() {
-        let share = 100.0 * account.missed as f64 / account.cycles.max(1) as f64;
+        let percent = 100.0 * account.missed as f64 / account.cycles.max(1) as f64;
         table.add_row([
             process.clone(),
             account.cycles.to_string(),
             account.missed.to_string(),
-            format!("{share:.3} %"),
+            format!("{percent:.3} %"),
             account.longest_miss_run.to_string(),
             account.skipped.to_string(),
             account.stale.to_string(),

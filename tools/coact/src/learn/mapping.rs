@@ -4,25 +4,27 @@ use crate::installation::Installation;
 use anyhow::{Result, bail};
 use coact_learning::{Mapping, MappingFile, Provenance};
 use coact_lockstep::Lockstep;
+use coact_period::cycles;
 use coact_pipeline::{RunSettings, WorldMode};
 use std::path::{PathBuf, absolute};
 use std::process::ExitCode;
+use std::time::Duration;
 
-/// Longest construction, ticks.
-const LONGEST: u64 = 180_000;
+/// Longest assembly: three times what it usually takes.
+const LONGEST: u64 = cycles(Duration::from_secs(180));
 
 /// Arguments of `coact learn mapping`.
 #[derive(clap::Args)]
 #[command(after_help = "Example:
   coact learn mapping --out rt-config/tasks/learned-toy-vehicle.toml
 
-The robot builds with the synthetic partner, under the task's present network, and learns from what it perceives to
-come of the partner's actions. Put learned = \"FILE\" into the task to use the result.")]
+The robot builds with the synthetic partner, under the task's present network, and learns from the
+partner's actions that it perceives to succeed. Put learned = \"FILE\" into the task to use the result.")]
 pub struct Args {
     /// The task [default: the toy vehicle]
     #[arg(long, value_name = "FILE")]
     task: Option<PathBuf>,
-    /// How many constructions are watched
+    /// How many assemblies are watched
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
     trials: u32,
     /// Seed of the first partner; each further one has the next
@@ -60,10 +62,10 @@ pub fn run(args: Args) -> Result<ExitCode> {
             stages.step();
             mapping.watch(stages.ticks(), &stages.frame, &stages.percept);
         }
-        eprintln!("construction {}: {} successes so far", trial + 1, mapping.successes());
+        eprintln!("assembly {}: {} successes so far", trial + 1, mapping.successes());
     }
     if mapping.successes() == 0 {
-        bail!("no action of the partner succeeded in {} constructions; try more with --trials", args.trials);
+        bail!("no action of the partner succeeded in {} assemblies; try more with --trials", args.trials);
     }
     let connections = mapping.connections();
     for connection in &connections {

@@ -3,7 +3,7 @@
 use crate::installation::Installation;
 use anyhow::{Context, Result};
 use coact_joint_task::{NetworkPlan, Task};
-use coact_learning::{Demonstration, Order, SerialOrder, TaskText};
+use coact_learning::{Demonstration, LearnedOrder, SerialOrder, TaskText};
 use comfy_table::{CellAlignment, Table, presets};
 use serde_json::json;
 use std::path::PathBuf;
@@ -12,12 +12,12 @@ use std::process::ExitCode;
 /// Arguments of `coact learn order`.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
-  coact learn order --demonstrations rt-config/demonstrations/toy-vehicle/*.toml --out learned.toml
-  coact learn order --demonstrations reports/* --task rt-config/tasks/table-setting.toml --out learned.toml
-  coact launch --lockstep --task learned.toml
+  coact learn order --demonstrations rt-config/demonstrations/toy-vehicle/*.toml --out mine.toml
+  coact learn order --demonstrations reports/* --task rt-config/tasks/table-setting.toml --out mine.toml
+  coact launch --lockstep --task mine.toml
 
-A demonstration is a .toml file with tables [[achieved]] (keys seconds, subgoal), a .csv file with columns
-seconds,subgoal, or the report of a run. Orders may differ: what differs is no condition.")]
+A demonstration is a .toml file with tables [[achieved]] (keys seconds, subgoal), a .csv file with
+columns seconds,subgoal, or the report of a run. Orders may differ: what differs is no condition.")]
 pub struct Args {
     /// What was seen: files or report folders
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
@@ -33,13 +33,16 @@ pub struct Args {
     json: bool,
 }
 
-/// What came of the demonstrations.
+/// What was learned from the demonstrations.
 struct Learned {
-    order: Order,
+    order: LearnedOrder,
     watched: usize,
     /// After how many demonstrations the plan was that of the given task, and stayed so.
     equal_after: Option<usize>,
 }
+
+/// Strength from which a connection without condition is shown: what fields at rest leave is far below. Chosen by hand.
+const NEGLIGIBLE: f64 = 1e-4;
 
 /// Learns, writes the task and prints what was learned.
 ///
@@ -101,15 +104,15 @@ fn print(task: &Task, learned: &Learned) {
     let plan = order.plan();
     let mut table = Table::new();
     table.load_style(presets::UTF8_HORIZONTAL_ONLY);
-    table.set_header(["subgoal", "comes after", "strength", "strongest that gave way"]);
+    table.set_header(["subgoal", "comes after", "strength", "strongest without condition"]);
     for (to, predecessors) in plan.iter().enumerate() {
         let names: Vec<_> = predecessors.iter().map(|&from| task.subgoals[from].name.as_str()).collect();
         let strengths: Vec<_> =
             predecessors.iter().map(|&from| format!("{:.2}", order.strength(from, to))).collect();
         let none = || vec!["-"];
         let names = if names.is_empty() { none() } else { names };
-        let fallen = strongest_fallen(task, order, to);
-        table.add_row([task.subgoals[to].name.clone(), names.join("\n"), strengths.join("\n"), fallen]);
+        let varied = strongest_varied(task, order, to);
+        table.add_row([task.subgoals[to].name.clone(), names.join("\n"), strengths.join("\n"), varied]);
     }
     table
         .column_iter_mut()
@@ -129,10 +132,10 @@ fn print(task: &Task, learned: &Learned) {
 }
 
 /// Of the subgoals whose turn varied, the one with the strongest connection that is left.
-fn strongest_fallen(task: &Task, order: &Order, to: usize) -> String {
-    let others = (0..task.subgoals.len()).filter(|&from| from != to && !order.stands(from, to));
+fn strongest_varied(task: &Task, order: &LearnedOrder, to: usize) -> String {
+    let others = (0..task.subgoals.len()).filter(|&from| from != to && !order.is_condition(from, to));
     let strongest = others.max_by(|&a, &b| order.strength(a, to).total_cmp(&order.strength(b, to)));
-    let varied = strongest.filter(|&from| order.strength(from, to) > 1e-4);
+    let varied = strongest.filter(|&from| order.strength(from, to) > NEGLIGIBLE);
     varied.map_or("-".into(), |from| format!("{} {:.3}", task.subgoals[from].name, order.strength(from, to)))
 }
 

@@ -2,9 +2,11 @@
 
 use crate::installation::Installation;
 use anyhow::{Context, Result, bail};
+use coact_joint_task::NetworkPlan;
 use coact_messages::{FieldFrame, Percept, topic};
+use coact_period::PERIOD_NS;
 use coact_pipeline::{Pipeline, Run, RunSettings, WorldMode};
-use coact_reaches::{Course, Evaluation, Outcome, Subject};
+use coact_reaches::{Evaluation, InferenceTrace, ReachOutcome, Subject};
 use coact_realtime::{Bus, Input, PortError};
 use coact_supervisor::{Ending, Launch};
 use serde::Serialize;
@@ -12,19 +14,19 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// How long the set goes on after the last reach.
-const AFTERGLOW: Duration = Duration::from_millis(200);
-/// How often the topics are looked at: a reader of the chain's topics sees the newest message only.
-const LOOK_EVERY: Duration = Duration::from_micros(500);
+/// How long the set goes on after the last reach: until its last messages have been read. Chosen by hand; not sensitive.
+const AFTER_LAST_REACH: Duration = Duration::from_millis(200);
+/// How often the topics are read: a reader of the chain's topics sees the newest message only, so twice a period.
+const LOOK_EVERY: Duration = Duration::from_nanos(PERIOD_NS / 2);
 
 /// How the process set fared with one subject.
 #[derive(Debug, Clone, Serialize)]
-pub struct Regularity {
+pub struct RealTimeMetrics {
     /// Number of the person.
     pub participant: u32,
-    /// Cycles of the chain, of which the looker-on saw so many frames.
+    /// Cycles of the chain.
     pub cycles: u64,
-    /// Frames that were seen.
+    /// Field frames that were read of them.
     pub frames_seen: u64,
     /// Cycles of all processes that missed their deadline.
     pub missed: u64,
@@ -46,25 +48,25 @@ pub struct RealTime<'a> {
 
 impl RealTime<'_> {
     /// Plays one subject's reaches, and judges what was decided.
-    pub fn play(&self, subject: &Subject) -> Result<(Vec<Outcome>, Regularity)> {
+    pub fn play(&self, subject: &Subject) -> Result<(Vec<ReachOutcome>, RealTimeMetrics)> {
         let report = self.report.join(format!("p{}", subject.participant));
         std::fs::create_dir_all(&report).with_context(|| report.display().to_string())?;
         let model = report.join("preshape.toml");
         let text = toml::to_string(&subject.model)?;
-        std::fs::write(&model, format!("# What was known of other people than this one.\n\n{text}"))
+        std::fs::write(&model, format!("# The model of preshaping that the other people make.\n\n{text}"))
             .with_context(|| model.display().to_string())?;
         let launch = self.launch(subject, model, &report)?;
         let plan = self.evaluation.plan;
-        let (ending, seen) = launch.run_beside(|run, over| {
-            let mut seen = Seen::default();
-            seen.look_on(run, over, |course, frame| course.frame(plan, frame)).map(|()| seen)
+        let (ending, observer) = launch.run_beside(|run, over| {
+            let mut observer = Observer::default();
+            observer.observe(run, over, plan).map(|()| observer)
         })?;
         if ending == Ending::Interrupted {
             bail!("interrupted");
         }
-        let seen = seen?;
-        let regularity = regularity(subject.participant, seen.frames, report)?;
-        Ok((seen.course.judge(self.evaluation.task, &subject.replay), regularity))
+        let observer = observer?;
+        let metrics = metrics(subject.participant, observer.frames, report)?;
+        Ok((observer.trace.judge(self.evaluation.task, &subject.replay), metrics))
     }
 
     fn launch(&self, subject: &Subject, model: PathBuf, report: &Path) -> Result<Launch> {
@@ -86,34 +88,30 @@ impl RealTime<'_> {
             settings,
             task: self.evaluation.task.clone(),
             programs: self.installation.programs.clone(),
-            duration: Some(Duration::from_millis(last) + AFTERGLOW),
+            duration: Some(Duration::from_millis(last) + AFTER_LAST_REACH),
             injections: Vec::new(),
         })
     }
 }
 
-/// What the looker-on saw.
+/// Records what perception and the fields publish.
 #[derive(Default)]
-struct Seen {
-    course: Course,
+struct Observer {
+    trace: InferenceTrace,
     frames: u64,
 }
 
-impl Seen {
-    fn look_on(
-        &mut self,
-        run: &Run,
-        over: &AtomicBool,
-        take_down: impl Fn(&mut Course, &FieldFrame),
-    ) -> Result<(), PortError> {
+impl Observer {
+    /// Records until the run is `over`, for the network that `plan` describes.
+    fn observe(&mut self, run: &Run, over: &AtomicBool, plan: &NetworkPlan) -> Result<(), PortError> {
         let bus = Bus::open(run, "reaches", 0)?;
         let mut percepts: Input<Percept> = bus.input(topic::PERCEPT)?;
         let mut frames: Input<FieldFrame> = bus.input(topic::FIELDS)?;
         while !over.load(Ordering::Relaxed) {
             std::thread::sleep(LOOK_EVERY);
-            percepts.each(|percept| self.course.percept(percept))?;
+            percepts.each(|percept| self.trace.percept(percept))?;
             frames.each(|frame| {
-                take_down(&mut self.course, frame);
+                self.trace.frame(plan, frame);
                 self.frames += 1;
             })?;
         }
@@ -121,14 +119,14 @@ impl Seen {
     }
 }
 
-/// Reads it from the run's own report.
-fn regularity(participant: u32, frames_seen: u64, report: PathBuf) -> Result<Regularity> {
+/// Reads them from the run's own report.
+fn metrics(participant: u32, frames_seen: u64, report: PathBuf) -> Result<RealTimeMetrics> {
     let path = report.join("summary.json");
     let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
     let summary: serde_json::Value =
         serde_json::from_str(&text).with_context(|| path.display().to_string())?;
     let processes = summary["processes"].as_object().into_iter().flatten();
-    Ok(Regularity {
+    Ok(RealTimeMetrics {
         participant,
         cycles: summary["processes"]["fields"]["cycles"].as_u64().unwrap_or(0),
         frames_seen,

@@ -101,11 +101,7 @@ fn recorded_hand_keeps_its_time_course_and_its_drop_outs_and_the_team_still_fini
 
 #[test]
 fn real_recordings_drive_the_partner() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/reaches");
-    if !folder.is_dir() {
-        eprintln!("skipped: the recordings of real people are not here");
-        return;
-    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/reaches");
     let (times, _, assemblies) = run(load(&folder).unwrap());
     assert!(assemblies >= 1);
     assert!(times.iter().all(|time| (340..=900).contains(time)), "{times:?}");

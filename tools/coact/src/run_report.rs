@@ -1,6 +1,6 @@
-//! The closing report: what `summary.json` says, for a person.
+//! What is printed after a run: what `summary.json` says, for a person.
 
-use crate::album;
+use crate::snapshots;
 use anyhow::{Context, Result};
 use owo_colors::{OwoColorize, Stream};
 use serde_json::Value;
@@ -25,7 +25,7 @@ pub fn show(report: &Path, json: bool) -> Result<ExitCode> {
 }
 
 /// A line in red on standard error.
-pub fn alarm(text: &str) {
+pub fn warn(text: &str) {
     eprintln!("{}", text.if_supports_color(Stream::Stderr, |text| text.red()));
 }
 
@@ -48,9 +48,9 @@ fn render(summary: &Value, report: &Path) -> String {
     }
     lines.extend(list(&summary["faults"]).map(fault));
     lines.push(format!("report        {}", report.display()));
-    let sheet = album::sheet(report);
+    let sheet = snapshots::sheet(report);
     if sheet.is_file() {
-        lines.push(format!("album         {}", sheet.display()));
+        lines.push(format!("snapshots     {}", sheet.display()));
     }
     lines.join("\n") + "\n"
 }
@@ -108,11 +108,11 @@ fn machine(machine: &Value) -> Option<String> {
     ))
 }
 
-/// In red when the figures were taken without real-time privileges.
+/// In red when the metrics were taken without real-time privileges.
 fn privileges(environment: &Value) -> String {
     match environment["memory_locked"].as_bool() {
         Some(false) => {
-            let text = "memory        not locked: figures are worse than they could be";
+            let text = "memory        not locked: latencies are worse than they could be";
             text.if_supports_color(Stream::Stdout, |text| text.red()).to_string()
         }
         _ => "memory        locked".into(),

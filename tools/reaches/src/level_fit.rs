@@ -1,17 +1,21 @@
 use coact_perception::{CLASSES, Level};
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
-/// Share of a covariance that is moved onto its diagonal: from reach to reach, and of people's classes, of which there
-/// are few.
+/// Fraction of the covariance from reach to reach that is moved onto its diagonal, so that it can be inverted.
+///
+/// Chosen by hand; small, for there are dozens of reaches of each person.
 const WITHIN_SHRINKAGE: f64 = 0.1;
+/// The same of the covariance of people's classes: larger, for there are few people. Chosen by hand.
 const CONTRAST_SHRINKAGE: f64 = 0.3;
-/// Share of the variance from reach to reach that every variance between people has at least.
-const LEAST: f64 = 0.02;
-/// Significant digits of the numbers of a model.
+/// Fraction of the variance from reach to reach that every variance between people has at least.
+///
+/// Chosen by hand: few people who happen to agree do not mean that all do.
+const LEAST_BETWEEN_PEOPLE: f64 = 0.02;
+/// Significant digits of the numbers of a model: far finer than six people determine them, short enough to read.
 const DIGITS: usize = 6;
 
 /// Feature vectors of one person, by class.
-pub(crate) type Person = [Vec<DVector<f64>>; CLASSES];
+pub(crate) type PersonFeatures = [Vec<DVector<f64>>; CLASSES];
 
 /// The Gaussians of the hierarchy in the space of features.
 struct Moments {
@@ -25,7 +29,7 @@ struct Moments {
 
 /// The level of the model that these people's features make, in closed form. `None` when there are fewer than three
 /// people, or a class that somebody never reached for, or features that do not vary.
-pub(crate) fn level(people: &[Person]) -> Option<Level> {
+pub(crate) fn level(people: &[PersonFeatures]) -> Option<Level> {
     let full = people.iter().all(|person| person.iter().all(|class| class.len() > 1));
     if people.len() < 3 || !full {
         return None;
@@ -39,12 +43,12 @@ pub(crate) fn level(people: &[Person]) -> Option<Level> {
         direction: direction.iter().map(|value| rounded(*value)).collect(),
         mean: std::array::from_fn(|class| rounded(mean(class))),
         within: rounded(within),
-        contrast: rounded(along(&moments.deviation) + LEAST * within),
-        person: rounded(along(&moments.person) + LEAST * within),
+        contrast: rounded(along(&moments.deviation) + LEAST_BETWEEN_PEOPLE * within),
+        person: rounded(along(&moments.person) + LEAST_BETWEEN_PEOPLE * within),
     })
 }
 
-fn moments(people: &[Person]) -> Moments {
+fn moments(people: &[PersonFeatures]) -> Moments {
     let length = people[0][0][0].len();
     let mean = |class: &Vec<DVector<f64>>| sum(length, class.iter()) / class.len() as f64;
     let means: Vec<[DVector<f64>; CLASSES]> =
@@ -90,9 +94,9 @@ fn add_square(matrix: &mut DMatrix<f64>, vector: &DVector<f64>) {
     *matrix += vector * vector.transpose();
 }
 
-fn shrunk(matrix: DMatrix<f64>, share: f64) -> DMatrix<f64> {
+fn shrunk(matrix: DMatrix<f64>, fraction: f64) -> DMatrix<f64> {
     let diagonal = DMatrix::from_diagonal(&matrix.diagonal());
-    matrix * (1.0 - share) + diagonal * share
+    matrix * (1.0 - fraction) + diagonal * fraction
 }
 
 /// The direction in which classes differ most, compared with how reaches of one person and people's classes scatter

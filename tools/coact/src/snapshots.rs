@@ -1,4 +1,4 @@
-//! `coact album`: a run in pictures.
+//! `coact snapshots`: a run in pictures.
 
 use crate::installation::Installation;
 use anyhow::{Context, Result};
@@ -10,16 +10,16 @@ use coact_robot::Robot;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Draws a run's album once more: who took which part and what came into its place, in up to 24 pictures.
+/// Draws a run's snapshots once more: who took which part and what came into its place, in up to 24 pictures.
 ///
-/// `coact launch` draws it after every run, from album.jsonl in the report, into plots/assembly.png.
+/// `coact launch` draws them after every run, from album.jsonl in the report, into plots/assembly.png.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
-  coact album reports/2026-11-22T13-16-12Z
-  coact album reports/box --task rt-config/tasks/electronics-box.toml")]
+  coact snapshots reports/2026-11-22T13-16-12Z
+  coact snapshots reports/box --task rt-config/tasks/electronics-box.toml")]
 pub struct Args {
     /// Report directory of a run
-    #[arg(value_name = "DIR")]
+    #[arg(value_name = "REPORT")]
     report: PathBuf,
     /// The run's task [default: the toy vehicle]
     #[arg(long, value_name = "FILE")]
@@ -32,7 +32,7 @@ pub struct Args {
 /// Draws the sheet and names it.
 ///
 /// # Errors
-/// There is no album, it is of another task, or the picture cannot be written.
+/// There is no snapshot log, it is of another task, or the picture cannot be written.
 pub fn run(args: Args) -> Result<ExitCode> {
     let Installation { configuration, .. } = Installation::find()?;
     let task = args.task.unwrap_or_else(|| configuration.join("tasks/toy-vehicle.toml"));
@@ -41,22 +41,22 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Where the sheet stands in a report.
+/// Where the sheet is in a report.
 pub fn sheet(report: &Path) -> PathBuf {
     report.join("plots/assembly.png")
 }
 
-/// Draws the album of a report, of a run with the task and the robot of these files, and tells where the sheet is.
+/// Draws the snapshots of a report, of a run with the task and the robot of these files; where the sheet is.
 ///
 /// # Errors
 /// As [`run`].
 pub fn draw(report: &Path, task: &Path, robot: &Path) -> Result<PathBuf> {
     let (task, robot) = (Task::load(task)?, Robot::load(robot)?);
-    let moments = Album::read(report)
+    let snapshots = Album::read(report)
         .with_context(|| format!("{}: expected the report directory of a run", report.display()))?;
     let letters = Lettering::new()?;
     let picture =
-        ContactSheet { moments: &moments, task: &task, robot: &robot }.draw(&letters)?.png(&letters)?;
+        ContactSheet { moments: &snapshots, task: &task, robot: &robot }.draw(&letters)?.png(&letters)?;
     let file = sheet(report);
     std::fs::create_dir_all(report.join("plots"))
         .and_then(|()| std::fs::write(&file, picture))

@@ -1,24 +1,24 @@
-use crate::outcome::{FRACTIONS, Outcome};
+use crate::reach_outcome::{FRACTIONS, ReachOutcome};
 use serde::Serialize;
 
-/// What came of all reaches, and of each person's.
+/// What was inferred from all reaches, and from each person's.
 #[derive(Debug, Clone, Serialize)]
-pub struct Report {
+pub struct AnticipationReport {
     /// The plan.
     pub task: String,
-    /// How many goals it leaves.
+    /// How many goals it leaves possible.
     pub goals: usize,
     /// All people.
-    pub overall: Tally,
+    pub overall: ReachTally,
     /// Each person, in the order of the folder.
-    pub people: Vec<(u32, Tally)>,
+    pub people: Vec<(u32, ReachTally)>,
     /// Every reach.
-    pub reaches: Vec<Outcome>,
+    pub reaches: Vec<ReachOutcome>,
 }
 
-/// Figures of some reaches. Shares are of all of them: no decision counts as not right.
+/// Metrics of some reaches. Fractions are of all of them: no decision counts as not right.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Tally {
+pub struct ReachTally {
     /// Reaches.
     pub reaches: usize,
     /// Decided rightly before contact.
@@ -27,10 +27,10 @@ pub struct Tally {
     pub wrong: usize,
     /// Not decided.
     pub undecided: usize,
-    /// Share decided rightly before contact.
-    pub right_share: f64,
-    /// Share for which the right goal stood at 20, 40, 60, 80 and 100 % of movement time.
-    pub standing_right: [f64; 5],
+    /// Fraction decided rightly before contact.
+    pub right_fraction: f64,
+    /// Fraction for which the right goal stood at 20, 40, 60, 80 and 100 % of movement time.
+    pub right_during_reach: [f64; 5],
     /// Contact minus decision, ms, of all decisions: p5, p50, p95; `None` without decisions.
     pub lead_ms: Option<[i64; 3]>,
     /// Perception's onset minus the label, ms: p5, p50, p95.
@@ -39,32 +39,34 @@ pub struct Tally {
     pub onset_missed: usize,
 }
 
-impl Report {
-    /// Counts what became of the reaches.
-    pub fn new(task: &str, goals: usize, reaches: Vec<Outcome>) -> Self {
+impl AnticipationReport {
+    /// Counts the outcomes.
+    pub fn new(task: &str, goals: usize, reaches: Vec<ReachOutcome>) -> Self {
         let mut people: Vec<u32> = reaches.iter().map(|outcome| outcome.participant).collect();
         people.dedup();
         let own = |person: u32| reaches.iter().filter(move |outcome| outcome.participant == person);
-        let people = people.into_iter().map(|person| (person, Tally::of(own(person)))).collect();
-        Self { task: task.to_owned(), goals, overall: Tally::of(reaches.iter()), people, reaches }
+        let people = people.into_iter().map(|person| (person, ReachTally::of(own(person)))).collect();
+        Self { task: task.to_owned(), goals, overall: ReachTally::of(reaches.iter()), people, reaches }
     }
 }
 
-impl Tally {
-    fn of<'a>(outcomes: impl Iterator<Item = &'a Outcome> + Clone) -> Self {
+impl ReachTally {
+    fn of<'a>(outcomes: impl Iterator<Item = &'a ReachOutcome> + Clone) -> Self {
         let reaches = outcomes.clone().count();
         let right = outcomes.clone().filter(|outcome| outcome.is_right()).count();
         let undecided = outcomes.clone().filter(|outcome| outcome.decision.is_none()).count();
-        let share = |count: usize| count as f64 / reaches.max(1) as f64;
-        let stood = |at: usize| outcomes.clone().filter(|outcome| outcome.standing[at] == Some(true)).count();
+        let fraction = |count: usize| count as f64 / reaches.max(1) as f64;
+        let stood = |at: usize| {
+            outcomes.clone().filter(|outcome| outcome.right_during_reach[at] == Some(true)).count()
+        };
         let leads = outcomes.clone().filter_map(|outcome| outcome.decision.map(|decided| decided.lead_ms));
         Self {
             reaches,
             right,
             wrong: reaches - right - undecided,
             undecided,
-            right_share: share(right),
-            standing_right: std::array::from_fn::<_, { FRACTIONS.len() }, _>(|at| share(stood(at))),
+            right_fraction: fraction(right),
+            right_during_reach: std::array::from_fn::<_, { FRACTIONS.len() }, _>(|at| fraction(stood(at))),
             lead_ms: percentiles(leads.collect()),
             onset_ms: percentiles(outcomes.clone().filter_map(|outcome| outcome.onset_ms).collect()),
             onset_missed: outcomes.filter(|outcome| outcome.onset_ms.is_none()).count(),
@@ -75,6 +77,6 @@ impl Tally {
 /// Nearest-rank percentiles 5, 50 and 95.
 fn percentiles(mut values: Vec<i64>) -> Option<[i64; 3]> {
     values.sort_unstable();
-    let rank = |share: f64| ((share * values.len() as f64).ceil() as usize).clamp(1, values.len()) - 1;
-    (!values.is_empty()).then(|| [0.05, 0.5, 0.95].map(|share| values[rank(share)]))
+    let rank = |quantile: f64| ((quantile * values.len() as f64).ceil() as usize).clamp(1, values.len()) - 1;
+    (!values.is_empty()).then(|| [0.05, 0.5, 0.95].map(|quantile| values[rank(quantile)]))
 }

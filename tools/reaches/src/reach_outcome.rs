@@ -1,11 +1,11 @@
 use serde::Serialize;
 
-/// Fractions of movement time at which the standing decision is looked at.
+/// Fractions of movement time at which the goal that stands is judged.
 pub const FRACTIONS: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
 
-/// What became of one reach.
+/// What was inferred from one reach.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Outcome {
+pub struct ReachOutcome {
     /// The person.
     pub participant: u32,
     /// Number of the trial.
@@ -17,14 +17,14 @@ pub struct Outcome {
     /// Perception's onset against the label, ms; `None` when it found none before contact.
     pub onset_ms: Option<i64>,
     /// Whether the goal that stood at each of [`FRACTIONS`] was the right one; `None` where none stood.
-    pub standing: [Option<bool>; 5],
+    pub right_during_reach: [Option<bool>; 5],
     /// The decision that stood at contact.
-    pub decision: Option<Decided>,
+    pub decision: Option<GoalDecision>,
 }
 
 /// A decision that was taken before contact and stayed until then.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Decided {
+pub struct GoalDecision {
     /// Whether it was the right one.
     pub right: bool,
     /// Contact minus decision, ms.
@@ -33,7 +33,7 @@ pub struct Decided {
     pub width: f64,
 }
 
-impl Outcome {
+impl ReachOutcome {
     /// Whether the right goal was decided before contact.
     pub fn is_right(&self) -> bool {
         self.decision.is_some_and(|decision| decision.right)

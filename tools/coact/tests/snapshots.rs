@@ -1,4 +1,4 @@
-//! The album: drawn after a run, named in its report, drawn once more, and refused where there is none.
+//! Snapshots: drawn after a run, named in its report, drawn once more, and refused where there are none.
 #![allow(clippy::unwrap_used)]
 
 use std::process::{Command, Output};
@@ -8,25 +8,25 @@ fn coact(arguments: &[&str]) -> Output {
 }
 
 #[test]
-fn a_run_leaves_its_album_and_it_can_be_drawn_once_more() {
+fn snapshots_of_a_run_are_drawn_and_can_be_drawn_once_more() {
     let folder = tempfile::tempdir().unwrap();
     let report = folder.path().to_str().unwrap();
     let launch = ["launch", "--lockstep", "--world", "kinematic", "--duration", "5", "--report", report];
     let said = String::from_utf8(coact(&launch).stdout).unwrap();
     let sheet = folder.path().join("plots/assembly.png");
-    assert!(said.contains(&format!("album         {}", sheet.display())), "{said}");
+    assert!(said.contains(&format!("snapshots     {}", sheet.display())), "{said}");
     let drawn = std::fs::read(&sheet).unwrap();
     std::fs::remove_file(&sheet).unwrap();
-    let again = coact(&["album", report]);
+    let again = coact(&["snapshots", report]);
     assert!(again.status.success(), "{}", String::from_utf8_lossy(&again.stderr));
     assert_eq!(String::from_utf8(again.stdout).unwrap().trim_end(), sheet.display().to_string());
-    assert!(std::fs::read(&sheet).unwrap() == drawn, "the same album makes the same picture");
+    assert!(std::fs::read(&sheet).unwrap() == drawn, "the same snapshots make the same picture");
 }
 
 #[test]
-fn a_folder_without_an_album_is_one_error() {
+fn a_folder_without_snapshots_is_one_error() {
     let folder = tempfile::tempdir().unwrap();
-    let output = coact(&["album", folder.path().to_str().unwrap()]);
+    let output = coact(&["snapshots", folder.path().to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(said.lines().count() == 1 && said.contains("expected the report directory of a run"), "{said}");
@@ -34,12 +34,12 @@ fn a_folder_without_an_album_is_one_error() {
 }
 
 #[test]
-fn an_album_of_another_task_is_one_error() {
+fn snapshots_of_another_task_are_one_error() {
     let folder = tempfile::tempdir().unwrap();
     let report = folder.path().to_str().unwrap();
     coact(&["launch", "--lockstep", "--world", "kinematic", "--duration", "1", "--report", report]);
     let task = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/tasks/electronics-box.toml");
-    let output = coact(&["album", report, "--task", task]);
+    let output = coact(&["snapshots", report, "--task", task]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(said.lines().count() == 1 && said.contains("name the task of the run"), "{said}");
