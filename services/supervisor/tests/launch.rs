@@ -43,6 +43,7 @@ impl Place {
             robot: PathBuf::new(),
             model: PathBuf::new(),
             pipeline: PathBuf::new(),
+            safety: PathBuf::new(),
             report: self.0.path().join("report"),
             seed: 1,
             partner: "synthetic".into(),

@@ -13,6 +13,8 @@ pub struct RunSettings {
     pub model: PathBuf,
     /// The process table.
     pub pipeline: PathBuf,
+    /// The limits that keep the person safe.
+    pub safety: PathBuf,
     /// Where reports go; it outlives the run.
     pub report: PathBuf,
     /// Seed of every random generator of the run.

@@ -11,6 +11,7 @@ fn settings() -> RunSettings {
         robot: path.clone(),
         model: path.clone(),
         pipeline: path.clone(),
+        safety: path.clone(),
         report: path,
         seed: 7,
         partner: "synthetic".to_owned(),

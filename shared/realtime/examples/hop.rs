@@ -175,6 +175,7 @@ fn settings(table: &std::path::Path) -> RunSettings {
         robot: table.to_owned(),
         model: table.to_owned(),
         pipeline: table.to_owned(),
+        safety: Default::default(),
         report: table.to_owned(),
         seed: 1,
         partner: "synthetic".to_owned(),

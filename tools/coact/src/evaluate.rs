@@ -166,6 +166,7 @@ fn settings(args: &Args) -> Result<RunSettings> {
         robot: below("robots/aros.toml"),
         model: below("perception/preshape.toml"),
         pipeline: below("pipeline.toml"),
+        safety: below("safety.toml"),
         report: PathBuf::new(),
         seed: args.seed,
         partner: partner::setting(&args.partner, &reaches),

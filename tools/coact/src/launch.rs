@@ -7,6 +7,7 @@ use coact_monitor::Album;
 use coact_perception::PreshapeModel;
 use coact_pipeline::{Pipeline, RunSettings, WorldMode};
 use coact_robot::Robot;
+use coact_safety::SafetyLimits;
 use coact_supervisor::{Injection, Launch, LaunchError};
 use coact_world::Partner;
 use std::path::{Path, PathBuf, absolute};
@@ -52,6 +53,9 @@ pub struct Args {
     /// The process table [default: rt-config/pipeline.toml]
     #[arg(long, value_name = "FILE")]
     pipeline: Option<PathBuf>,
+    /// The limits that keep the person safe [default: rt-config/safety.toml]
+    #[arg(long, value_name = "FILE")]
+    safety: Option<PathBuf>,
     /// Print nothing but the final summary.json on standard output
     #[arg(long)]
     json: bool,
@@ -95,6 +99,7 @@ fn prepare(args: Args) -> Result<Launch> {
         robot,
         model: below("perception/preshape.toml"),
         pipeline: pipeline.clone(),
+        safety: absolute(args.safety.unwrap_or_else(|| below("safety.toml")))?,
         report,
         seed: args.seed,
         partner: partner::setting(&args.partner, &reaches),
@@ -102,6 +107,7 @@ fn prepare(args: Args) -> Result<Launch> {
     };
     let (task, _) = NetworkPlan::load(&settings.task)?;
     Robot::load(&settings.robot)?;
+    SafetyLimits::load(&settings.safety)?;
     PreshapeModel::load(&settings.model)?;
     Partner::load(&settings.partner, &task, settings.seed)?;
     Ok(Launch {

@@ -15,6 +15,7 @@ fn settings(partner: &str) -> RunSettings {
         robot: folder.join("robots/aros.toml"),
         model: folder.join("perception/preshape.toml"),
         pipeline: folder.join("pipeline.toml"),
+        safety: folder.join("safety.toml"),
         report: PathBuf::new(),
         seed: 1,
         partner: partner.into(),

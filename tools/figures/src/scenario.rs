@@ -55,6 +55,7 @@ impl Scenario {
             robot: configuration.join("robots/aros.toml"),
             model: configuration.join("perception/preshape.toml"),
             pipeline: configuration.join("pipeline.toml"),
+            safety: configuration.join("safety.toml"),
             report: PathBuf::new(),
             seed,
             partner: format!("script:{}", script.display()),

@@ -55,6 +55,7 @@ fn settings(world: WorldMode) -> RunSettings {
         robot: configuration.join("robots/aros.toml"),
         model: configuration.join("perception/preshape.toml"),
         pipeline: configuration.join("pipeline.toml"),
+        safety: configuration.join("safety.toml"),
         report: PathBuf::new(),
         seed: 1,
         partner: "synthetic".into(),

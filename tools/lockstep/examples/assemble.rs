@@ -18,6 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         robot: folder.join("robots/aros.toml"),
         model,
         pipeline: folder.join("pipeline.toml"),
+        safety: folder.join("safety.toml"),
         report: std::env::temp_dir(),
         seed,
         partner,

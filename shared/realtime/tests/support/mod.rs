@@ -20,6 +20,7 @@ impl TestRun {
                 robot: nowhere.clone(),
                 model: nowhere.clone(),
                 pipeline: table,
+                safety: Default::default(),
                 report: nowhere,
                 seed: 1,
                 partner: "synthetic".to_owned(),

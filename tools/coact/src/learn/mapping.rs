@@ -47,6 +47,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         robot: configuration.join("robots/aros.toml"),
         model: configuration.join("perception/preshape.toml"),
         pipeline: configuration.join("pipeline.toml"),
+        safety: configuration.join("safety.toml"),
         report: PathBuf::new(),
         seed,
         partner: "synthetic".into(),

@@ -78,6 +78,7 @@ impl RealTime<'_> {
             robot: below("robots/aros.toml"),
             model: std::path::absolute(model)?,
             pipeline: below("pipeline.toml"),
+            safety: below("safety.toml"),
             report: std::path::absolute(report)?,
             seed: self.evaluation.seed,
             partner: format!("replay:{}:{}", subject.participant, folder.display()),

@@ -17,6 +17,7 @@ pub fn settings(seed: u64, partner: &str) -> RunSettings {
         robot: folder.join("robots/aros.toml"),
         model: folder.join("perception/preshape.toml"),
         pipeline: folder.join("pipeline.toml"),
+        safety: folder.join("safety.toml"),
         report: PathBuf::new(),
         seed,
         partner: partner.into(),

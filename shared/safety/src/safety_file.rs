@@ -1,0 +1,141 @@
+//! From the text of the file to [`SafetyLimits`], with the place of every mistake.
+
+use crate::range::{Fault, below, within};
+use crate::{GuardLimits, PersonLimits, PlannerLimits, SafetyLimits, StaleLimits};
+use serde::Deserialize;
+use std::time::Duration;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SafetyFile {
+    person: PersonTable,
+    guard: GuardTable,
+    planner: PlannerTable,
+    stale: StaleTable,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PersonTable {
+    upper_arm_radius_m: Spanned<f64>,
+    forearm_radius_m: Spanned<f64>,
+    hand_radius_m: Spanned<f64>,
+    hand_length_m: Spanned<f64>,
+    carried_within_m: Spanned<f64>,
+    extrapolated_ms: Spanned<u64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GuardTable {
+    protective_separation_m: Spanned<f64>,
+    horizon_ms: Spanned<u64>,
+    horizon_steps: Spanned<u32>,
+    stopped_within_ms: Spanned<u64>,
+    escape_override: Spanned<f64>,
+    escape_gain_m: Spanned<f64>,
+    escape_loss_m: Spanned<f64>,
+    blocked_override: Spanned<f64>,
+    blocked_ms: Spanned<u64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PlannerTable {
+    path_clearance_m: Spanned<f64>,
+    goal_clearance_m: Spanned<f64>,
+    beyond_guard_m: Spanned<f64>,
+    person_ahead_ms: Spanned<u64>,
+    withdraw_within_m: Spanned<f64>,
+    withdraw_distance_m: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StaleTable {
+    input_after_ms: Spanned<u64>,
+    hand_after_ms: Spanned<u64>,
+}
+
+pub(crate) fn parse(text: &str) -> Result<SafetyLimits, Fault> {
+    let file: SafetyFile = toml::from_str(text).map_err(|error| Fault {
+        at: error.span().map_or(0, |span| span.start),
+        problem: format!("{}; expected every key of rt-config/safety.toml, and no other", error.message()),
+    })?;
+    Ok(SafetyLimits {
+        person: file.person.limits()?,
+        guard: file.guard.limits()?,
+        planner: file.planner.limits()?,
+        stale: file.stale.limits()?,
+    })
+}
+
+impl PersonTable {
+    fn limits(&self) -> Result<PersonLimits, Fault> {
+        Ok(PersonLimits {
+            radii: [
+                within("upper_arm_radius_m", &self.upper_arm_radius_m, 0.01..=0.3)?,
+                within("forearm_radius_m", &self.forearm_radius_m, 0.01..=0.3)?,
+                within("hand_radius_m", &self.hand_radius_m, 0.01..=0.3)?,
+            ],
+            hand_length: within("hand_length_m", &self.hand_length_m, 0.05..=0.4)?,
+            carried_within: within("carried_within_m", &self.carried_within_m, 0.0..=0.3)?,
+            extrapolated: milliseconds("extrapolated_ms", &self.extrapolated_ms, 0..=2000)?,
+        })
+    }
+}
+
+impl GuardTable {
+    fn limits(&self) -> Result<GuardLimits, Fault> {
+        let limits = GuardLimits {
+            protective_separation: within(
+                "protective_separation_m",
+                &self.protective_separation_m,
+                0.0..=1.0,
+            )?,
+            horizon: milliseconds("horizon_ms", &self.horizon_ms, 10..=5000)?,
+            horizon_steps: within("horizon_steps", &self.horizon_steps, 1..=100)?,
+            stopped_within: milliseconds("stopped_within_ms", &self.stopped_within_ms, 1..=5000)?,
+            escape_override: within("escape_override", &self.escape_override, 0.0..=1.0)?,
+            escape_gain: within("escape_gain_m", &self.escape_gain_m, 0.0..=0.1)?,
+            escape_loss: within("escape_loss_m", &self.escape_loss_m, 0.0..=0.1)?,
+            blocked_override: within("blocked_override", &self.blocked_override, 0.0..=1.0)?,
+            blocked: milliseconds("blocked_ms", &self.blocked_ms, 1..=10_000)?,
+        };
+        below("stopped_within_ms", &self.stopped_within_ms, "horizon_ms", *self.horizon_ms.get_ref())?;
+        // An arm that leaves somebody is not in the way: it would look for another path all the time.
+        below("blocked_override", &self.blocked_override, "escape_override", limits.escape_override)?;
+        Ok(limits)
+    }
+}
+
+impl PlannerTable {
+    fn limits(&self) -> Result<PlannerLimits, Fault> {
+        Ok(PlannerLimits {
+            path_clearance: within("path_clearance_m", &self.path_clearance_m, 0.0..=0.5)?,
+            goal_clearance: within("goal_clearance_m", &self.goal_clearance_m, 0.0..=0.5)?,
+            beyond_guard: within("beyond_guard_m", &self.beyond_guard_m, 0.0..=0.5)?,
+            person_ahead: milliseconds("person_ahead_ms", &self.person_ahead_ms, 0..=2000)?,
+            withdraw_within: within("withdraw_within_m", &self.withdraw_within_m, 0.0..=1.0)?,
+            withdraw_distance: within("withdraw_distance_m", &self.withdraw_distance_m, 0.01..=0.5)?,
+        })
+    }
+}
+
+impl StaleTable {
+    fn limits(&self) -> Result<StaleLimits, Fault> {
+        Ok(StaleLimits {
+            input_after: milliseconds("input_after_ms", &self.input_after_ms, 1..=1000)?,
+            hand_after: milliseconds("hand_after_ms", &self.hand_after_ms, 1..=5000)?,
+        })
+    }
+}
+
+fn milliseconds(
+    key: &str,
+    value: &Spanned<u64>,
+    range: std::ops::RangeInclusive<u64>,
+) -> Result<Duration, Fault> {
+    Ok(Duration::from_millis(within(key, value, range)?))
+}
