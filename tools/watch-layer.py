@@ -34,7 +34,7 @@ import tempfile
 import time
 from pathlib import Path
 
-LAYOUT = 5
+LAYOUT = 6
 MAX_LAYERS, MAX_POPULATIONS, MAX_SITES = 16, 1024, 10240
 NONE = 0xFFFF_FFFF
 LAYERS = ["AOL", "OML-robot", "OML-person", "CSGL-achieved", "CSGL-available", "ASL", "IL", "EML", "AEL"]
@@ -80,7 +80,7 @@ class FieldFrame(ctypes.Structure):
     _fields_ = [
         ("header", Header),
         ("task", ctypes.c_uint64),
-        ("noise", ctypes.c_uint64 * 4),
+        ("noise_seed", ctypes.c_uint64),
         ("layers", LayerTable),
         ("decision", Decision),
         ("activity", ctypes.c_double * MAX_SITES),

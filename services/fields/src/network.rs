@@ -102,7 +102,7 @@ impl Network {
     fn describe(&self, out: &mut FieldFrame) {
         let width = self.plan.sites_per_population;
         out.task = self.task;
-        out.noise = [self.seed, 0, 0, 0];
+        out.noise_seed = self.seed;
         out.layers.count = self.plan.layers.len() as u32;
         out.layers.reserved = 0;
         for (index, layer) in self.plan.layers.iter().enumerate() {

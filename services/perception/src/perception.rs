@@ -108,6 +108,7 @@ impl Perception {
         let (hand, reach) = (&self.memory.hand, &self.memory.preshape.reach);
         let tracked = hand.is_tracked(tick);
         let reaching = tracked && hand.motion.is_moving() && hand.motion.onset == reach.onset;
+        self.state.arm = hand.arm_at(tick);
         self.state.hand = HandPercept {
             wrist: hand.wrist_at(tick).into(),
             velocity: hand.velocity().into(),

@@ -4,7 +4,7 @@
 mod support;
 use bytemuck::bytes_of;
 use coact_joint_task::Act;
-use coact_messages::{HandView, Keypoint, Percept, SceneView};
+use coact_messages::{HandView, Keypoint, KeypointName, Percept, SceneView};
 use support::{Stage, perception, resting};
 
 const TOP: usize = 0;
@@ -134,7 +134,8 @@ fn a_gap_in_the_tracking_is_bridged_and_a_long_one_is_told() {
 fn a_lost_keypoint_is_held() {
     let mut stage = Stage::new();
     let before = stage.percept.hand.aperture;
-    stage.run(100, |stage, _| stage.sample.hand.keypoints[4] = Keypoint::default());
+    stage.wrong = vec![(KeypointName::ThumbTip, Keypoint::default())];
+    stage.run(100, |_, _| {});
     assert!((stage.percept.hand.aperture - before).abs() < 1e-3);
 }
 

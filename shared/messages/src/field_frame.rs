@@ -14,8 +14,9 @@ pub struct FieldFrame {
     pub header: Header,
     /// Fingerprint of the task that made the network; a frame of another task is not resumed from.
     pub task: u64,
-    /// State of the network's noise generator.
-    pub noise: [u64; 4],
+    /// Seed of the network's noise. The noise has no state beyond it: the generator is made anew from seed and cycle in
+    /// each cycle, so that a restarted network makes the same noise as one that was never interrupted.
+    pub noise_seed: u64,
     /// Where each layer's sites and populations stand.
     pub layers: LayerTable,
     /// The chosen action of the action execution layer.

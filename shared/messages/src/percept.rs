@@ -1,4 +1,4 @@
-use crate::{Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, WORKSPACES};
+use crate::{Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, PersonArm, WORKSPACES};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -9,7 +9,9 @@ use iceoryx2::prelude::ZeroCopySend;
 pub struct Percept {
     /// Header.
     pub header: Header,
-    /// The person's hand.
+    /// Where the person's arm is.
+    pub arm: PersonArm,
+    /// What the person's hand does.
     pub hand: HandPercept,
     /// Evidence for each observable act, in the order of `Task::acts`: what drives the action observation layer.
     pub act: [f64; MAX_ACTS],

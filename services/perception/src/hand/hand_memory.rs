@@ -7,6 +7,14 @@ use nalgebra::Vector3;
 pub(crate) const FRAMES: usize = 6;
 /// Frames that are averaged for what the hand's shape is read from.
 const AVERAGED: usize = 3;
+/// Confidence above which a keypoint is believed.
+///
+/// Of 540 378 keypoints of the recorded reaches (six people, an image detector), 0.1 % are lost (confidence 0) and 3.5 %
+/// have a confidence up to this one. Compared with the line between its neighbours in time that are sure (above 0.5), such
+/// a keypoint is off by 3.3 pixels (median; a hand is 29 long), the last sure one by 1.8: whoever believes it does worse
+/// than with what was seen before. From 0.2 to 0.3 they are about equal (2.3, 1.9), above that the new one is the better
+/// (1.3, 1.5). The simulated tracker says 0, or 0.7 to 0.95.
+const BELIEVED: f64 = 0.2;
 /// How far a keypoint may lie from the origin, m: beyond it, the tracker talks nonsense.
 const FARTHEST: f64 = 10.0;
 /// A wrist that is this far from where it was a frame ago is another hand, or the same one after a long gap, m.
@@ -14,7 +22,7 @@ const JUMP: f64 = 0.25;
 /// Longest gap in the stream of frames that is bridged, cycles.
 const LONGEST_GAP: u64 = 350;
 /// How far ahead of the newest frame the wrist is extrapolated, cycles.
-const EXTRAPOLATED: u64 = 50;
+pub(super) const EXTRAPOLATED: u64 = 50;
 /// Age beyond which the newest frame tells nothing of the hand now, cycles.
 const USABLE: u64 = 150;
 /// Gains of the wrist's alpha-beta filter (position, velocity).
@@ -22,6 +30,8 @@ const GAINS: (f64, f64) = (0.7, 0.35);
 /// Share of a new frame in the rate at which the pitch changes, and how far ahead it is looked, s.
 const PITCH_GAIN: f64 = 0.4;
 const PITCH_AHEAD: f64 = 0.08;
+/// Keypoints of a frame.
+const KEYPOINTS: usize = 9;
 /// Keypoints that differ less in height than this are those of a flat image, m.
 const FLAT: f64 = 1e-6;
 
@@ -42,10 +52,10 @@ pub(crate) struct HandMemory {
     seen: u64,
     /// Cycle at which it was captured.
     pub captured: u64,
-    /// Bit i set: keypoint i has been found at least once.
-    known: u64,
+    /// Cycle at which each keypoint was found last, plus one; 0: never.
+    found: [u64; KEYPOINTS],
     /// Where each keypoint was found last, m.
-    keypoint: [[f64; 3]; 9],
+    keypoint: [[f64; 3]; KEYPOINTS],
     /// Filtered wrist position, m, at the newest frame.
     wrist: [f64; 3],
     /// Filtered wrist velocity, m/s.
@@ -68,11 +78,8 @@ impl HandMemory {
     /// While something may `hide` the hand, a frame without wrist, knuckles or finger tips is none: a hand that is half out
     /// of sight tells neither its grip nor its pitch.
     pub fn observe(&mut self, tick: u64, view: &HandView, hide: bool) -> Option<bool> {
-        let lost = |name: &KeypointName| {
-            let confidence = view.keypoints[*name as usize].confidence;
-            confidence <= 0.0 || confidence.is_nan()
-        };
-        if hide && WHOLE_HAND.iter().any(lost) {
+        let found = |name: &KeypointName| view.keypoints[*name as usize].confidence > BELIEVED;
+        if hide && !WHOLE_HAND.iter().all(found) {
             return None;
         }
         let known = self.seen == view.frame.wrapping_add(1);
@@ -102,18 +109,18 @@ impl HandMemory {
     /// Puts every keypoint that the frame has found in its place. False before wrist and finger tips are all known,
     /// or when the frame holds none.
     fn merge(&mut self, view: &HandView) -> bool {
-        let mut found = 0;
+        let mut any = false;
         for (index, point) in view.keypoints.iter().enumerate() {
             let plausible = point.position.iter().all(|value| value.abs() < FARTHEST);
-            if plausible && point.confidence > 0.0 {
+            if plausible && point.confidence > BELIEVED {
                 self.keypoint[index] = point.position;
-                found |= 1 << index;
+                self.found[index] = view.captured_cycle.saturating_add(1);
+                any = true;
             }
         }
-        self.known |= found;
         let needed =
             [KeypointName::Wrist, KeypointName::ThumbTip, KeypointName::IndexTip, KeypointName::MiddleTip];
-        found != 0 && needed.iter().all(|name| self.known & (1 << *name as u64) != 0)
+        any && needed.iter().all(|name| self.is_known(*name))
     }
 
     fn start_over(&mut self, found: Vector3<f64>) {
@@ -206,7 +213,7 @@ impl HandMemory {
             spread.max((point[2] - self.keypoint[KeypointName::Wrist as usize][2]).abs())
         });
         let knuckles = [KeypointName::IndexKnuckle, KeypointName::LittleKnuckle];
-        let known = knuckles.iter().all(|name| self.known & (1 << *name as u64) != 0);
+        let known = knuckles.iter().all(|name| self.is_known(*name));
         (known && spread > FLAT).then_some(self.pitch)
     }
 
@@ -247,7 +254,18 @@ impl HandMemory {
         self.is_tracked(tick) && self.frames == FRAMES as u64
     }
 
-    fn point(&self, name: KeypointName) -> Vector3<f64> {
+    /// Whether a keypoint has been found at least once.
+    pub(super) fn is_known(&self, name: KeypointName) -> bool {
+        self.found[name as usize] > 0
+    }
+
+    /// Cycles since a keypoint was found last; `None`: it never was.
+    pub(super) fn age_of(&self, name: KeypointName, tick: u64) -> Option<u64> {
+        self.found[name as usize].checked_sub(1).map(|cycle| tick.saturating_sub(cycle))
+    }
+
+    /// Where a keypoint was found last, m.
+    pub(super) fn point(&self, name: KeypointName) -> Vector3<f64> {
         self.keypoint[name as usize].into()
     }
 }

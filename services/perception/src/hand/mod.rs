@@ -1,5 +1,6 @@
 //! The person's hand: keypoints bridged over drop-outs, filtered, and its movement from stillness to stillness.
 
+mod arm_estimate;
 mod hand_memory;
 mod motion;
 mod view_frame;

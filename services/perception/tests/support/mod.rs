@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test uses its own share")]
 
 use coact_joint_task::{Act, Task};
-use coact_messages::{Keypoint, Percept, SensorSample, Sighting};
+use coact_messages::{Keypoint, KeypointName, Percept, SensorSample, Sighting};
 use coact_perception::{Perception, PreshapeModel};
 use std::path::PathBuf;
 
@@ -86,6 +86,8 @@ pub struct Stage {
     pub tick: u64,
     /// Whether the hand tracker delivers.
     pub tracking: bool,
+    /// Keypoints that it delivers in the place of the hand's own.
+    pub wrong: Vec<(KeypointName, Keypoint)>,
 }
 
 impl Stage {
@@ -113,6 +115,7 @@ impl Stage {
             percept: bytemuck::zeroed_box(),
             tick: 1,
             tracking: true,
+            wrong: Vec::new(),
         }
     }
 
@@ -177,6 +180,9 @@ impl Stage {
             self.sample.hand.frame += 1;
             self.sample.hand.captured_cycle = self.tick;
             self.sample.hand.keypoints = self.hand.keypoints();
+            for (name, keypoint) in &self.wrong {
+                self.sample.hand.keypoints[*name as usize] = *keypoint;
+            }
         }
         if self.tick.is_multiple_of(33) {
             self.show_parts();
