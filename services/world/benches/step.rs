@@ -3,8 +3,9 @@
 use bytemuck::zeroed_box;
 use coact_joint_task::Task;
 use coact_messages::{Command, SensorSample, Truth, WorldState};
+use coact_pipeline::WorldMode;
 use coact_robot::Robot;
-use coact_world::{BodyKind, Partner, Settings, World};
+use coact_world::{Partner, Settings, World};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::path::Path;
 
@@ -12,15 +13,15 @@ fn step(criterion: &mut Criterion) {
     let config = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
     let task = Task::load(&config.join("tasks/toy-vehicle.toml")).expect("the project's own task");
     let robot = Robot::load(&config.join("robots/aros.toml")).expect("the project's own robot");
-    for body in [BodyKind::Kinematic, BodyKind::Physics] {
-        let settings = Settings { seed: 1, partner: Partner::Synthetic, body };
+    for mode in [WorldMode::Kinematic, WorldMode::Physics] {
+        let settings = Settings { seed: 1, partner: Partner::Synthetic, mode };
         let mut world = World::new(&task, &robot, settings).expect("the project's own scene");
         let (mut sample, mut truth, mut state): (Box<SensorSample>, Box<Truth>, Box<WorldState>) =
             (zeroed_box(), zeroed_box(), zeroed_box());
         let mut command: Box<Command> = zeroed_box();
         command.position[..7].copy_from_slice(&robot.park);
         let mut tick = 0;
-        criterion.bench_function(&format!("world step, {body:?}"), |bench| {
+        criterion.bench_function(&format!("world step, {mode:?}"), |bench| {
             bench.iter(|| {
                 tick += 1;
                 command.position[0] = robot.park[0] + 0.1 * (tick as f64 * 1e-3).sin();

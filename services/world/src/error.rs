@@ -11,16 +11,11 @@ pub enum WorldError {
         /// What was given.
         name: String,
     },
-    /// A rate of the erring partner makes no sense.
-    #[error("partner random: \"{entry}\"; expected {expected}")]
-    Rate {
-        /// What was given.
-        entry: String,
-        /// What was expected.
-        expected: String,
-    },
+    /// There can be no such partner.
+    #[error(transparent)]
+    Person(#[from] coact_person::PersonError),
     /// A file could not be read.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: cannot be read", path.display())]
     File {
         /// The file.
         path: PathBuf,
@@ -51,17 +46,6 @@ pub enum WorldError {
         /// The joint's name in the URDF.
         joint: String,
         /// What is wrong, and what to change.
-        message: String,
-    },
-    /// The recordings of people's reaches cannot be used.
-    #[error(transparent)]
-    Recording(#[from] coact_recordings::RecordingError),
-    /// The recordings lack what the task needs.
-    #[error("{}: {message}", path.display())]
-    Recordings {
-        /// The folder.
-        path: PathBuf,
-        /// What is missing, and what is expected.
         message: String,
     },
 }

@@ -21,22 +21,21 @@
 //! touch it again once they have been opened. Parts that lie 3 mm aside of where they are thought to be, and are taken 3
 //! degrees aslant, are lifted, turned, carried and put down in 19 of 20 trials or more.
 
-mod body;
 mod error;
-mod memory;
-mod noise;
+mod palm;
 mod parts;
-mod person;
 mod replay;
 mod robot_hand;
+mod robot_hand_state;
+mod scenario;
 mod sensors;
 mod settings;
-mod slot;
-mod staging;
+mod simulated_robot;
+mod simulation_state;
 mod world;
 
 pub use error::WorldError;
-pub use person::{Rates, Recorded, Script};
 pub use replay::{METRES_PER_PIXEL, Replay, Span, has_part_for};
-pub use settings::{BodyKind, Partner, Settings};
+pub use scenario::Scenario;
+pub use settings::{Partner, Settings};
 pub use world::World;

@@ -1,16 +1,16 @@
 //! The process that stands in for the hardware: released by the timer, it starts each cycle of the chain.
 
-mod ears;
+mod speech_input;
 
 use anyhow::Context;
 use coact_joint_task::Task;
 use coact_messages::{Command, Header, SensorSample, Truth, WorldState, topic};
-use coact_pipeline::{RunSettings, WorldMode};
+use coact_pipeline::RunSettings;
 use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick, now};
 use coact_recordings::{Order, read_folder};
 use coact_robot::Robot;
-use coact_world::{BodyKind, Partner, Replay, Settings, World, has_part_for};
-use ears::Ears;
+use coact_world::{Partner, Replay, Settings, World, has_part_for};
+use speech_input::SpeechInput;
 use std::path::Path;
 
 /// What `RunSettings::partner` begins with when recorded reaches are to be played.
@@ -23,7 +23,7 @@ struct Hardware {
     sample: Output<SensorSample>,
     truth: Output<Truth>,
     state: Output<WorldState>,
-    ears: Ears,
+    heard: SpeechInput,
     /// Actions of the script of which it is known that they could not be done.
     skipped: u64,
 }
@@ -36,7 +36,7 @@ impl Cycle for Hardware {
     }
 
     fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
-        if let Some(speech) = self.ears.next() {
+        if let Some(speech) = self.heard.next() {
             self.world.hear(speech.sentence());
         }
         let Self { world, command, sample, truth, state, .. } = self;
@@ -120,17 +120,14 @@ fn simulate(mut process: Process) -> anyhow::Result<()> {
         sample.continue_after(&last.header);
         truth.continue_after(&last.header);
     }
-    let (ears, skipped) = (Ears::open(process.run())?, world.skipped());
-    Ok(process.run_cycles(Hardware { world, command, sample, truth, state, ears, skipped })?)
+    let (heard, skipped) = (SpeechInput::open(process.run())?, world.skipped());
+    Ok(process.run_cycles(Hardware { world, command, sample, truth, state, heard, skipped })?)
 }
 
 fn world(run: &RunSettings) -> anyhow::Result<World> {
     let task = Task::load(&run.task)?;
     let robot = Robot::load(&run.robot)?;
-    let body = match run.world {
-        WorldMode::Physics => BodyKind::Physics,
-        WorldMode::Kinematic => BodyKind::Kinematic,
-    };
-    let settings = Settings { seed: run.seed, partner: Partner::load(&run.partner, &task, run.seed)?, body };
+    let settings =
+        Settings { seed: run.seed, partner: Partner::load(&run.partner, &task, run.seed)?, mode: run.world };
     Ok(World::new(&task, &robot, settings)?)
 }

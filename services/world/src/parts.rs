@@ -1,21 +1,12 @@
-use coact_joint_task::{Agent, Fit, Task};
+use coact_joint_task::{Fit, Task};
 use coact_messages::{MAX_PARTS, NONE, PartState};
+use coact_person::{Holder, PartsView};
 use glam::{DQuat, DVec3};
 
 /// From how far before its socket on a part that stands true to it fits into what it is mounted in, m.
 const ENTRY: f64 = 0.06;
 /// How far other parts must be from where a part is put back, m.
 const HOME_CLEARANCE: f64 = 0.1;
-
-/// Who has a part: [`PartState::state`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u32)]
-pub(crate) enum Holder {
-    Nobody = 0,
-    Robot = 1,
-    Person = 2,
-    Socket = 3,
-}
 
 /// All parts of the scene, and what becomes of a part that is let go.
 #[derive(Debug, Clone)]
@@ -68,12 +59,17 @@ impl Parts {
         &self.state
     }
 
+    /// The parts as anybody can see them.
+    pub fn view(&self) -> PartsView<'_> {
+        PartsView::new(self.all())
+    }
+
     pub fn kind(&self, part: usize) -> usize {
-        self.state[part].kind as usize
+        self.view().kind(part)
     }
 
     pub fn is(&self, part: usize, holder: Holder) -> bool {
-        self.state[part].state == holder as u32
+        self.view().is(part, holder)
     }
 
     pub fn give_to(&mut self, part: usize, holder: Holder) {
@@ -81,11 +77,11 @@ impl Parts {
     }
 
     pub fn position(&self, part: usize) -> DVec3 {
-        self.state[part].position.into()
+        self.view().position(part)
     }
 
     pub fn orientation(&self, part: usize) -> DQuat {
-        DQuat::from_array(self.state[part].orientation)
+        self.view().orientation(part)
     }
 
     pub fn place(&mut self, part: usize, position: DVec3, orientation: DQuat) {
@@ -99,12 +95,6 @@ impl Parts {
         self.state[part].velocity = velocity;
     }
 
-    /// Centre of the part's body, m: where the person's fingers close.
-    pub fn centre(&self, part: usize, task: &Task) -> DVec3 {
-        self.position(part)
-            + self.orientation(part) * (0.5 * task.kinds[self.kind(part)].shape.height() * DVec3::Z)
-    }
-
     /// Distance of `point` from the part's own axis, between its underside and its top, m.
     pub fn distance_to_axis(&self, part: usize, point: DVec3, task: &Task) -> f64 {
         let foot = self.position(part);
@@ -115,32 +105,12 @@ impl Parts {
 
     /// Bit i is set when subgoal i's part is in its place.
     pub fn achieved(&self) -> u64 {
-        let mounted = self.all().iter().filter(|part| part.state == Holder::Socket as u32);
-        mounted.fold(0, |mask, part| mask | (1 << part.subgoal))
+        self.view().achieved()
     }
 
     /// Bit i is set when part i is with `holder`.
     pub fn held_by(&self, holder: Holder) -> u32 {
         (0..self.count).filter(|&part| self.is(part, holder)).fold(0, |mask, part| mask | 1 << part)
-    }
-
-    /// Whether a subgoal is not achieved yet, but everything that must come before it is.
-    pub fn is_available(&self, subgoal: usize, task: &Task) -> bool {
-        let achieved = self.achieved();
-        achieved & (1 << subgoal) == 0
-            && task.subgoals[subgoal].after.iter().all(|before| achieved & (1 << before) != 0)
-    }
-
-    /// The free part of `kind` in the workspace of `owner` that lies nearest to `point`.
-    pub fn nearest_free(&self, kind: usize, owner: Agent, point: DVec3, task: &Task) -> Option<usize> {
-        let [low, high] = task.scene.workspace[owner.index()];
-        let lies_there = |part: &usize| {
-            let at = self.state[*part].position;
-            let inside = (0..2).all(|axis| at[axis] >= low[axis] && at[axis] <= high[axis]);
-            inside && self.kind(*part) == kind && self.is(*part, Holder::Nobody)
-        };
-        let distance = |part: &usize| self.position(*part).distance_squared(point);
-        (0..self.count).filter(lies_there).min_by(|one, other| distance(one).total_cmp(&distance(other)))
     }
 
     /// A part that nobody holds any more is mounted in the free socket of its kind that it fits into, or drops.
@@ -243,6 +213,6 @@ impl Parts {
 }
 
 /// The shortest turn that brings a part's own z axis onto `axis`.
-pub(crate) fn upright_along(axis: DVec3) -> DQuat {
+fn upright_along(axis: DVec3) -> DQuat {
     DQuat::from_rotation_arc(DVec3::Z, axis.normalize_or(DVec3::Z))
 }

@@ -1,9 +1,10 @@
-use crate::body::Grip;
-use crate::parts::{Holder, Parts};
-use crate::slot::Slot;
-use bytemuck::{Pod, Zeroable};
+use crate::palm::Palm;
+use crate::parts::Parts;
+use crate::robot_hand_state::RobotHandState;
+use crate::simulated_robot::MeasuredGrip;
 use coact_joint_task::Task;
 use coact_messages::{ARM_JOINTS, JOINTS};
+use coact_person::{Holder, Slot};
 use coact_robot::{HAND_JOINTS, Hand, Robot};
 use glam::{DQuat, DVec3};
 
@@ -30,49 +31,6 @@ const GRIP_FORCE: (f64, f64) = (2.0, 40.0);
 const GRASPED: (f64, f64) = (0.5, 0.1);
 /// For how many ticks the force must say so before it does.
 const CERTAIN: (u64, u64) = (10, 30);
-
-/// The robot's hand as anybody can see it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Palm {
-    /// Where the finger ends meet, m.
-    pub grasp_point: DVec3,
-    pub orientation: DQuat,
-    /// Mean angle of the finger bases, rad; growing angles close.
-    pub closing: f64,
-}
-
-/// What the robot's hand remembers, and since when it has stood where the person pays attention to it (ticks, 0: not).
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub(crate) struct RobotHandMemory {
-    pub held: Slot,
-    /// Pose of the held part in the palm frame.
-    offset: [f64; 3],
-    turn: [f64; 4],
-    closing: f64,
-    /// Open and empty at the place where parts change hands.
-    pub asking_since: u64,
-    /// With a part that was brought to that place.
-    pub offering_since: u64,
-    /// At the place where the base is steadied.
-    pub holding_since: u64,
-    /// 1 once the held part has been away from the place where parts change hands: not received there just now.
-    brought: u64,
-    /// Where the palm was when it took the held part.
-    taken_at: [f64; 3],
-    /// Ticks for which it has been carried, away from there.
-    pub carried: u64,
-    /// Ticks for which the measured grip has said that a part is grasped, or that the held one is lost.
-    changing: u64,
-    /// The part that has slipped out of fingers that are still closed.
-    pub slipped: Slot,
-    /// The part in the person's hand that is between the open fingers.
-    pub receiving: Slot,
-    /// Mean angle of the finger bases that the servo was last told, rad.
-    pub wanted: f64,
-    /// The largest such angle since the fingers have held a part, rad.
-    tightest: f64,
-}
 
 /// Mean finger angles at which a kind of part is touched, gripped and let go, rad, and all hand joints in the grip.
 #[derive(Debug, Clone, Copy)]
@@ -122,19 +80,19 @@ impl RobotHand {
         Palm {
             grasp_point: DVec3::new(point.x, point.y, point.z),
             orientation: DQuat::from_xyzw(turn.x, turn.y, turn.z, turn.w),
-            closing: coact_messages::finger_closure(position),
+            finger_closure: coact_messages::finger_closure(position),
         }
     }
 
     /// Hand joint angles at which the held part stops the fingers, rad; none when the hand is empty.
-    pub fn stop(&self, memory: &RobotHandMemory, parts: &Parts) -> Option<[f64; HAND_JOINTS]> {
-        memory.held.get().map(|part| self.angles[parts.kind(part)].hand)
+    pub fn stop(&self, state: &RobotHandState, parts: &Parts) -> Option<[f64; HAND_JOINTS]> {
+        state.held.get().map(|part| self.angles[parts.kind(part)].hand)
     }
 
     /// Force on the held part, N, as the servo would close the fingers.
-    pub fn touch(&self, memory: &RobotHandMemory, parts: &Parts) -> f64 {
-        let squeeze = |stop: f64| GRIP_FORCE.0 + GRIP_FORCE.1 * (memory.wanted - stop).max(0.0);
-        memory.held.get().map_or(0.0, |part| squeeze(self.angles[parts.kind(part)].grip))
+    pub fn touch(&self, state: &RobotHandState, parts: &Parts) -> f64 {
+        let squeeze = |stop: f64| GRIP_FORCE.0 + GRIP_FORCE.1 * (state.wanted - stop).max(0.0);
+        state.held.get().map_or(0.0, |part| squeeze(self.angles[parts.kind(part)].grip))
     }
 
     /// Grasps, carries and releases: as the fingers were measured to hold (`grip`), or without that by rules, as the
@@ -145,58 +103,58 @@ impl RobotHand {
     pub fn advance(
         &self,
         palm: &Palm,
-        grip: Option<Grip>,
-        memory: &mut RobotHandMemory,
+        grip: Option<MeasuredGrip>,
+        state: &mut RobotHandState,
         person_grip: Slot,
         parts: &mut Parts,
         task: &Task,
     ) {
-        let held = memory.held.get();
+        let held = state.held.get();
         let lost = held.filter(|&part| match grip {
-            Some(grip) => lasts(memory, grip.force_on(part) < GRASPED.1, CERTAIN.1),
-            None => palm.closing < self.angles[parts.kind(part)].release,
+            Some(grip) => lasts(state, grip.force_on(part) < GRASPED.1, CERTAIN.1),
+            None => palm.finger_closure < self.angles[parts.kind(part)].release,
         });
         match (lost, grip) {
             (Some(part), _) => {
-                memory.held = Slot::EMPTY;
+                state.held = Slot::EMPTY;
                 if person_grip.get() == Some(part) {
                     parts.give_to(part, Holder::Person);
                 } else {
-                    let opened = grip.is_none() || memory.wanted < memory.tightest - OPENED;
-                    memory.slipped = if opened { Slot::EMPTY } else { Slot::of(part) };
+                    let opened = grip.is_none() || state.wanted < state.tightest - OPENED;
+                    state.slipped = if opened { Slot::EMPTY } else { Slot::of(part) };
                     parts.let_go(part, task);
                 }
             }
             (None, Some(grip)) if held.is_none() => {
                 let grasped = grip.part.filter(|part| !parts.is(*part, Holder::Socket));
-                let grasped = grasped.filter(|_| lasts(memory, grip.force > GRASPED.0, CERTAIN.0));
-                grasped.into_iter().for_each(|part| take(palm, memory, parts, part));
+                let grasped = grasped.filter(|_| lasts(state, grip.force > GRASPED.0, CERTAIN.0));
+                grasped.into_iter().for_each(|part| take(palm, state, parts, part));
             }
-            (None, None) if held.is_none() => self.grasp(palm, memory, parts, task),
+            (None, None) if held.is_none() => self.grasp(palm, state, parts, task),
             (None, _) => {}
         }
-        memory.closing = palm.closing;
-        memory.tightest =
-            if memory.held == Slot::EMPTY { memory.wanted } else { memory.tightest.max(memory.wanted) };
-        if palm.closing < self.open {
-            memory.slipped = Slot::EMPTY;
+        state.finger_closure = palm.finger_closure;
+        state.tightest =
+            if state.held == Slot::EMPTY { state.wanted } else { state.tightest.max(state.wanted) };
+        if palm.finger_closure < self.open {
+            state.slipped = Slot::EMPTY;
         }
         if grip.is_none() {
-            carry(palm, memory, parts);
+            carry(palm, state, parts);
         }
-        let lifted = palm.grasp_point.distance(memory.taken_at.into()) > LIFTED;
-        match memory.held.get() {
-            Some(part) if parts.is(part, Holder::Robot) => memory.carried += u64::from(lifted),
-            _ => memory.carried = 0,
+        let lifted = palm.grasp_point.distance(state.taken_at.into()) > LIFTED;
+        match state.held.get() {
+            Some(part) if parts.is(part, Holder::Robot) => state.carried += u64::from(lifted),
+            _ => state.carried = 0,
         }
     }
 
     /// The held part slips out of the closed fingers: it falls, and rolls to `to` on the table top if that is given.
-    pub fn lose(&self, memory: &mut RobotHandMemory, parts: &mut Parts, to: Option<[f64; 2]>, task: &Task) {
-        let Some(part) = memory.held.get() else { return };
-        memory.held = Slot::EMPTY;
-        memory.slipped = Slot::of(part);
-        memory.carried = 0;
+    pub fn lose(&self, state: &mut RobotHandState, parts: &mut Parts, to: Option<[f64; 2]>, task: &Task) {
+        let Some(part) = state.held.get() else { return };
+        state.held = Slot::EMPTY;
+        state.slipped = Slot::of(part);
+        state.carried = 0;
         if let Some([x, y]) = to {
             parts.place(part, DVec3::new(x, y, task.scene.table_height), DQuat::IDENTITY);
         }
@@ -212,69 +170,70 @@ impl RobotHand {
         points.map(|point| parts.distance_to_axis(part, point, task)).fold(f64::INFINITY, f64::min)
     }
 
-    fn grasp(&self, palm: &Palm, memory: &mut RobotHandMemory, parts: &mut Parts, task: &Task) {
+    fn grasp(&self, palm: &Palm, state: &mut RobotHandState, parts: &mut Parts, task: &Task) {
         let within = |part: &usize| {
             let angles = self.angles[parts.kind(*part)];
-            let closes_now = memory.closing < angles.touch && palm.closing >= angles.touch;
+            let closes_now = state.finger_closure < angles.touch && palm.finger_closure >= angles.touch;
             closes_now && !parts.is(*part, Holder::Socket) && self.distance(*part, palm, parts, task) <= REACH
         };
         let distance = |part: &usize| self.distance(*part, palm, parts, task);
         let nearest = (0..parts.all().len())
             .filter(within)
             .min_by(|one, other| distance(one).total_cmp(&distance(other)));
-        nearest.into_iter().for_each(|part| take(palm, memory, parts, part));
+        nearest.into_iter().for_each(|part| take(palm, state, parts, part));
     }
 
     /// Notes since when the hand has stood where the person pays attention to it, and what the person puts into it.
-    pub fn notice(&self, tick: u64, palm: &Palm, memory: &mut RobotHandMemory, parts: &Parts, task: &Task) {
+    pub fn notice(&self, tick: u64, palm: &Palm, state: &mut RobotHandState, parts: &Parts, task: &Task) {
         let at_handover = palm.grasp_point.distance(self.handover) < AT_PLACE;
         let at_base = palm.grasp_point.distance(self.hold) < AT_PLACE;
-        let empty = memory.held.get().is_none();
+        let empty = state.held.get().is_none();
         let since = |yes: bool, since: u64| match (yes, since) {
             (false, _) => 0,
             (true, 0) => tick.max(1),
             (true, since) => since,
         };
-        memory.brought = u64::from(!empty && (memory.brought == 1 || !at_handover));
-        memory.asking_since = since(at_handover && empty && palm.closing < self.open, memory.asking_since);
-        memory.offering_since = since(at_handover && memory.brought == 1, memory.offering_since);
-        memory.holding_since = since(at_base && empty, memory.holding_since);
+        state.brought = u64::from(!empty && (state.brought == 1 || !at_handover));
+        state.requesting_since =
+            since(at_handover && empty && palm.finger_closure < self.open, state.requesting_since);
+        state.giving_since = since(at_handover && state.brought == 1, state.giving_since);
+        state.steadying_since = since(at_base && empty, state.steadying_since);
         let between = |part: &usize| {
             parts.is(*part, Holder::Person) && self.distance(*part, palm, parts, task) <= REACH
         };
         let received = (0..parts.all().len()).find(between).filter(|_| empty);
-        memory.receiving = received.map_or(Slot::EMPTY, Slot::of);
+        state.receiving = received.map_or(Slot::EMPTY, Slot::of);
     }
 }
 
 /// Whether a change has been measured for more than `ticks` in a row.
-fn lasts(memory: &mut RobotHandMemory, changed: bool, ticks: u64) -> bool {
-    memory.changing = if changed { memory.changing + 1 } else { 0 };
-    memory.changing > ticks
+fn lasts(state: &mut RobotHandState, changed: bool, ticks: u64) -> bool {
+    state.changing = if changed { state.changing + 1 } else { 0 };
+    state.changing > ticks
 }
 
-fn take(palm: &Palm, memory: &mut RobotHandMemory, parts: &mut Parts, part: usize) {
-    memory.held = Slot::of(part);
-    memory.changing = 0;
-    memory.taken_at = palm.grasp_point.into();
+fn take(palm: &Palm, state: &mut RobotHandState, parts: &mut Parts, part: usize) {
+    state.held = Slot::of(part);
+    state.changing = 0;
+    state.taken_at = palm.grasp_point.into();
     if parts.is(part, Holder::Nobody) {
         parts.give_to(part, Holder::Robot);
     }
-    attach(palm, memory, parts, part);
+    attach(palm, state, parts, part);
 }
 
-fn attach(palm: &Palm, memory: &mut RobotHandMemory, parts: &Parts, part: usize) {
+fn attach(palm: &Palm, state: &mut RobotHandState, parts: &Parts, part: usize) {
     let back = palm.orientation.inverse();
-    memory.offset = (back * (parts.position(part) - palm.grasp_point)).into();
-    memory.turn = (back * parts.orientation(part)).normalize().into();
+    state.offset = (back * (parts.position(part) - palm.grasp_point)).into();
+    state.turn = (back * parts.orientation(part)).normalize().into();
 }
 
 /// A part in the robot's hand follows the palm; one that the person holds as well stays in the person's hand.
-fn carry(palm: &Palm, memory: &mut RobotHandMemory, parts: &mut Parts) {
-    let Some(part) = memory.held.get() else { return };
+fn carry(palm: &Palm, state: &mut RobotHandState, parts: &mut Parts) {
+    let Some(part) = state.held.get() else { return };
     if !parts.is(part, Holder::Robot) {
-        return attach(palm, memory, parts, part);
+        return attach(palm, state, parts, part);
     }
-    let position = palm.grasp_point + palm.orientation * DVec3::from(memory.offset);
-    parts.place(part, position, (palm.orientation * DQuat::from_array(memory.turn)).normalize());
+    let position = palm.grasp_point + palm.orientation * DVec3::from(state.offset);
+    parts.place(part, position, (palm.orientation * DQuat::from_array(state.turn)).normalize());
 }

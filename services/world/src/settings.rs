@@ -1,6 +1,7 @@
-use crate::WorldError;
-use crate::person::{Rates, Recorded, Script};
+use crate::{Scenario, WorldError};
 use coact_joint_task::Task;
+use coact_person::{RandomBehaviour, RecordedReaches};
+use coact_pipeline::WorldMode;
 use std::path::Path;
 
 /// What a world is made with, beside task and robot.
@@ -10,17 +11,8 @@ pub struct Settings {
     pub seed: u64,
     /// Who the partner is.
     pub partner: Partner,
-    /// How the robot's body and loose parts behave.
-    pub body: BodyKind,
-}
-
-/// How the robot's body and loose parts behave.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BodyKind {
-    /// Joints follow their setpoints, parts rest where they are put: cheap.
-    Kinematic,
-    /// Rigid-body dynamics with contacts.
-    Physics,
+    /// How the robot and loose parts behave.
+    pub mode: WorldMode,
 }
 
 /// The person who builds with the robot.
@@ -28,17 +20,17 @@ pub enum BodyKind {
 pub enum Partner {
     /// Chooses at random among the plan's valid actions, and never errs.
     Synthetic,
-    /// Chooses like the synthetic one, but errs, idles and shows its grips unclearly at these rates.
-    Random(Rates),
-    /// Follows a written sequence of actions.
-    Script(Script),
+    /// Chooses like the synthetic one, but makes mistakes, idles and shows its grips unclearly.
+    Random(RandomBehaviour),
+    /// Follows a written sequence of actions, in a scene that is arranged for it.
+    Script(Scenario),
     /// Chooses like the synthetic one; the hand is that of a recorded person.
-    Recorded(Recorded),
+    Recorded(RecordedReaches),
 }
 
 impl Partner {
     /// Reads a partner as it is named on a command line: `synthetic`, `random`,
-    /// `random:KEY=VALUE,...` (see [`Rates`]), `script:FILE` or `recorded:DIR`.
+    /// `random:KEY=VALUE,...` (see [`RandomBehaviour`]), `script:FILE` or `recorded:DIR`.
     ///
     /// A folder of recordings holds several people: each seed takes another one, in turn.
     ///
@@ -47,10 +39,10 @@ impl Partner {
     pub fn load(name: &str, task: &Task, seed: u64) -> Result<Self, WorldError> {
         match name.split_once(':') {
             None if name == "synthetic" => Ok(Self::Synthetic),
-            None if name == "random" => Ok(Self::Random(Rates::default())),
-            Some(("random", rates)) => Rates::parse(rates).map(Self::Random),
-            Some(("script", file)) => Script::load(Path::new(file), task).map(Self::Script),
-            Some(("recorded", folder)) => Recorded::load(Path::new(folder), seed).map(Self::Recorded),
+            None if name == "random" => Ok(Self::Random(RandomBehaviour::default())),
+            Some(("random", settings)) => Ok(Self::Random(RandomBehaviour::parse(settings)?)),
+            Some(("script", file)) => Scenario::load(Path::new(file), task).map(Self::Script),
+            Some(("recorded", folder)) => Ok(Self::Recorded(RecordedReaches::load(Path::new(folder), seed)?)),
             _ => Err(WorldError::Partner { name: name.to_owned() }),
         }
     }

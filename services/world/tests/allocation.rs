@@ -4,8 +4,9 @@
 use bytemuck::zeroed_box;
 use coact_joint_task::Task;
 use coact_messages::{Command, SensorSample, Truth, WorldState};
+use coact_pipeline::WorldMode;
 use coact_robot::Robot;
-use coact_world::{BodyKind, Partner, Settings, World};
+use coact_world::{Partner, Settings, World};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -39,7 +40,7 @@ fn steps_of_a_minute_allocate_nothing() {
     let scenario = format!("script:{}", config.join("scenarios/proactive.toml").display());
     for partner in ["synthetic", "random:goal=0.4,hidden=0.2,words=0.2,dropouts=1", &scenario] {
         let partner = Partner::load(partner, &task, 0).unwrap();
-        let settings = Settings { seed: 1, partner, body: BodyKind::Kinematic };
+        let settings = Settings { seed: 1, partner, mode: WorldMode::Kinematic };
         let mut world = World::new(&task, &robot, settings).unwrap();
         let (mut sample, mut truth, mut state): (Box<SensorSample>, Box<Truth>, Box<WorldState>) =
             (zeroed_box(), zeroed_box(), zeroed_box());

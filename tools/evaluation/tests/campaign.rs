@@ -89,7 +89,7 @@ fn what_is_taken_away_is_silent_and_all_else_stays() {
 #[test]
 fn without_common_subgoals_nothing_is_achieved_and_that_is_told_as_a_deadlock() {
     let mind = Mind { without: vec![Ablation::Csgl, Ablation::Oml], ..Mind::default() };
-    let found = trials("random:idle=1,goal=0,ask=0,means=0,hidden=0,words=0", &mind, 1, 1);
+    let found = trials("random:idle=1,goal=0,request=0,means=0,hidden=0,words=0", &mind, 1, 1);
     assert!(found[0].stalled && found[0].completed_ms.is_none(), "{:?}", found[0]);
     assert_eq!(found[0].ended_ms, 60_000);
     assert!(found[0].actions.is_empty());

@@ -5,9 +5,9 @@ use coact_messages::{
     Command, FieldFrame, Header, LAYOUT, LayerKind, Percept, SensorSample, Truth, WorldState,
 };
 use coact_perception::Perception;
-use coact_pipeline::{RunSettings, WorldMode};
+use coact_pipeline::RunSettings;
 use coact_robot::Robot;
-use coact_world::{BodyKind, Partner, Settings, World};
+use coact_world::{Partner, Settings, World};
 
 /// One period, ns.
 const PERIOD_NS: u64 = 1_000_000;
@@ -77,12 +77,9 @@ impl Lockstep {
         let (task, plan) = NetworkPlan::load(&settings.task)?;
         let plan = change(plan);
         let robot = Robot::load(&settings.robot)?;
-        let body = match settings.world {
-            WorldMode::Physics => BodyKind::Physics,
-            WorldMode::Kinematic => BodyKind::Kinematic,
-        };
         let partner = Partner::load(&settings.partner, &task, settings.seed)?;
-        let world = World::new(&task, &robot, Settings { seed: settings.seed, partner, body })?;
+        let world =
+            World::new(&task, &robot, Settings { seed: settings.seed, partner, mode: settings.world })?;
         let model = coact_perception::PreshapeModel::load(&settings.model)?;
         let network = Network::new(plan, task.fingerprint, settings.seed)?;
         let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();

@@ -1,6 +1,6 @@
-use crate::body::Joints;
-use crate::noise::{Noise, Stream};
+use crate::simulated_robot::Joints;
 use coact_messages::JointReading;
+use coact_random::{RandomStreams, Stream};
 use glam::DVec3;
 use rand_distr::{Distribution, StandardNormal};
 
@@ -12,12 +12,12 @@ const VELOCITY: f64 = 1e-3;
 /// Reads all joint encoders, the fingertip force and the force on the wrist.
 pub(crate) fn read_joints(
     tick: u64,
-    noise: &Noise,
+    random: &RandomStreams,
     joints: &Joints,
     (touch, wrist_force): (f64, DVec3),
     out: &mut JointReading,
 ) {
-    let mut rng = noise.at(Stream::Encoders, tick);
+    let mut rng = random.at(Stream::Encoders, tick);
     let mut deviate = || -> f64 { StandardNormal.sample(&mut rng) };
     out.position = std::array::from_fn(|joint| joints.position[joint] + POSITION * deviate());
     out.velocity = std::array::from_fn(|joint| joints.velocity[joint] + VELOCITY * deviate());

@@ -1,7 +1,7 @@
 use super::is_frame_due;
-use crate::noise::{Noise, Stream};
 use crate::parts::Parts;
 use coact_messages::{SceneView, Sighting};
+use coact_random::{RandomStreams, Stream};
 use glam::{DQuat, DVec3};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -20,7 +20,7 @@ const MISSED: f64 = 0.02;
 pub(crate) fn recognise(
     tick: u64,
     last: Option<u64>,
-    noise: &Noise,
+    random: &RandomStreams,
     parts: &Parts,
     (eye, occluders): ([f64; 3], &[[f64; 6]]),
     view: &mut SceneView,
@@ -28,7 +28,7 @@ pub(crate) fn recognise(
     if !is_frame_due(RATE, last, tick) {
         return;
     }
-    let mut rng = noise.at(Stream::Recogniser, tick);
+    let mut rng = random.at(Stream::Recogniser, tick);
     view.frame += u64::from(last.is_some());
     view.captured_cycle = tick;
     view.sighting = [Sighting::default(); _];

@@ -1,7 +1,7 @@
 use super::is_frame_due;
-use crate::noise::{Noise, Stream};
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{HandView, Keypoint, KeypointName};
+use coact_random::{RandomStreams, Stream};
 use glam::DVec3;
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -18,7 +18,7 @@ const LOST_KEYPOINTS: f64 = 0.005;
 /// The frame that was delivered last, and the one that is still being processed.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub(crate) struct TrackerMemory {
+pub(crate) struct TrackerState {
     pub delivered: HandView,
     pending: HandView,
     /// 1 if the pending frame will be delivered.
@@ -27,7 +27,7 @@ pub(crate) struct TrackerMemory {
     has_delivered: u64,
 }
 
-impl PartialEq for TrackerMemory {
+impl PartialEq for TrackerState {
     fn eq(&self, other: &Self) -> bool {
         bytemuck::bytes_of(self) == bytemuck::bytes_of(other)
     }
@@ -48,8 +48,8 @@ pub(crate) enum Capture {
 pub(crate) fn track(
     tick: u64,
     last: Option<u64>,
-    noise: &Noise,
-    memory: &mut TrackerMemory,
+    random: &RandomStreams,
+    memory: &mut TrackerState,
     capture: impl FnOnce() -> Capture,
     hides: impl Fn([f64; 3]) -> bool,
 ) {
@@ -64,7 +64,7 @@ pub(crate) fn track(
     let (came, mut keypoints) = match capture() {
         Capture::Nothing => (false, [Keypoint::default(); 9]),
         Capture::Recorded(keypoints) => (true, keypoints),
-        Capture::Simulated(points) => blur(tick, noise, &points),
+        Capture::Simulated(points) => blur(tick, random, &points),
     };
     for point in keypoints.iter_mut().filter(|point| hides(point.position)) {
         *point = Keypoint::default();
@@ -76,8 +76,8 @@ pub(crate) fn track(
 }
 
 /// The tracker's own noise and gaps. The flag says whether the frame came through.
-fn blur(tick: u64, noise: &Noise, points: &[DVec3; 9]) -> (bool, [Keypoint; 9]) {
-    let mut rng = noise.at(Stream::Tracker, tick);
+fn blur(tick: u64, random: &RandomStreams, points: &[DVec3; 9]) -> (bool, [Keypoint; 9]) {
+    let mut rng = random.at(Stream::Tracker, tick);
     let seen = !rng.random_bool(LOST_FRAMES);
     let keypoints = points.map(|point| {
         let scatter = DVec3::from_array(std::array::from_fn(|_| StandardNormal.sample(&mut rng)));

@@ -17,11 +17,12 @@ mod script;
 mod spoken;
 
 use super::World;
-use crate::parts::Holder;
-use crate::{BodyKind, Partner, Settings};
+use crate::{Partner, Settings};
 use bytemuck::zeroed_box;
 use coact_joint_task::{Agent, Task};
 use coact_messages::{Command, SensorSample, Truth, WorldState};
+use coact_person::Holder;
+use coact_pipeline::WorldMode;
 use coact_robot::Robot;
 use std::path::{Path, PathBuf};
 
@@ -74,7 +75,7 @@ pub(super) fn robot() -> Robot {
 }
 
 pub(super) fn world(seed: u64) -> World {
-    let settings = Settings { seed, partner: Partner::Synthetic, body: BodyKind::Kinematic };
+    let settings = Settings { seed, partner: Partner::Synthetic, mode: WorldMode::Kinematic };
     World::new(&task(), &robot(), settings).unwrap()
 }
 

@@ -4,8 +4,9 @@ use crate::installation::Installation;
 use anyhow::Result;
 use coact_control::{Control, ControlError};
 use coact_joint_task::{Finding, FindingKind, Task, check};
+use coact_pipeline::WorldMode;
 use coact_robot::Robot;
-use coact_world::{BodyKind, Partner, Settings, World, WorldError};
+use coact_world::{Partner, Settings, World, WorldError};
 use owo_colors::{OwoColorize, Stream};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -56,7 +57,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 /// Whether the simulated world can begin with the scene.
 fn scene(file: &Path, task: &Task, robot: &Robot) -> Result<Option<Finding>> {
     let settings =
-        Settings { seed: 1, partner: Partner::load("synthetic", task, 1)?, body: BodyKind::Physics };
+        Settings { seed: 1, partner: Partner::load("synthetic", task, 1)?, mode: WorldMode::Physics };
     match World::new(task, robot, settings) {
         Ok(_) => Ok(None),
         Err(error @ WorldError::Scene { .. }) => Ok(Some(Finding {

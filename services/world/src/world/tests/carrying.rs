@@ -2,7 +2,7 @@
 
 use super::grasping::{KINDS, goal};
 use super::manipulator::{Fingers, Manipulator};
-use crate::parts::Holder;
+use coact_person::Holder;
 use coact_robot::{GripKind, GripSide};
 use glam::{DQuat, DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
@@ -50,7 +50,7 @@ fn carry_in(grip: Option<(GripKind, GripSide)>, kind: &str, seed: u64) -> Result
     let leans = (parts.orientation(0) * DVec3::Z).angle_between(DVec3::Z).to_degrees();
     let stands = (lies.z - table).abs() < 0.003 && leans < 3.0;
     let left =
-        parts.is(0, Holder::Nobody) && !robot.holds() && robot.world.memory.robot.slipped.get().is_none();
+        parts.is(0, Holder::Nobody) && !robot.holds() && robot.world.simulation.robot.slipped.get().is_none();
     if away > 0.008 || !stands || !left {
         return Err(format!("put down {away} m away, {leans} degrees, {lies}"));
     }
@@ -97,7 +97,7 @@ fn what_was_gripped_by_its_edge_is_felt_only_as_long_as_it_is_held() {
         robot.stay(50);
         let high = robot.world.parts.position(0) + DVec3::new(0.0, 0.0, above);
         let held = robot.pick(high, DVec3::Z);
-        let noticed = robot.world.memory.robot.slipped.get() == Some(0);
+        let noticed = robot.world.simulation.robot.slipped.get() == Some(0);
         println!("{seed} {above}: held {held}, holds {}, noticed {noticed}", robot.holds());
         assert_eq!(robot.holds(), robot.out.sample.joints.touch > 0.0, "seed {seed}, {above} m too high");
         assert_eq!(noticed, held && !robot.holds(), "seed {seed}, {above} m too high");

@@ -2,16 +2,17 @@
 
 use super::fake_robot::FakeRobot;
 use super::{Out, robot, task};
-use crate::person::Stage;
 use crate::world::World;
-use crate::{BodyKind, Partner, Settings};
+use crate::{Partner, Settings};
 use bytemuck::bytes_of;
 use coact_messages::{PartnerError, PartnerPhase, Truth};
+use coact_person::ActivityPhase;
+use coact_pipeline::WorldMode;
 use std::collections::BTreeMap;
 
 fn world(seed: u64, rates: &str) -> World {
     let partner = Partner::load(&format!("random:{rates}"), &task(), seed).unwrap();
-    World::new(&task(), &robot(), Settings { seed, partner, body: BodyKind::Kinematic }).unwrap()
+    World::new(&task(), &robot(), Settings { seed, partner, mode: WorldMode::Kinematic }).unwrap()
 }
 
 /// Runs with a helpful robot and calls `look` after each tick with the truth before and after.
@@ -39,7 +40,7 @@ fn errors(rates: &str) -> BTreeMap<u32, u64> {
 
 #[test]
 fn a_partner_without_errors_does_nothing_wrong() {
-    let counts = errors("goal=0,ask=0,means=0");
+    let counts = errors("goal=0,request=0,means=0");
     let [valid, all]: [u64; 2] =
         [counts.get(&(PartnerError::None as u32)).copied().unwrap_or(0), counts.values().sum()];
     // The robot may do in the meantime what the person is about to do.
@@ -48,7 +49,7 @@ fn a_partner_without_errors_does_nothing_wrong() {
 
 #[test]
 fn every_kind_of_error_occurs_when_it_is_asked_for() {
-    let counts = errors("idle=0,goal=0.3,ask=0.2,means=0.2");
+    let counts = errors("idle=0,goal=0.3,request=0.2,means=0.2");
     for error in [PartnerError::None, PartnerError::Early, PartnerError::Done, PartnerError::AtHand] {
         assert!(counts.contains_key(&(error as u32)), "{error:?} among {counts:?}");
     }
@@ -58,18 +59,20 @@ fn every_kind_of_error_occurs_when_it_is_asked_for() {
 fn wrongly_taken_part_is_never_mounted_and_put_back_where_it_lay() {
     let mut returned = 0;
     for seed in 0..6 {
-        let (mut lay, mut stage) = (Vec::new(), Stage::Rest);
-        run(seed, 150, "goal=0.5,ask=0,means=0,movement=500..500", |tick, world, out, before| {
+        let (mut lay, mut stage) = (Vec::new(), ActivityPhase::Rest);
+        run(seed, 150, "goal=0.5,request=0,means=0,movement=500..500", |tick, world, out, before| {
             let (person, last) =
-                (&world.memory.person, std::mem::replace(&mut stage, world.memory.person.stage()));
+                (&world.simulation.person, std::mem::replace(&mut stage, world.simulation.person.phase()));
             assert!(
-                before.error == 0 || (last, stage) != (Stage::Mount, Stage::Withdraw),
+                before.error == 0 || (last, stage) != (ActivityPhase::Mount, ActivityPhase::Withdraw),
                 "seed {seed} tick {tick}"
             );
             if before.phase == PartnerPhase::Idle as u32 {
                 lay = world.parts.all().to_vec();
             }
-            if let (Stage::Return, Stage::Withdraw, Some(part)) = (last, stage, person.part.get()) {
+            if let (ActivityPhase::Return, ActivityPhase::Withdraw, Some(part)) =
+                (last, stage, person.part.get())
+            {
                 let (from, to) = (lay[part].position, world.parts.all()[part].position);
                 let moved = (0..2).map(|axis| (from[axis] - to[axis]).powi(2)).sum::<f64>().sqrt();
                 assert!(moved < 0.01, "seed {seed} tick {tick}: {moved} m from where it lay");
@@ -83,8 +86,8 @@ fn wrongly_taken_part_is_never_mounted_and_put_back_where_it_lay() {
 #[test]
 fn error_is_noticed_one_to_three_seconds_after_the_grasp() {
     let mut noticed = 0;
-    run(3, 400, "goal=0.5,ask=0,means=0", |tick, world, out, before| {
-        let turns_back = world.memory.person.stage() == Stage::Return;
+    run(3, 400, "goal=0.5,request=0,means=0", |tick, world, out, before| {
+        let turns_back = world.simulation.person.phase() == ActivityPhase::Return;
         if out.truth.error != 0 && before.waiting == 1 && turns_back && out.truth.waiting == 0 {
             let since = tick - out.truth.grasp_cycle;
             assert!((1000..=3001).contains(&since), "noticed after {since} ms");
@@ -116,9 +119,9 @@ fn tracker_loses_the_hand_in_bursts_at_the_rate_that_is_given() {
 #[test]
 fn movement_time_stays_within_its_range() {
     let mut reaches = 0;
-    run(2, 200, "movement=600..700,ask=0,means=0", |_, world, out, before| {
+    run(2, 200, "movement=600..700,request=0,means=0", |_, world, out, before| {
         let grasped = before.grasp_cycle == 0 && out.truth.grasp_cycle > 0;
-        if grasped && world.memory.person.part.get().is_some() {
+        if grasped && world.simulation.person.part.get().is_some() {
             let time = out.truth.grasp_cycle - out.truth.onset_cycle;
             assert!((600..=700).contains(&time), "{time} ms");
             reaches += 1;

@@ -1,15 +1,15 @@
 use super::super::World;
 use super::Out;
-use crate::parts::Holder;
-use crate::person::Stage;
-use crate::robot_hand::Palm;
+use crate::palm::Palm;
 use coact_joint_task::{Agent, Task};
+use coact_person::ActivityPhase;
+use coact_person::Holder;
 use glam::{DQuat, DVec3};
 
 /// A robot hand without an arm: it is where it wants to be at once, and obeys the world's rules of grasping.
 pub(in super::super) struct FakeRobot {
     at: DVec3,
-    closing: f64,
+    finger_closure: f64,
     /// Tick until which it stays as it is.
     busy_until: u64,
     /// Ticks to stay away after something was given.
@@ -28,7 +28,13 @@ enum Errand {
 
 impl FakeRobot {
     pub fn new() -> Self {
-        Self { at: DVec3::new(0.0, 0.0, 2.0), closing: 0.0, busy_until: 0, pause: 0, errand: Errand::None }
+        Self {
+            at: DVec3::new(0.0, 0.0, 2.0),
+            finger_closure: 0.0,
+            busy_until: 0,
+            pause: 0,
+            errand: Errand::None,
+        }
     }
 
     /// One tick of the world with this robot in it.
@@ -37,19 +43,20 @@ impl FakeRobot {
             self.act(world);
             self.busy_until = tick + 60 + std::mem::take(&mut self.pause);
         }
-        let palm = Palm { grasp_point: self.at, orientation: DQuat::IDENTITY, closing: self.closing };
+        let palm =
+            Palm { grasp_point: self.at, orientation: DQuat::IDENTITY, finger_closure: self.finger_closure };
         let World { parts, task, .. } = world;
         parts.rest_free(task);
         world.live(tick, &palm);
         world.sense(tick, &mut out.sample);
-        world.memory.tick = tick;
-        world.memory.started = 1;
+        world.simulation.tick = tick;
+        world.simulation.started = 1;
         world.tell(&mut out.truth);
-        world.remember(&mut out.state);
+        world.write(&mut out.state);
     }
 
     fn act(&mut self, world: &World) {
-        let held = world.memory.robot.held.get();
+        let held = world.simulation.robot.held.get();
         match (self.errand, held) {
             (Errand::None, _) => self.errand = self.choose(world),
             (Errand::Receive(part), None) if !world.parts.is(part, Holder::Person) => self.abandon(),
@@ -80,7 +87,8 @@ impl FakeRobot {
             }
         }
         // It gives when it is asked, and now and then unasked.
-        let gives = world.memory.person.stage() == Stage::Show || world.memory.tick / 10_000 % 2 == 1;
+        let gives =
+            world.simulation.person.phase() == ActivityPhase::Show || world.simulation.tick / 10_000 % 2 == 1;
         for goal in open_goals(world, Agent::Person).into_iter().filter(|_| gives) {
             if let Some(part) = lying(world, task.subgoals[goal].kind) {
                 return Errand::Give(part);
@@ -88,13 +96,13 @@ impl FakeRobot {
         }
         let asks = !open_goals(world, Agent::Robot).is_empty();
         self.at = if asks { task.scene.handover.into() } else { DVec3::new(0.0, 0.0, 2.0) };
-        self.closing = 0.0;
+        self.finger_closure = 0.0;
         Errand::None
     }
 
     fn grasp(&mut self, part: usize, world: &World) {
         let there = world.parts.position(part);
-        self.closing = if self.at == there && self.closing == 0.0 { 2.0 } else { 0.0 };
+        self.finger_closure = if self.at == there && self.finger_closure == 0.0 { 2.0 } else { 0.0 };
         self.at = there;
     }
 
@@ -108,7 +116,7 @@ impl FakeRobot {
 
     fn give(&mut self, part: usize, world: &World) {
         let home = DVec3::new(world.task.parts[part].at[0], world.task.parts[part].at[1], 0.95);
-        let taken = world.memory.person.grip.get() == Some(part);
+        let taken = world.simulation.person.held.get() == Some(part);
         let wanted = goal(world, world.parts.kind(part), Agent::Person).is_some();
         if taken || self.at == home {
             self.abandon();
@@ -119,14 +127,15 @@ impl FakeRobot {
     }
 
     fn abandon(&mut self) {
-        self.closing = 0.0;
+        self.finger_closure = 0.0;
         self.errand = Errand::None;
     }
 }
 
 fn open_goals(world: &World, side: Agent) -> Vec<usize> {
     let task: &Task = &world.task;
-    let open = |goal: &usize| task.subgoals[*goal].side == side && world.parts.is_available(*goal, task);
+    let open =
+        |goal: &usize| task.subgoals[*goal].side == side && world.parts.view().is_available(*goal, task);
     (0..task.subgoals.len()).filter(open).collect()
 }
 
@@ -135,5 +144,5 @@ fn goal(world: &World, kind: usize, side: Agent) -> Option<usize> {
 }
 
 fn lying(world: &World, kind: usize) -> Option<usize> {
-    world.parts.nearest_free(kind, Agent::Robot, DVec3::ZERO, &world.task)
+    world.parts.view().nearest_free(kind, Agent::Robot, DVec3::ZERO, &world.task)
 }

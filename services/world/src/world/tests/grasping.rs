@@ -39,7 +39,7 @@ fn part_that_is_pulled_away_is_lost_and_no_longer_felt() {
     robot.stay(500);
     assert!(!robot.holds());
     assert_eq!(robot.out.sample.joints.touch, 0.0);
-    assert_eq!(robot.world.memory.robot.slipped.get(), Some(0), "out of closed fingers");
+    assert_eq!(robot.world.simulation.robot.slipped.get(), Some(0), "out of closed fingers");
 }
 
 #[test]

@@ -2,13 +2,18 @@
 
 use super::manipulator::{Fingers, Manipulator};
 use super::{Out, robot, task};
-use crate::parts::Holder;
-use crate::person::{Plan, Rates, Script, Stage};
-use crate::robot_hand::Palm;
-use crate::slot::Slot;
-use crate::{BodyKind, Partner, Settings, World};
+use crate::palm::Palm;
+use crate::{Partner, Scenario, Settings, World};
+use coact_person::Holder;
+use coact_person::Slot;
+use coact_person::{ActivityPhase, Person, Policy, RandomBehaviour};
+use coact_pipeline::WorldMode;
+use coact_random::RandomStreams;
 use glam::{DQuat, DVec3};
 use std::io::Write;
+
+/// Seed of all runs.
+const SEED: u64 = 1;
 
 /// A world whose person follows a script, and a robot's hand without an arm.
 struct Meeting {
@@ -22,11 +27,14 @@ impl Meeting {
     fn new(script: &str) -> Self {
         let mut file = tempfile::NamedTempFile::new().unwrap();
         file.write_all(script.as_bytes()).unwrap();
-        let partner = Partner::Script(Script::load(file.path(), &task()).unwrap());
-        let settings = Settings { seed: 1, partner, body: BodyKind::Kinematic };
+        let partner = Partner::Script(Scenario::load(file.path(), &task()).unwrap());
+        let settings = Settings { seed: SEED, partner, mode: WorldMode::Kinematic };
         let world = World::new(&task(), &robot(), settings).unwrap();
-        let palm =
-            Palm { grasp_point: DVec3::new(0.0, 0.0, 2.0), orientation: DQuat::IDENTITY, closing: 0.0 };
+        let palm = Palm {
+            grasp_point: DVec3::new(0.0, 0.0, 2.0),
+            orientation: DQuat::IDENTITY,
+            finger_closure: 0.0,
+        };
         Self { world, out: Out::new(), palm, tick: 0 }
     }
 
@@ -38,7 +46,7 @@ impl Meeting {
         let nut = meeting.nut();
         meeting.palm.grasp_point = meeting.world.parts.position(nut);
         meeting.live(10);
-        meeting.palm.closing = 2.0;
+        meeting.palm.finger_closure = 2.0;
         meeting.live(10);
         meeting.palm.grasp_point = meeting.world.task.scene.handover.into();
         meeting
@@ -57,15 +65,15 @@ impl Meeting {
             parts.rest_free(task);
             self.world.live(self.tick, &self.palm);
             self.world.sense(self.tick, &mut self.out.sample);
-            self.world.memory.tick = self.tick;
-            self.world.memory.started = 1;
+            self.world.simulation.tick = self.tick;
+            self.world.simulation.started = 1;
         }
     }
 
     /// Goes on up to the first tick of a stage of the person's.
-    fn until(&mut self, stage: Stage) {
+    fn until(&mut self, stage: ActivityPhase) {
         let begun = self.tick;
-        while self.world.memory.person.stage() != stage {
+        while self.world.simulation.person.phase() != stage {
             self.live(1);
             assert!(self.tick < begun + 30_000, "{stage:?} does not come");
         }
@@ -88,7 +96,7 @@ const TAKES: &str = "chain = \"insert\"\nkind = \"nut\"";
 fn person_pulls_at_an_offered_part_until_the_robot_lets_go() {
     let mut meeting = Meeting::giving(TAKES);
     let nut = meeting.nut();
-    meeting.until(Stage::AwaitRelease);
+    meeting.until(ActivityPhase::AwaitRelease);
     assert_eq!(meeting.force(), DVec3::ZERO, "the fingers have just closed");
     for (ticks, expected) in [(100, 1.0), (200, 3.0), (400, 4.0), (5000, 4.0)] {
         meeting.live(ticks);
@@ -97,7 +105,7 @@ fn person_pulls_at_an_offered_part_until_the_robot_lets_go() {
         assert!(meeting.force().x < 0.0);
     }
     assert!(meeting.world.parts.is(nut, Holder::Robot));
-    meeting.palm.closing = 0.0;
+    meeting.palm.finger_closure = 0.0;
     meeting.live(1);
     assert_eq!(meeting.force(), DVec3::ZERO);
     assert!(meeting.world.parts.is(nut, Holder::Person));
@@ -107,8 +115,8 @@ fn person_pulls_at_an_offered_part_until_the_robot_lets_go() {
 fn pull_ends_when_the_person_lets_go_again() {
     let mut meeting = Meeting::giving(TAKES);
     let nut = meeting.nut();
-    meeting.until(Stage::AwaitRelease);
-    meeting.until(Stage::Withdraw);
+    meeting.until(ActivityPhase::AwaitRelease);
+    meeting.until(ActivityPhase::Withdraw);
     assert_eq!(meeting.force(), DVec3::ZERO);
     assert!(meeting.world.parts.is(nut, Holder::Robot), "the robot has kept it");
 }
@@ -117,14 +125,14 @@ fn pull_ends_when_the_person_lets_go_again() {
 fn person_who_withdraws_leaves_the_part_to_the_robot() {
     let mut meeting = Meeting::giving(&format!("{TAKES}\ngives_up = 0.3"));
     let nut = meeting.nut();
-    meeting.until(Stage::AwaitRelease);
+    meeting.until(ActivityPhase::AwaitRelease);
     let grasped = meeting.tick;
     meeting.live(250);
     assert!(meeting.towards_person() > 2.0);
-    meeting.until(Stage::Withdraw);
+    meeting.until(ActivityPhase::Withdraw);
     assert_eq!(meeting.tick, grasped + 300);
     assert_eq!(meeting.force(), DVec3::ZERO);
-    meeting.palm.closing = 0.0;
+    meeting.palm.finger_closure = 0.0;
     meeting.live(5);
     assert!(meeting.world.parts.is(nut, Holder::Nobody), "the robot lets go too late");
     assert_eq!(meeting.world.parts.position(nut).z, meeting.world.task.scene.table_height);
@@ -134,9 +142,9 @@ fn person_who_withdraws_leaves_the_part_to_the_robot() {
 fn part_that_both_let_go_falls_and_belongs_to_nobody() {
     let mut meeting = Meeting::giving(&format!("{TAKES}\ngives_up = 0.3"));
     let nut = meeting.nut();
-    meeting.until(Stage::AwaitRelease);
+    meeting.until(ActivityPhase::AwaitRelease);
     meeting.live(200);
-    meeting.palm.closing = 0.0;
+    meeting.palm.finger_closure = 0.0;
     meeting.live(50);
     assert!(meeting.world.parts.is(nut, Holder::Person));
     meeting.live(100);
@@ -152,12 +160,12 @@ fn part_that_nobody_takes_hold_of_in_time_falls_to_the_table_by_physics() {
     let mut robot = Manipulator::holding("column 3", 8);
     let (before, _) = robot.reach(robot.world.task.scene.handover.into(), DVec3::Z);
     robot.go(&before, Fingers::Closed);
-    let person = &mut robot.world.memory.person;
-    person.enter(Stage::AwaitRelease, u64::MAX);
-    person.grip = Slot::of(0);
+    let person = &mut robot.world.simulation.person;
+    person.enter(ActivityPhase::AwaitRelease, u64::MAX);
+    person.held = Slot::of(0);
     person.gives_up = u64::MAX;
     robot.stay(300);
-    robot.world.memory.person.gives_up = 1;
+    robot.world.simulation.person.gives_up = 1;
     robot.go(&before, Fingers::Open);
     robot.stay(1000);
     let lies = robot.world.parts.position(0).z - robot.world.task.scene.table_height;
@@ -172,24 +180,25 @@ fn part_that_nobody_takes_hold_of_in_time_falls_to_the_table_by_physics() {
 fn person_who_takes_a_part_back_has_not_dropped_it() {
     let action = "chain = \"hand over\"\nkind = \"wheel\"\ngives_up = 4.0";
     let mut meeting = Meeting::new(&format!("[[action]]\n{action}\n"));
-    meeting.until(Stage::Offer);
-    let wheel = meeting.world.memory.person.grip.get().unwrap();
-    meeting.until(Stage::Withdraw);
+    meeting.until(ActivityPhase::Give);
+    let wheel = meeting.world.simulation.person.held.get().unwrap();
+    meeting.until(ActivityPhase::Withdraw);
     let home = meeting.world.task.parts[wheel].at;
     assert!(meeting.world.parts.is(wheel, Holder::Nobody));
     assert!(meeting.world.parts.position(wheel).truncate().distance(home.into()) < 0.01);
 }
 
 /// Seconds from an offer to the person's setting out for it.
-fn answered_after(rates: &str) -> f64 {
+fn answered_after(settings: &str) -> f64 {
     let mut meeting = Meeting::giving(TAKES);
-    meeting.world.person.plan = Plan::Erring(Rates::parse(rates).unwrap());
-    meeting.world.memory.person.enter(Stage::Rest, 0);
-    while meeting.world.memory.robot.offering_since == 0 {
+    let policy = Policy::Random(RandomBehaviour::parse(settings).unwrap());
+    meeting.world.person = Person::new(&meeting.world.task.scene, policy, RandomStreams::new(SEED), None);
+    meeting.world.simulation.person.enter(ActivityPhase::Rest, 0);
+    while meeting.world.simulation.robot.giving_since == 0 {
         meeting.live(1);
     }
     let offered = meeting.tick;
-    meeting.until(Stage::AwaitRelease);
+    meeting.until(ActivityPhase::AwaitRelease);
     1e-3 * (meeting.tick - offered) as f64
 }
 
@@ -203,7 +212,7 @@ fn person_may_come_late() {
 #[test]
 fn part_is_pressed_lightly_into_the_open_hand() {
     let mut meeting = Meeting::new("[[action]]\nchain = \"hand over\"\nkind = \"wheel\"\n");
-    meeting.until(Stage::Offer);
+    meeting.until(ActivityPhase::Give);
     meeting.live(100);
     assert_eq!(meeting.force(), DVec3::ZERO, "the robot's hand is elsewhere");
     meeting.palm.grasp_point = meeting.world.task.scene.handover.into();
@@ -211,7 +220,7 @@ fn part_is_pressed_lightly_into_the_open_hand() {
     assert!((meeting.towards_person() + 0.5).abs() < 0.1, "{} N", meeting.towards_person());
     meeting.live(500);
     assert!((meeting.towards_person() + 1.0).abs() < 0.1, "{} N", meeting.towards_person());
-    meeting.palm.closing = 2.0;
+    meeting.palm.finger_closure = 2.0;
     meeting.live(300);
     assert_eq!(meeting.force(), DVec3::ZERO, "the person has let go");
     assert!(!super::held_by(&meeting.world, Holder::Robot).is_empty());
@@ -226,11 +235,11 @@ fn wrist_feels_a_pull_but_neither_the_weight_nor_the_inertia_of_what_is_held() {
     let mut most: f64 = 0.0;
     robot.watch(&before, Fingers::Closed, |robot| most = most.max(force(robot).length()));
     assert!(most < 0.3, "{most} N in a free movement");
-    let person = &mut robot.world.memory.person;
-    person.enter(Stage::AwaitRelease, u64::MAX);
-    person.grip = Slot::of(0);
+    let person = &mut robot.world.simulation.person;
+    person.enter(ActivityPhase::AwaitRelease, u64::MAX);
+    person.held = Slot::of(0);
     robot.stay(1000);
-    let towards = DVec3::from(robot.world.memory.person.force).normalize();
+    let towards = DVec3::from(robot.world.simulation.person.force).normalize();
     let pull = force(&robot).dot(towards);
     assert!((pull - 4.0).abs() < 0.3 && robot.holds(), "{} instead of 4 N", force(&robot));
     robot.go(&before, Fingers::Open);

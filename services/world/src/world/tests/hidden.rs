@@ -1,10 +1,10 @@
 //! The partner who reaches behind something.
 
 use super::erring::run;
-use crate::person::Stage;
 use coact_messages::{KeypointName, NONE, SensorSample};
+use coact_person::ActivityPhase;
 
-const ALWAYS: &str = "idle=0,goal=0,ask=0,means=0,hidden=1,words=0,dropouts=0";
+const ALWAYS: &str = "idle=0,goal=0,request=0,means=0,hidden=1,words=0,dropouts=0";
 
 /// Ticks of one hidden action, and what was seen in it.
 #[derive(Debug, Default)]
@@ -45,15 +45,18 @@ impl Hidden {
 fn hand_and_part_are_not_seen_until_the_hand_comes_out_again() {
     let (mut hidden, mut takings) = (0, 0);
     for seed in 0..4 {
-        let (mut now, mut last): (Option<Hidden>, _) = (None, Stage::Rest);
+        let (mut now, mut last): (Option<Hidden>, _) = (None, ActivityPhase::Rest);
         run(seed, 120, ALWAYS, |tick, world, out, _| {
-            let person = &world.memory.person;
-            let before = std::mem::replace(&mut last, person.stage());
-            takings += u64::from(before == Stage::Reach && person.stage() == Stage::Dwell);
-            assert_eq!(person.screen().is_some(), person.manner.hidden == 1 && person.stage() != Stage::Rest);
-            let shown = person.screen().is_some() && out.truth.chain != NONE;
+            let person = &world.simulation.person;
+            let before = std::mem::replace(&mut last, person.phase());
+            takings += u64::from(before == ActivityPhase::Reach && person.phase() == ActivityPhase::Dwell);
+            assert_eq!(
+                person.occluder().is_some(),
+                person.variation.hidden == 1 && person.phase() != ActivityPhase::Rest
+            );
+            let shown = person.occluder().is_some() && out.truth.chain != NONE;
             assert_eq!(out.truth.hidden, u32::from(shown), "seed {seed}, tick {tick}");
-            let Some(part) = person.part.get().filter(|_| person.screen().is_some()) else {
+            let Some(part) = person.part.get().filter(|_| person.occluder().is_some()) else {
                 let over = now.take().filter(|over| over.grasped > 0);
                 assert!(over.is_none_or(|over| over.seen_setting_out && over.seen_again));
                 return;
@@ -62,9 +65,11 @@ fn hand_and_part_are_not_seen_until_the_hand_comes_out_again() {
                 let (kind, home) = (world.parts.kind(part) as u32, world.parts.position(part).into());
                 Hidden { chosen: tick, kind, home, ..Hidden::default() }
             });
-            match (before, person.stage()) {
-                (Stage::Reach, Stage::Dwell) => (own.grasped, hidden) = (tick, hidden + 1),
-                (Stage::Dwell, _) if own.lifted == 0 && person.stage() != Stage::Dwell => own.lifted = tick,
+            match (before, person.phase()) {
+                (ActivityPhase::Reach, ActivityPhase::Dwell) => (own.grasped, hidden) = (tick, hidden + 1),
+                (ActivityPhase::Dwell, _) if own.lifted == 0 && person.phase() != ActivityPhase::Dwell => {
+                    own.lifted = tick
+                }
                 _ => {}
             }
             own.look(&out.sample);

@@ -2,7 +2,7 @@
 
 use super::grasping::{KINDS, goal};
 use super::manipulator::Manipulator;
-use crate::parts::Holder;
+use coact_person::Holder;
 use coact_robot::{GripKind, GripSide};
 use glam::{DQuat, DVec3};
 

@@ -1,11 +1,12 @@
 use super::{Out, config};
-use crate::body::Body;
-use crate::staging::Staging;
-use crate::{BodyKind, Partner, Script, Settings, World};
+use crate::scenario::Staging;
+use crate::simulated_robot::SimulatedRobot;
+use crate::{Partner, Scenario, Settings, World};
 use bytemuck::zeroed_box;
 use coact_joint_task::{Agent, Part, Subgoal, Task};
 use coact_messages::{ARM_JOINTS, Command};
 use coact_motion::{Goal, Mechanism, MinClearance, Problem, Scene};
+use coact_pipeline::WorldMode;
 use coact_robot::{
     Grip, GripKind, GripSide, Grips, HandGoal, JointLimits, MotionState, NextUse, PointToPoint, Posture,
     ROBOT_JOINTS, Robot,
@@ -27,7 +28,7 @@ const ABOVE: (GripKind, GripSide) = (GripKind::Precision, GripSide::Above);
 pub(super) struct Manipulator {
     pub world: World,
     pub out: Out,
-    script: Script,
+    scenario: Scenario,
     robot: Robot,
     limits: [JointLimits; ROBOT_JOINTS],
     at: [f64; ROBOT_JOINTS],
@@ -93,12 +94,12 @@ impl Manipulator {
         let own = Part { at, workspace: Agent::Robot, ..task.parts[first] };
         let mounted = staging.mounted(&task).into_iter().map(|(_, part)| task.parts[part].clone());
         task.parts = std::iter::once(own).chain(mounted).collect();
-        let script = Script { entries: Vec::new(), staging };
-        let world = World::new(&task, &robot, settings(&script)).unwrap();
+        let scenario = Scenario { staging, ..Scenario::default() };
+        let world = World::new(&task, &robot, settings(&scenario)).unwrap();
         let mut at = [0.0; ROBOT_JOINTS];
         at[..ARM_JOINTS].copy_from_slice(&robot.park);
         let limits = robot.limits();
-        Self { world, out: Out::new(), script, robot, limits, at, tick: 0, grip: ABOVE, deviation: 0.0 }
+        Self { world, out: Out::new(), scenario, robot, limits, at, tick: 0, grip: ABOVE, deviation: 0.0 }
     }
 
     /// One that has taken a part of `kind` and holds it above the table; it took the part for lying up to 3 mm beside.
@@ -272,24 +273,24 @@ impl Manipulator {
 
     /// Whether the robot has the part.
     pub fn holds(&self) -> bool {
-        self.world.memory.robot.held.get() == Some(0)
+        self.world.simulation.robot.held.get() == Some(0)
     }
 
     /// Pulls at the part from now on, N.
     pub fn pull(&mut self, force: DVec3) {
-        if let Body::Physics(body) = &mut self.world.body {
-            body.pull(0, force);
+        if let SimulatedRobot::Physics(simulation) = &mut self.world.robot {
+            simulation.pull(0, force);
         }
     }
 
     /// Kills the world, and lets another one go on from what it remembered.
     pub fn kill(&mut self) {
         let task = self.world.task.clone();
-        self.world = World::new(&task, &self.robot, settings(&self.script)).unwrap();
+        self.world = World::new(&task, &self.robot, settings(&self.scenario)).unwrap();
         self.world.resume(&self.out.state);
     }
 }
 
-fn settings(script: &Script) -> Settings {
-    Settings { seed: 1, partner: Partner::Script(script.clone()), body: BodyKind::Physics }
+fn settings(scenario: &Scenario) -> Settings {
+    Settings { seed: 1, partner: Partner::Script(scenario.clone()), mode: WorldMode::Physics }
 }

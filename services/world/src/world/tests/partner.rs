@@ -1,8 +1,8 @@
 use super::fake_robot::FakeRobot;
 use super::{Out, world};
-use crate::parts::Holder;
 use coact_joint_task::Act;
 use coact_messages::PartnerPhase;
+use coact_person::Holder;
 
 /// Runs `seconds` with a helpful robot and calls `look` after each tick with the truth before and after.
 fn run(seed: u64, seconds: u64, mut look: impl FnMut(u64, &super::World, &Out, &super::Truth)) -> u64 {
@@ -113,8 +113,9 @@ fn gesture_is_answered_by_taking_what_is_offered() {
                 return;
             }
             let gesture = matches!(world.task.chains[out.truth.chain as usize].act, Act::Gesture(_));
-            taken +=
-                u32::from(asked && !gesture && world.memory.person.errand() == crate::person::Errand::Take);
+            taken += u32::from(
+                asked && !gesture && world.simulation.person.activity() == coact_person::Activity::Receive,
+            );
             asked = gesture;
         });
     }

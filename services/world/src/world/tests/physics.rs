@@ -1,9 +1,10 @@
 use super::{Out, config, held_by, robot};
-use crate::parts::Holder;
-use crate::{BodyKind, Partner, Settings, World};
+use crate::{Partner, Settings, World};
 use bytemuck::zeroed_box;
 use coact_joint_task::Task;
 use coact_messages::Command;
+use coact_person::Holder;
+use coact_pipeline::WorldMode;
 use coact_robot::Robot;
 use std::sync::LazyLock;
 
@@ -12,7 +13,7 @@ fn scene() -> Task {
 }
 
 fn world(seed: u64) -> World {
-    let settings = Settings { seed, partner: Partner::Synthetic, body: BodyKind::Physics };
+    let settings = Settings { seed, partner: Partner::Synthetic, mode: WorldMode::Physics };
     World::new(&scene(), &robot(), settings).unwrap()
 }
 
@@ -97,7 +98,7 @@ fn resumed_parts_and_joints_stay_where_they_were() {
     for joint in 0..14 {
         assert!((out.state.position[joint] - before.position[joint]).abs() < 0.005, "joint {joint}");
     }
-    assert_eq!(out.truth.actions, u32::try_from(successor.memory.person.actions).unwrap());
+    assert_eq!(out.truth.actions, u32::try_from(successor.simulation.person.actions).unwrap());
 }
 
 #[test]
@@ -117,7 +118,7 @@ fn dropped_part_falls_onto_the_table() {
 fn overlapping_parts_are_refused() {
     let mut task = scene();
     task.parts[1].at = task.parts[0].at;
-    let settings = Settings { seed: 0, partner: Partner::Synthetic, body: BodyKind::Physics };
+    let settings = Settings { seed: 0, partner: Partner::Synthetic, mode: WorldMode::Physics };
     let message = World::new(&task, &robot(), settings).err().unwrap().to_string();
     assert!(message.contains("overlap"), "{message}");
 }

@@ -1,7 +1,7 @@
 use super::fake_robot::FakeRobot;
 use super::{Out, world};
-use crate::person::{Errand, FINGERS};
 use coact_messages::{KeypointName, PartnerPhase};
+use coact_person::{Activity, FINGERS};
 use glam::DVec3;
 
 /// One reach for a part as it went, tick by tick.
@@ -21,12 +21,12 @@ fn reaches(seeds: std::ops::Range<u64>) -> Vec<Reach> {
         let mut now: Option<Reach> = None;
         for tick in 1..=300_000 {
             robot.step(tick, &mut world, &mut out);
-            let person = &world.memory.person;
+            let person = &world.simulation.person;
             if out.truth.phase == PartnerPhase::Reach as u32
                 && let Some(part) = person.part.get()
-                && person.errand() != Errand::Take
+                && person.activity() != Activity::Receive
             {
-                let points = world.person.model.keypoints(&person.hand);
+                let points = world.person.keypoints(person);
                 let at = |name: KeypointName| points[name as usize];
                 let reach = now.get_or_insert_with(|| Reach {
                     width: world.task.kinds[world.parts.kind(part)].width,
@@ -48,9 +48,9 @@ fn reaches(seeds: std::ops::Range<u64>) -> Vec<Reach> {
     all
 }
 
-fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
+fn quantile(mut values: Vec<f64>, fraction: f64) -> f64 {
     values.sort_by(f64::total_cmp);
-    values[((values.len() - 1) as f64 * share).round() as usize]
+    values[((values.len() - 1) as f64 * fraction).round() as usize]
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn aperture_peaks_at_two_thirds_grows_with_the_part_and_ends_on_it() {
 fn grip_shows_in_the_pitch_long_before_contact() {
     let (mut right, mut all) = (0, 0);
     for reach in reaches(14..17) {
-        let at = |share: f64| reach.pitch[(reach.pitch.len() as f64 * share) as usize];
+        let at = |fraction: f64| reach.pitch[(reach.pitch.len() as f64 * fraction) as usize];
         let middle = -0.74;
         all += 1;
         right += i32::from((at(0.6) < middle) == (reach.wanted_pitch < middle));

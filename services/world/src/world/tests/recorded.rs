@@ -1,7 +1,8 @@
 use super::fake_robot::FakeRobot;
 use super::{Out, robot, task};
-use crate::{BodyKind, Partner, Settings, World};
+use crate::{Partner, Settings, World};
 use coact_messages::{KeypointName, PartnerPhase};
+use coact_pipeline::WorldMode;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -63,9 +64,9 @@ fn broken_recordings_are_refused_with_file_and_line() {
     assert!(load(empty.path()).is_err());
 }
 
-/// Runs two minutes; gives movement times, and mean share of lost middle-finger tips while reaching.
+/// Runs two minutes; gives movement times, and mean fraction of lost middle-finger tips while reaching.
 fn run(partner: Partner) -> (Vec<u64>, f64, u64) {
-    let settings = Settings { seed: 2, partner, body: BodyKind::Kinematic };
+    let settings = Settings { seed: 2, partner, mode: WorldMode::Kinematic };
     let (mut world, mut robot) = (World::new(&task(), &robot(), settings).unwrap(), FakeRobot::new());
     let mut out = Out::new();
     let (mut times, mut lost, mut frames) = (Vec::new(), 0.0, 0.0);
@@ -74,12 +75,13 @@ fn run(partner: Partner) -> (Vec<u64>, f64, u64) {
         let frame = out.sample.hand.frame;
         robot.step(tick, &mut world, &mut out);
         let grasped = out.truth.grasp_cycle != before.grasp_cycle && out.truth.grasp_cycle > 0;
-        if grasped && let Some(part) = world.memory.person.grip.get() {
+        if grasped && let Some(part) = world.simulation.person.held.get() {
             times.push(out.truth.grasp_cycle - out.truth.onset_cycle);
             let missed = world
                 .parts
+                .view()
                 .centre(part, &world.task)
-                .distance(world.person.model.centre(&world.memory.person.hand));
+                .distance(world.person.hand_centre(&world.simulation.person));
             assert!(missed < 0.001, "fingers closed {missed} m beside the part");
         }
         if out.truth.phase == PartnerPhase::Reach as u32 && out.sample.hand.frame != frame {

@@ -1,12 +1,13 @@
 use super::{Out, config, robot, task};
-use crate::{BodyKind, Partner, Script, Settings, World};
+use crate::{Partner, Scenario, Settings, World};
 use coact_messages::PartnerPhase;
+use coact_pipeline::WorldMode;
 use std::io::Write;
 
 fn refusal(text: &str) -> String {
     let mut file = tempfile::NamedTempFile::new().unwrap();
     file.write_all(text.as_bytes()).unwrap();
-    let message = Script::load(file.path(), &task()).unwrap_err().to_string();
+    let message = Scenario::load(file.path(), &task()).unwrap_err().to_string();
     message.replace(&file.path().display().to_string(), "FILE")
 }
 
@@ -38,7 +39,7 @@ fn mistakes_are_named_with_line_key_and_what_was_expected() {
         assert!(message.starts_with(begins) && message.contains(names), "{bad}\n-> {message}");
     }
     assert!(
-        Script::load(std::path::Path::new("no/such.toml"), &task())
+        Scenario::load(std::path::Path::new("no/such.toml"), &task())
             .unwrap_err()
             .to_string()
             .contains("such.toml")
@@ -53,7 +54,7 @@ fn unknown_partner_is_refused_with_the_known_ones() {
 
 /// Chain names, onset and grasp ticks of the first actions of a script.
 fn actions(partner: Partner, seconds: u64) -> Vec<(String, u64, u64)> {
-    let settings = Settings { seed: 1, partner, body: BodyKind::Kinematic };
+    let settings = Settings { seed: 1, partner, mode: WorldMode::Kinematic };
     let (mut world, mut out) = (World::new(&task(), &robot(), settings).unwrap(), Out::new());
     let mut begun = Vec::new();
     for tick in 1..=seconds * 1000 {
@@ -85,7 +86,7 @@ fn scenario(file: &str) -> World {
     let task = coact_joint_task::Task::load(&config("tasks/toy-vehicle.toml")).unwrap();
     let name = format!("script:{}", config("scenarios").join(file).display());
     let partner = Partner::load(&name, &task, 0).unwrap();
-    World::new(&task, &robot(), Settings { seed: 1, partner, body: BodyKind::Kinematic }).unwrap()
+    World::new(&task, &robot(), Settings { seed: 1, partner, mode: WorldMode::Kinematic }).unwrap()
 }
 
 /// Runs `seconds`; `look` sees the world and its messages after each tick.
@@ -152,7 +153,7 @@ fn the_scene_begins_as_the_scenario_says() {
     assert_eq!(world.parts.achieved(), 0b1);
     let nut = world.task.kinds.iter().position(|kind| kind.name == "nut").unwrap();
     for owner in [coact_joint_task::Agent::Robot, coact_joint_task::Agent::Person] {
-        assert!(world.parts.nearest_free(nut, owner, glam::DVec3::ZERO, &world.task).is_some());
+        assert!(world.parts.view().nearest_free(nut, owner, glam::DVec3::ZERO, &world.task).is_some());
     }
 }
 
@@ -216,9 +217,9 @@ fn an_action_without_a_part_is_left_out_and_told() {
     let text = "[[action]]\nchain = \"insert\"\nkind = \"column 3\"\nsay = \"now\"\n";
     let mut file = tempfile::NamedTempFile::new().unwrap();
     file.write_all(text.as_bytes()).unwrap();
-    let partner = Partner::Script(Script::load(file.path(), &task()).unwrap());
+    let partner = Partner::Script(Scenario::load(file.path(), &task()).unwrap());
     let mut world =
-        World::new(&task(), &robot(), Settings { seed: 1, partner, body: BodyKind::Kinematic }).unwrap();
+        World::new(&task(), &robot(), Settings { seed: 1, partner, mode: WorldMode::Kinematic }).unwrap();
     run(&mut world, 19, |_, _, _| {});
     assert_eq!(world.skipped(), 0);
     run(&mut world, 3, |_, _, _| {});

@@ -1,0 +1,48 @@
+use bytemuck::{Pod, Zeroable};
+use coact_person::{RobotHandView, Slot};
+
+/// What the robot's hand remembers, and since when it has stood where the person pays attention to it (ticks, 0: not).
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub(crate) struct RobotHandState {
+    pub held: Slot,
+    /// Pose of the held part in the palm frame.
+    pub offset: [f64; 3],
+    pub turn: [f64; 4],
+    pub finger_closure: f64,
+    /// Open and empty at the place where parts change hands.
+    pub requesting_since: u64,
+    /// With a part that was brought to that place.
+    pub giving_since: u64,
+    /// At the place where the base is steadied.
+    pub steadying_since: u64,
+    /// 1 once the held part has been away from the place where parts change hands: not received there just now.
+    pub brought: u64,
+    /// Where the palm was when it took the held part.
+    pub taken_at: [f64; 3],
+    /// Ticks for which it has been carried, away from there.
+    pub carried: u64,
+    /// Ticks for which the measured grip has said that a part is grasped, or that the held one is lost.
+    pub changing: u64,
+    /// The part that has slipped out of fingers that are still closed.
+    pub slipped: Slot,
+    /// The part in the person's hand that is between the open fingers.
+    pub receiving: Slot,
+    /// Mean angle of the finger bases that the servo was last told, rad.
+    pub wanted: f64,
+    /// The largest such angle since the fingers have held a part, rad.
+    pub tightest: f64,
+}
+
+impl RobotHandState {
+    /// What the person sees and feels of the hand.
+    pub fn view(&self) -> RobotHandView {
+        RobotHandView {
+            held: self.held.get(),
+            requesting_since: self.requesting_since,
+            giving_since: self.giving_since,
+            steadying_since: self.steadying_since,
+            receiving: self.receiving.get(),
+        }
+    }
+}

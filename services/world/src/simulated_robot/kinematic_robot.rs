@@ -1,0 +1,34 @@
+use super::{Influence, Joints};
+use crate::parts::Parts;
+use coact_robot::ROBOT_JOINTS;
+
+/// Time constant of the servo, s: joints follow their setpoints with this lag.
+const LAG: f64 = 0.004;
+
+/// Joints that follow their setpoints, and parts that rest where they are put: no contact forces.
+#[derive(Debug, Clone)]
+pub(crate) struct KinematicRobot {
+    /// How much of the way to the setpoint is covered in one tick.
+    gain: f64,
+}
+
+impl KinematicRobot {
+    pub fn new() -> Self {
+        Self { gain: 1.0 - (-1e-3 / LAG).exp() }
+    }
+
+    pub fn advance(&self, influence: &Influence, joints: &mut Joints, parts: &mut Parts) {
+        let Influence { elapsed, command, stop, .. } = *influence;
+        let before = joints.position;
+        if let Some(command) = command {
+            let gain = if elapsed == 1 { self.gain } else { 1.0 - (1.0 - self.gain).powi(elapsed as i32) };
+            for joint in 0..ROBOT_JOINTS {
+                let goal = command.position[joint].min(stop.limit(joint));
+                joints.position[joint] += gain * (goal - joints.position[joint]);
+            }
+        }
+        let seconds = 1e-3 * elapsed as f64;
+        joints.velocity = std::array::from_fn(|joint| (joints.position[joint] - before[joint]) / seconds);
+        parts.rest_free(influence.task);
+    }
+}

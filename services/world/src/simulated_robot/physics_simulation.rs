@@ -1,0 +1,272 @@
+use super::articulation::Articulation;
+use super::clasp::Clasp;
+use super::contacts::Contacts;
+use super::fixtures::insert_fixtures;
+use super::force_sensor::ForceSensor;
+use super::shapes::{Layer, part_collider};
+use super::{Influence, Joints, MeasuredGrip};
+use crate::WorldError;
+use crate::parts::Parts;
+use coact_joint_task::Task;
+use coact_messages::PartState;
+use coact_person::Holder;
+use coact_robot::Robot;
+use glam::{DQuat, DVec3};
+use rapier3d::prelude::*;
+
+/// Gravity, m/s².
+const GRAVITY: f32 = 9.81;
+/// Substeps of the solver in each step of 1 ms. Two, at half the cost of the engine's four, keep moving joints within
+/// 5 mrad of their setpoints and resting parts within 5 mm of their places.
+const SUBSTEPS: usize = 2;
+/// Size of the things that are handled, m: the engine lets them overlap by 0.5 % of it.
+const SIZE: f32 = 0.1;
+/// The person's hand is a ball of this radius, m.
+const PERSON_HAND: f32 = 0.045;
+
+/// Rigid-body dynamics of table, base, parts and robot; one step is one tick.
+///
+/// Parts in the person's hand follow it, mounted parts stand fast, and all others are loose: the robot's fingers hold a
+/// part by contact and friction.
+pub(crate) struct PhysicsSimulation {
+    world: PhysicsWorld,
+    articulation: Articulation,
+    parts: Vec<RigidBodyHandle>,
+    /// Parts as this body left them: what differs now was placed by someone else.
+    left: Vec<PartState>,
+    person: RigidBodyHandle,
+    forces: ForceSensor,
+    grip: MeasuredGrip,
+    outside: DVec3,
+    clasp: Option<Clasp>,
+    /// The part at which the person pulls.
+    pulled: Option<usize>,
+}
+
+impl PhysicsSimulation {
+    /// Builds the scene with the parts and the joints where they are.
+    ///
+    /// # Errors
+    /// [`WorldError`] when parts overlap each other or the base at the start, or a joint of the robot is unknown.
+    pub fn new(task: &Task, robot: &Robot, joints: &Joints, parts: &Parts) -> Result<Self, WorldError> {
+        let mut world = PhysicsWorld::new();
+        world.gravity = Vector::new(0.0, 0.0, -GRAVITY);
+        world.integration_parameters.dt = 1e-3;
+        world.integration_parameters.num_solver_iterations = SUBSTEPS;
+        world.integration_parameters.length_unit = SIZE;
+        insert_fixtures(&mut world, task)?;
+        let articulation = Articulation::build(&mut world, robot)?;
+        let bodies = parts.all().iter().zip(1..).map(|(part, number)| {
+            let body = world.insert_body(RigidBodyBuilder::dynamic().pose(pose_of(part)));
+            let kind = &task.kinds[part.kind as usize];
+            let collider = part_collider(kind.shape)
+                .mass(kind.mass as f32)
+                .friction(0.7)
+                .user_data(number)
+                .collision_groups(Layer::Part.groups());
+            world.insert_collider(collider, Some(body));
+            body
+        });
+        let bodies = bodies.collect();
+        let person = world.insert_body(RigidBodyBuilder::kinematic_position_based());
+        let ball = ColliderBuilder::ball(PERSON_HAND).collision_groups(Layer::Person.groups());
+        world.insert_collider(ball, Some(person));
+        let left = parts.all().to_vec();
+        let mut built = Self {
+            world,
+            articulation,
+            parts: bodies,
+            left,
+            person,
+            forces: ForceSensor::new(),
+            grip: MeasuredGrip::NONE,
+            outside: DVec3::ZERO,
+            clasp: None,
+            pulled: None,
+        };
+        built.resume(joints, parts);
+        Ok(built)
+    }
+
+    /// Takes over joints and parts as they are.
+    pub fn resume(&mut self, joints: &Joints, parts: &Parts) {
+        self.release();
+        self.articulation.place(&mut self.world, joints);
+        for (index, part) in parts.all().iter().enumerate() {
+            self.put(index, part);
+        }
+        self.left.copy_from_slice(parts.all());
+    }
+
+    /// One step of 1 ms.
+    pub fn advance(&mut self, influence: &Influence, joints: &mut Joints, parts: &mut Parts) {
+        if let Some(command) = influence.command {
+            self.articulation.command(&mut self.world, command);
+        }
+        self.articulation.carry_own_weight(&mut self.world);
+        parts.settle(influence.task);
+        self.follow(influence.person, parts);
+        self.assign_layers(parts, influence);
+        let held = influence.held.filter(|held| parts.is(*held, Holder::Robot));
+        self.hold(held);
+        self.pull_at(held, influence.pull);
+        self.world.step();
+        self.articulation.read(&self.world, joints);
+        self.measure(held, parts);
+        if let Some(clasp) = &mut self.clasp {
+            clasp.check(&mut self.world, &self.articulation, &self.grip);
+        }
+        self.report(parts);
+    }
+
+    /// Pulls at a part from now on, N.
+    #[cfg(test)]
+    pub fn pull(&mut self, part: usize, force: DVec3) {
+        if let Some(body) = self.world.bodies.get_mut(self.parts[part]) {
+            body.reset_forces(true);
+            body.add_force(force.as_vec3().to_array().into(), true);
+        }
+    }
+
+    /// What the fingers squeeze.
+    pub fn grip(&self) -> MeasuredGrip {
+        self.grip
+    }
+
+    /// Force on the hand and on the part that it holds, N.
+    pub fn outside(&self) -> DVec3 {
+        self.outside
+    }
+
+    fn measure(&mut self, held: Option<usize>, parts: &Parts) {
+        let body = held.map(|held| self.parts[held]);
+        let own = |part| held == Some(part) || parts.is(part, Holder::Person);
+        self.forces.feel(Contacts::measure(&self.world, &self.articulation, body, own));
+        let felt = self.forces.read();
+        self.grip = MeasuredGrip::of(&felt);
+        self.outside = DVec3::from_array(felt.outside.to_array().map(f64::from));
+    }
+
+    /// Lets the person pull at what the hand holds, as far as the grip withstands it: what gives way goes along.
+    fn pull_at(&mut self, held: Option<usize>, pull: DVec3) {
+        if let Some(body) = self.pulled.take().and_then(|part| self.world.bodies.get_mut(self.parts[part])) {
+            body.reset_forces(true);
+        }
+        let Some(held) = held.filter(|_| pull != DVec3::ZERO) else { return };
+        if let Some(body) = self.world.bodies.get_mut(self.parts[held]) {
+            let force = pull.clamp_length_max(self.grip.carries(held));
+            body.add_force(force.as_vec3().to_array().into(), true);
+            self.pulled = Some(held);
+        }
+    }
+
+    /// Clasps what the hand holds, and nothing else.
+    fn hold(&mut self, held: Option<usize>) {
+        if self.clasp.map(|clasp| clasp.part()) == held {
+            return;
+        }
+        self.release();
+        let palm = held.and_then(|held| Some((held, self.articulation.palm(&self.world)?)));
+        self.clasp = palm.map(|(held, palm)| Clasp::new(&mut self.world, palm, held, self.parts[held]));
+    }
+
+    fn release(&mut self) {
+        if let Some(mut clasp) = self.clasp.take() {
+            clasp.open(&mut self.world);
+        }
+    }
+
+    /// Says what each part touches: parts that are true to a socket enter what they are mounted in, and no others.
+    fn assign_layers(&mut self, parts: &Parts, influence: &Influence) {
+        for (index, part) in self.parts.iter().enumerate() {
+            let layer = match () {
+                () if parts.is(index, Holder::Socket) => Layer::Fixture,
+                () if influence.slipped == Some(index) => Layer::Slipping,
+                () if parts.enters(index, influence.task) => Layer::Entering,
+                () => Layer::Part,
+            };
+            let collider = self.world.bodies.get(*part).and_then(|body| body.colliders().first().copied());
+            let collider = collider.and_then(|collider| self.world.colliders.get_mut(collider));
+            if let Some(collider) = collider.filter(|known| known.collision_groups() != layer.groups()) {
+                collider.set_collision_groups(layer.groups());
+            }
+        }
+    }
+
+    /// Hands what was placed, taken or mounted since the last step to the engine.
+    fn follow(&mut self, person: DVec3, parts: &Parts) {
+        for (index, part) in parts.all().iter().enumerate() {
+            let left = self.left[index];
+            let kind = body_type(part);
+            let there = part.position == left.position && part.orientation == left.orientation;
+            if kind == body_type(&left) && kind == RigidBodyType::KinematicPositionBased {
+                self.carry(index, part);
+            } else if !(there && kind == body_type(&left)) {
+                self.put(index, part);
+            }
+            self.left[index] = *part;
+        }
+        if let Some(body) = self.world.bodies.get_mut(self.person) {
+            body.set_next_kinematic_position(Pose::from_translation(person.as_vec3().to_array().into()));
+        }
+    }
+
+    fn carry(&mut self, index: usize, part: &PartState) {
+        if let Some(body) = self.world.bodies.get_mut(self.parts[index]) {
+            body.set_next_kinematic_position(pose_of(part));
+        }
+    }
+
+    /// Places a part, and makes it loose, carried or fixed as its state says.
+    fn put(&mut self, index: usize, part: &PartState) {
+        let Some(body) = self.world.bodies.get_mut(self.parts[index]) else { return };
+        let kind = body_type(part);
+        body.set_body_type(kind, true);
+        body.set_position(pose_of(part), true);
+        if kind == RigidBodyType::Dynamic {
+            body.set_linvel(DVec3::from(part.velocity).as_vec3().to_array().into(), true);
+            body.set_angvel(Vector::ZERO, true);
+        }
+    }
+
+    /// Where the loose parts are now. A body that the engine lost stays where it was last seen.
+    fn report(&mut self, parts: &mut Parts) {
+        for index in 0..self.parts.len() {
+            if body_type(&parts.all()[index]) != RigidBodyType::Dynamic {
+                continue;
+            }
+            let Some(body) = self.world.bodies.get(self.parts[index]) else { continue };
+            if body.is_sleeping() {
+                continue;
+            }
+            let (at, turn, velocity) = (body.translation(), body.rotation(), body.linvel());
+            let finite = at.is_finite() && turn.is_finite() && velocity.is_finite();
+            if !finite {
+                let mut last = self.left[index];
+                last.velocity = [0.0; 3];
+                self.put(index, &last);
+                continue;
+            }
+            let at = DVec3::from_array(at.to_array().map(f64::from));
+            let turn = DQuat::from_array(turn.to_array().map(f64::from)).normalize();
+            parts.move_to(index, at, turn, velocity.to_array().map(f64::from));
+            self.left[index] = parts.all()[index];
+        }
+    }
+}
+
+fn body_type(part: &PartState) -> RigidBodyType {
+    match part.state {
+        state if state == Holder::Person as u32 => RigidBodyType::KinematicPositionBased,
+        state if state == Holder::Socket as u32 => RigidBodyType::Fixed,
+        _ => RigidBodyType::Dynamic,
+    }
+}
+
+fn pose_of(part: &PartState) -> Pose {
+    let [x, y, z, w] = part.orientation.map(|entry| entry as f32);
+    Pose::from_parts(
+        part.position.map(|entry| entry as f32).into(),
+        Rotation::from_xyzw(x, y, z, w).normalize(),
+    )
+}

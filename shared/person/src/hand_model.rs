@@ -1,0 +1,113 @@
+use crate::HandPose;
+use coact_joint_task::Scene;
+use coact_messages::KeypointName;
+use glam::DVec3;
+
+/// Upper arm and forearm of an adult, m (Winter 2009, for 1.70 m of stature).
+const UPPER_ARM: f64 = 0.31;
+/// Elbow to wrist, m; recordings are scaled to the same length.
+pub(crate) const FOREARM: f64 = 0.26;
+/// Pitch of the hand that lies on the table, rad.
+const REST_PITCH: f64 = -0.35;
+
+/// The person's right arm and hand: from a pose to the nine keypoints that a tracker finds.
+///
+/// Thumb and fingers oppose each other horizontally, whatever the hand's pitch.
+#[derive(Debug, Clone)]
+pub struct HandModel {
+    shoulder: DVec3,
+    rest: DVec3,
+    /// Direction on the table plane in which the person faces: from the shoulder to where parts change hands, rad.
+    facing: f64,
+}
+
+impl HandModel {
+    /// The arm of the person who sits at this scene.
+    pub fn new(scene: &Scene) -> Self {
+        let shoulder = DVec3::from(scene.person_shoulder);
+        let ahead = DVec3::from(scene.handover) - DVec3::from(scene.person_rest);
+        Self { shoulder, rest: scene.person_rest.into(), facing: ahead.y.atan2(ahead.x) }
+    }
+
+    /// The hand at rest: flat, the fingers half bent, thumb near index.
+    pub(crate) fn rest(&self) -> HandPose {
+        let wrist = self.rest.into();
+        HandPose { wrist, pitch: REST_PITCH, aperture: 0.03, extension: 0.14, ..HandPose::default() }
+    }
+
+    /// Heading of a hand that reaches to `point`, rad: along the line from the shoulder.
+    pub(crate) fn heading_to(&self, point: DVec3) -> f64 {
+        let line = point - self.shoulder;
+        let turn = line.y.atan2(line.x) - self.facing;
+        turn.sin().atan2(turn.cos()).clamp(-1.0, 1.0)
+    }
+
+    /// The pose that has `point` in the middle between the finger tips, which is (`extension`, `aside`) from the wrist.
+    pub(crate) fn grasping(
+        &self,
+        point: DVec3,
+        pitch: f64,
+        aperture: f64,
+        (extension, aside): (f64, f64),
+    ) -> HandPose {
+        let heading = self.heading_to(point);
+        let mut pose = HandPose { wrist: [0.0; 3], heading, pitch, aperture, extension, aside };
+        pose.wrist = (point - extension * self.direction(&pose) - aside * self.thumb_side(&pose)).into();
+        pose
+    }
+
+    /// Unit vector from wrist to knuckles.
+    pub(crate) fn direction(&self, pose: &HandPose) -> DVec3 {
+        let yaw = self.facing + pose.heading;
+        DVec3::new(yaw.cos() * pose.pitch.cos(), yaw.sin() * pose.pitch.cos(), pose.pitch.sin())
+    }
+
+    /// Horizontal unit vector towards the thumb's side: the left of a right hand.
+    pub(crate) fn thumb_side(&self, pose: &HandPose) -> DVec3 {
+        let yaw = self.facing + pose.heading;
+        DVec3::new(-yaw.sin(), yaw.cos(), 0.0)
+    }
+
+    /// Unit vector from a place to the shoulder: the way in which the person draws something nearer.
+    pub(crate) fn towards_shoulder(&self, place: DVec3) -> DVec3 {
+        (self.shoulder - place).normalize_or_zero()
+    }
+
+    /// The middle between the finger tips, m: what the hand grasps lies there.
+    pub fn centre(&self, pose: &HandPose) -> DVec3 {
+        pose.wrist() + pose.extension * self.direction(pose) + pose.aside * self.thumb_side(pose)
+    }
+
+    /// All keypoints in the order of [`KeypointName`], m.
+    pub fn keypoints(&self, pose: &HandPose) -> [DVec3; 9] {
+        let (ahead, thumb, wrist) = (self.direction(pose), self.thumb_side(pose), pose.wrist());
+        let on_hand = |along: f64, aside: f64| wrist + along * ahead + aside * thumb;
+        let (thumb_tip, index_tip) = (pose.aside + pose.aperture / 2.0, pose.aside - pose.aperture / 2.0);
+        let mut points = [DVec3::ZERO; 9];
+        points[KeypointName::Shoulder as usize] = self.shoulder;
+        points[KeypointName::Elbow as usize] = self.elbow(wrist, thumb);
+        points[KeypointName::Wrist as usize] = wrist;
+        points[KeypointName::PalmBase as usize] = on_hand(0.020, 0.020);
+        points[KeypointName::ThumbTip as usize] = on_hand(pose.extension, thumb_tip);
+        points[KeypointName::IndexKnuckle as usize] = on_hand(0.092, 0.025);
+        points[KeypointName::IndexTip as usize] = on_hand(pose.extension, index_tip);
+        points[KeypointName::MiddleTip as usize] =
+            on_hand(pose.extension + 0.012, index_tip - 0.08 * pose.aperture);
+        points[KeypointName::LittleKnuckle as usize] = on_hand(0.080, -0.040);
+        points
+    }
+
+    /// The elbow of an arm of two links, bent downwards and outwards.
+    fn elbow(&self, wrist: DVec3, thumb_side: DVec3) -> DVec3 {
+        let line = wrist - self.shoulder;
+        let distance = line.length().max(1e-6);
+        let along = line / distance;
+        if distance >= UPPER_ARM + FOREARM {
+            return self.shoulder + line * (UPPER_ARM / (UPPER_ARM + FOREARM));
+        }
+        let foot = (UPPER_ARM * UPPER_ARM - FOREARM * FOREARM + distance * distance) / (2.0 * distance);
+        let bend = (UPPER_ARM * UPPER_ARM - foot * foot).max(0.0).sqrt();
+        let pull = DVec3::NEG_Z - 0.4 * thumb_side;
+        self.shoulder + foot * along + bend * pull.reject_from_normalized(along).normalize_or_zero()
+    }
+}

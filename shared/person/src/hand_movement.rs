@@ -1,0 +1,67 @@
+use crate::HandPose;
+use crate::reach_profile::minimum_jerk;
+use bytemuck::{Pod, Zeroable};
+
+/// Fraction of a grasping movement in which the hand's pitch reaches that of the grip.
+const PITCH_TIME: f64 = 0.7;
+/// How much the fingers stretch while they open, m.
+const STRETCH: f64 = 0.015;
+
+/// One movement of the person's hand. Times in cycles of the run.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct HandMovement {
+    /// The hand at its beginning.
+    pub from: HandPose,
+    /// The hand at its end.
+    pub to: HandPose,
+    /// When it begins.
+    pub start: u64,
+    /// Where an observer sees it begin: movement time counts from here.
+    pub onset: u64,
+    /// When it ends.
+    pub end: u64,
+    /// How far the path arches above the straight line, m.
+    pub arch: f64,
+    /// Largest aperture, m; 0 for a movement that does not grasp.
+    pub peak_aperture: f64,
+    /// Fraction of the movement at which it is reached.
+    pub peak_time: f64,
+}
+
+impl HandMovement {
+    /// Fraction of the movement that has passed at `tick`, in [0, 1].
+    pub(crate) fn time(&self, tick: u64) -> f64 {
+        let span = self.end.saturating_sub(self.start).max(1);
+        (tick.saturating_sub(self.start) as f64 / span as f64).min(1.0)
+    }
+
+    pub(crate) fn is_over(&self, tick: u64) -> bool {
+        tick >= self.end
+    }
+
+    /// The hand at `tick`.
+    pub(crate) fn pose(&self, tick: u64) -> HandPose {
+        let time = self.time(tick);
+        let along = minimum_jerk(time);
+        let mut pose = self.from.towards(&self.to, along);
+        pose.wrist[2] += self.arch * 16.0 * along * along * (1.0 - along) * (1.0 - along);
+        if self.peak_aperture > 0.0 {
+            self.shape(time, &mut pose);
+        }
+        pose
+    }
+
+    /// The preshaping of a grasping hand: it turns, opens beyond the part's width and closes on the part.
+    fn shape(&self, time: f64, pose: &mut HandPose) {
+        let turned = minimum_jerk(time / PITCH_TIME);
+        pose.pitch = self.from.pitch + (self.to.pitch - self.from.pitch) * turned;
+        let opened = minimum_jerk(time / self.peak_time);
+        let closed = minimum_jerk((time - self.peak_time) / (1.0 - self.peak_time));
+        pose.aperture = self.from.aperture
+            + (self.peak_aperture - self.from.aperture) * opened
+            + (self.to.aperture - self.peak_aperture) * closed;
+        pose.extension = self.from.extension + (self.to.extension - self.from.extension + STRETCH) * opened
+            - STRETCH * closed;
+    }
+}

@@ -1,0 +1,130 @@
+//! From the reach to where the part is wanted: grasping, lifting, carrying and mounting.
+
+use crate::person::error;
+use crate::random_policy::notices_after;
+use crate::{Activity, ActivityPhase, Holder, Manipulation, Person, PersonState, Slot, Surroundings};
+use coact_messages::PartnerError;
+use coact_period::cycles;
+use coact_random::Stream;
+use rand::RngExt;
+use std::ops::Range;
+use std::time::Duration;
+
+/// How long the person waits at the socket for the robot to steady the base, cycles.
+const STEADYING_PATIENCE: u64 = cycles(Duration::from_secs(3));
+/// How long a part is shown to the robot for it to take, cycles.
+const GIVING_PATIENCE: u64 = cycles(Duration::from_secs(15));
+/// How long a gesture is shown, cycles.
+const SHOWING_PATIENCE: u64 = cycles(Duration::from_secs(12));
+/// How long the person waits for the robot to let go, cycles.
+const RELEASE_PATIENCE: u64 = cycles(Duration::from_secs(10));
+/// How long the closed fingers stay on the part before they lift it, cycles.
+const DWELL: Range<u64> = cycles(Duration::from_millis(80))..cycles(Duration::from_millis(140));
+/// How long mounting takes, cycles.
+const MOUNTING: Range<u64> = cycles(Duration::from_millis(400))..cycles(Duration::from_millis(700));
+
+impl Person {
+    pub(crate) fn reach(&self, state: &mut PersonState, around: &Surroundings, done: &mut Manipulation) {
+        self.move_towards(state, around);
+        if state.phase() == ActivityPhase::Reach && state.movement.is_over(around.tick) {
+            state.hand = state.movement.to;
+            self.arrive(state, around, done);
+        }
+    }
+
+    /// Moves the empty hand towards its goal, wherever that is now; gives up when the part cannot be had any more.
+    pub(crate) fn move_towards(&self, state: &mut PersonState, around: &Surroundings) {
+        if let Some(part) = state.part.get() {
+            if !can_grasp(state.activity(), part, around) {
+                return self.withdraw(state, around);
+            }
+            self.aim(state, around.parts.centre(part, around.task));
+        }
+        state.hand = match state.recording.get() {
+            None => state.movement.pose(around.tick),
+            Some(_) => self.recorded_pose(state, around.tick).unwrap_or(state.hand),
+        };
+    }
+
+    /// The fingers close on the part, or the gesture is fully shown.
+    fn arrive(&self, state: &mut PersonState, around: &Surroundings, done: &mut Manipulation) {
+        let tick = around.tick;
+        self.see_mistake(state, around);
+        state.grasped = tick;
+        let Some(part) = state.part.get() else {
+            return state.enter(ActivityPhase::Show, tick + SHOWING_PATIENCE);
+        };
+        state.held = Slot::of(part);
+        if around.parts.is(part, Holder::Robot) {
+            if state.gives_up == 0 {
+                state.gives_up = self.withdraws(tick);
+            }
+            return state.enter(ActivityPhase::AwaitRelease, tick + RELEASE_PATIENCE);
+        }
+        done.grasped = Some(part);
+        state.home = around.parts.position(part).into();
+        let pause = self.random.at(Stream::Movement, tick).random_range(DWELL);
+        state.enter(ActivityPhase::Dwell, tick + pause);
+    }
+
+    /// Says when the activity will be given up: as it was meant to be, or because the person will notice a mistake.
+    fn see_mistake(&self, state: &mut PersonState, around: &Surroundings) {
+        let tick = around.tick;
+        if error(state, around) == PartnerError::None {
+            state.error = PartnerError::None as u64;
+        }
+        let mistaken = self.policy.behaviour().is_some() && state.error != PartnerError::None as u64;
+        state.gives_up = match state.variation.gives_up_after {
+            0 if mistaken => tick + notices_after(&mut self.random.at(Stream::Mistake, tick)),
+            0 => 0,
+            after => tick + after,
+        };
+    }
+
+    /// Sets off with the grasped part to where it is wanted.
+    pub(crate) fn lift(&self, state: &mut PersonState, around: &Surroundings) {
+        match (state.activity(), state.subgoal.get()) {
+            (Activity::Insert | Activity::Receive, Some(subgoal)) => {
+                let goal = &around.task.subgoals[subgoal];
+                self.carry_to(state, around, goal.socket.into(), goal.axis.into());
+            }
+            _ => self.carry_to(state, around, around.task.scene.handover.into(), glam::DVec3::Z),
+        }
+        state.enter(ActivityPhase::Carry, state.movement.end);
+    }
+
+    pub(crate) fn carry_on(&self, state: &mut PersonState, around: &Surroundings, done: &mut Manipulation) {
+        done.moved = self.carry(state, around);
+        if !state.movement.is_over(around.tick) {
+            return;
+        }
+        let needs_steadying =
+            state.subgoal.get().is_some_and(|subgoal| around.task.subgoals[subgoal].steadied);
+        match (state.phase(), state.activity()) {
+            (ActivityPhase::Return, _) => self.put_down(state, around, done),
+            (_, Activity::Give | Activity::Request) => {
+                if state.gives_up == 0 {
+                    state.gives_up = self.withdraws(around.tick);
+                }
+                state.enter(ActivityPhase::Give, around.tick + GIVING_PATIENCE);
+            }
+            _ if needs_steadying => {
+                state.enter(ActivityPhase::AwaitSteadying, around.tick + STEADYING_PATIENCE);
+            }
+            _ => self.begin_mounting(state, around.tick),
+        }
+    }
+
+    pub(crate) fn begin_mounting(&self, state: &mut PersonState, tick: u64) {
+        let time = self.random.at(Stream::Movement, tick).random_range(MOUNTING);
+        state.enter(ActivityPhase::Mount, tick + time);
+    }
+}
+
+/// Whether the part is still where the activity needs it: free to be taken, or in the robot's hand to be handed over.
+fn can_grasp(activity: Activity, part: usize, around: &Surroundings) -> bool {
+    match activity {
+        Activity::Receive => around.robot.held == Some(part),
+        _ => around.parts.is(part, Holder::Nobody),
+    }
+}

@@ -1,0 +1,56 @@
+use crate::{
+    Choice, Intention, PersonState, RandomBehaviour, Script, Surroundings, random_policy, synthetic_policy,
+};
+use coact_period::cycles;
+use coact_random::{RandomStreams, Stream};
+use rand::{Rng, RngExt};
+use std::ops::Range;
+use std::time::Duration;
+
+/// Pause between two activities of a person who chooses, cycles. Chosen by hand: long enough that the fields settle
+/// between two activities, short enough for a fluent assembly.
+const PAUSE: Range<u64> = cycles(Duration::from_millis(500))..cycles(Duration::from_millis(2000));
+
+/// Where the person's intentions come from.
+#[derive(Debug, Clone)]
+pub enum Policy {
+    /// Chosen at random among the plan's valid actions.
+    Synthetic,
+    /// The same, but with mistakes, pauses and variations at these rates.
+    Random(RandomBehaviour),
+    /// Written down beforehand.
+    Script(Script),
+}
+
+impl Policy {
+    /// What comes next for a person at rest; `can_hide` says whether an occluder may hide an activity.
+    pub(crate) fn next<R: Rng>(
+        &self,
+        around: &Surroundings,
+        state: &mut PersonState,
+        can_hide: &dyn Fn(&Intention) -> bool,
+        rng: &mut R,
+    ) -> Choice {
+        match self {
+            Self::Synthetic => synthetic_policy::choose(around, rng),
+            Self::Random(behaviour) => random_policy::choose(behaviour, around, can_hide, rng),
+            Self::Script(script) => script.next(around, state),
+        }
+    }
+
+    /// Rest before the next thought, cycles.
+    pub(crate) fn pause(&self, random: &RandomStreams, tick: u64) -> u64 {
+        match self {
+            Self::Synthetic | Self::Random(_) => random.at(Stream::Choice, tick).random_range(PAUSE),
+            Self::Script(_) => 1,
+        }
+    }
+
+    /// How a random partner moves and is seen; none for the others.
+    pub(crate) fn behaviour(&self) -> Option<&RandomBehaviour> {
+        match self {
+            Self::Random(behaviour) => Some(behaviour),
+            Self::Synthetic | Self::Script(_) => None,
+        }
+    }
+}

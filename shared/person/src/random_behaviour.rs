@@ -1,0 +1,167 @@
+use crate::PersonError;
+use std::ops::RangeInclusive;
+
+/// How a random partner behaves: what `random:KEY=VALUE,...` sets.
+///
+/// | key | value | meaning |
+/// |---|---|---|
+/// | `idle` | fraction | of the choices, the person idles for 2 to 6 s instead |
+/// | `goal` | fraction | a part is taken for a subgoal whose turn has not come, or that is achieved |
+/// | `request` | fraction | a part is requested whose turn has not come |
+/// | `means` | fraction | a part is requested that lies in the person's own workspace |
+/// | `hidden` | fraction | valid takings of a part before which an occluder stands: it hides the part, and the hand at it, but not the hand that sets out |
+/// | `words` | fraction | valid actions that come with a sentence of the task that means the same, said at reach onset |
+/// | `clarity` | range in 0..1 | of a grip: 1 is the grip's own pitch, 0 the middle between it and the nearest other grip's |
+/// | `dropouts` | per second | bursts in which the tracker loses the hand, 50 to 300 ms long; at most 2 |
+/// | `withdraws` | fraction | of parts that the person has the fingers on together with the robot, or gives it, the person lets go again, or takes back, before it should |
+/// | `late` | fraction | of parts that the robot gives, the person comes for 2 to 6 s late |
+/// | `movement` | range in ms | movement time of a reach, 300 to 3000 |
+///
+/// A fraction is from 0 to 1; the six fractions of all choices add up to at most 1. To receive what the robot gives is
+/// no choice. A range is written `LOW..HIGH`. What is not named has its default value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RandomBehaviour {
+    pub(crate) idle: f64,
+    pub(crate) goal: f64,
+    pub(crate) request: f64,
+    pub(crate) means: f64,
+    pub(crate) hidden: f64,
+    pub(crate) words: f64,
+    pub(crate) clarity: RangeInclusive<f64>,
+    pub(crate) dropouts: f64,
+    pub(crate) withdraws: f64,
+    pub(crate) late: f64,
+    pub(crate) movement: RangeInclusive<f64>,
+}
+
+impl Default for RandomBehaviour {
+    /// One choice in ten goes wrong. Movement time goes from the 5th percentile of real reaches to the longest one.
+    fn default() -> Self {
+        Self {
+            idle: 0.15,
+            goal: 0.06,
+            request: 0.02,
+            means: 0.02,
+            hidden: 0.03,
+            words: 0.03,
+            clarity: 0.5..=1.0,
+            dropouts: 0.05,
+            withdraws: 0.05,
+            late: 0.05,
+            movement: 429.0..=895.0,
+        }
+    }
+}
+
+const KEYS: &str = "idle, goal, request, means, hidden, words, clarity, dropouts, withdraws, late, movement";
+
+impl RandomBehaviour {
+    /// Reads `KEY=VALUE,...`; an empty text leaves all defaults.
+    ///
+    /// # Errors
+    /// [`PersonError::Behaviour`] for an unknown key, or a value that is out of its range.
+    pub fn parse(text: &str) -> Result<Self, PersonError> {
+        let mut behaviour = Self::default();
+        for entry in text.split(',').filter(|entry| !entry.is_empty()) {
+            let fault =
+                |expected: &str| PersonError::Behaviour { entry: entry.into(), expected: expected.into() };
+            let (key, value) = entry.split_once('=').ok_or_else(|| fault("KEY=VALUE"))?;
+            let number = |highest: f64, expected: &str| {
+                let number = value.parse().ok().filter(|number| (0.0..=highest).contains(number));
+                number.ok_or_else(|| fault(expected))
+            };
+            let fraction = || number(1.0, "a fraction from 0 to 1");
+            match key {
+                "idle" => behaviour.idle = fraction()?,
+                "goal" => behaviour.goal = fraction()?,
+                "request" => behaviour.request = fraction()?,
+                "means" => behaviour.means = fraction()?,
+                "hidden" => behaviour.hidden = fraction()?,
+                "words" => behaviour.words = fraction()?,
+                "withdraws" => behaviour.withdraws = fraction()?,
+                "late" => behaviour.late = fraction()?,
+                "dropouts" => behaviour.dropouts = number(2.0, "bursts per second, from 0 to 2")?,
+                "clarity" => {
+                    behaviour.clarity =
+                        range(value, 0.0..=1.0).ok_or_else(|| fault("LOW..HIGH within 0..1"))?;
+                }
+                "movement" => {
+                    let milliseconds = range(value, 300.0..=3000.0);
+                    behaviour.movement =
+                        milliseconds.ok_or_else(|| fault("LOW..HIGH within 300..3000 ms"))?;
+                }
+                _ => return Err(fault(&format!("one of the keys {KEYS}"))),
+            }
+        }
+        let sum = behaviour.idle
+            + behaviour.goal
+            + behaviour.request
+            + behaviour.means
+            + behaviour.hidden
+            + behaviour.words;
+        match sum <= 1.0 {
+            true => Ok(behaviour),
+            false => Err(PersonError::Behaviour {
+                entry: text.into(),
+                expected: format!(
+                    "idle, goal, request, means, hidden and words to add up to at most 1, not {sum:.2}"
+                ),
+            }),
+        }
+    }
+}
+
+/// `LOW..HIGH`, both within `limits`, in this order.
+fn range(text: &str, limits: RangeInclusive<f64>) -> Option<RangeInclusive<f64>> {
+    let (low, high) = text.split_once("..")?;
+    let (low, high) = (low.parse().ok()?, high.parse().ok()?);
+    (limits.contains(&low) && limits.contains(&high) && low <= high).then_some(low..=high)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn keys_set_their_values_and_leave_the_others() {
+        let behaviour =
+            RandomBehaviour::parse("goal=0.2,hidden=0.1,words=0.5,clarity=0..0.25,movement=600..600")
+                .unwrap();
+        assert_eq!(
+            behaviour,
+            RandomBehaviour {
+                goal: 0.2,
+                hidden: 0.1,
+                words: 0.5,
+                clarity: 0.0..=0.25,
+                movement: 600.0..=600.0,
+                ..RandomBehaviour::default()
+            }
+        );
+        assert_eq!(RandomBehaviour::parse("").unwrap(), RandomBehaviour::default());
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_with_what_was_expected() {
+        for (text, expected) in [
+            ("gaol=0.2", "random: \"gaol=0.2\"; expected one of the keys idle, goal"),
+            ("goal", "random: \"goal\"; expected KEY=VALUE"),
+            ("goal=1.2", "random: \"goal=1.2\"; expected a fraction from 0 to 1"),
+            ("goal=NaN", "expected a fraction"),
+            ("hidden=1.5", "expected a fraction from 0 to 1"),
+            ("words=often", "expected a fraction from 0 to 1"),
+            ("dropouts=-1", "expected bursts per second"),
+            ("clarity=0.9..0.2", "expected LOW..HIGH within 0..1"),
+            ("movement=10..500", "expected LOW..HIGH within 300..3000 ms"),
+            ("goal=0.6,means=0.6", "to add up to at most 1"),
+            (
+                "idle=0.5,hidden=0.3,words=0.3",
+                "idle, goal, request, means, hidden and words to add up to at most 1",
+            ),
+        ] {
+            let error = RandomBehaviour::parse(text).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! A recorded person's hand in place of the model's: while a recorded reach drives it.
+
+use crate::recorded_reaches::{LEAD, RecordedFrame, RecordedReach};
+use crate::{ActivityPhase, HandPose, Person, PersonState};
+use coact_messages::{Keypoint, KeypointName};
+use coact_period::{PERIOD_S, cycles};
+use glam::DVec3;
+use std::time::Duration;
+
+/// How long after the grasp it leaves it again, cycles: half of the time in which it takes the hand over.
+const TRAIL: u64 = cycles(Duration::from_millis(150));
+
+impl Person {
+    /// The recording that drives the hand now.
+    pub(crate) fn recording(&self, state: &PersonState) -> Option<&RecordedReach> {
+        let recorded = self.recorded.as_ref()?;
+        state.recording.get().and_then(|index| recorded.reaches.get(index))
+    }
+
+    /// The hand on a recorded path, `None` while the recording shows nothing.
+    pub(crate) fn recorded_pose(&self, state: &PersonState, tick: u64) -> Option<HandPose> {
+        let reach = self.recording(state)?;
+        let movement = &state.movement;
+        let frame = reach.at((tick as f64 - movement.onset as f64) * PERIOD_S)?;
+        let mut pose = movement.pose(tick);
+        let (from, to) = (movement.from.wrist(), movement.to.wrist());
+        let along = frame.progress.clamp(0.0, 1.0);
+        let arch = movement.arch * 16.0 * along * along * (1.0 - along) * (1.0 - along);
+        let detour = frame.detour * self.model.thumb_side(&pose);
+        pose.wrist = (from + frame.progress * (to - from) + detour + arch * DVec3::Z).into();
+        Some(pose)
+    }
+
+    /// What a tracker of the recorded person would report at `tick`; `None` when the model alone shapes the hand.
+    pub fn recorded_keypoints(&self, state: &PersonState, tick: u64) -> Option<[Keypoint; 9]> {
+        let reach = self.recording(state)?;
+        let begins = state.movement.onset;
+        let (onset, fraction) = match state.phase() {
+            ActivityPhase::Prepare => (begins, 1.0 - begins.saturating_sub(tick) as f64 / LEAD as f64),
+            ActivityPhase::Reach => (begins, 1.0),
+            _ => (state.onset, 1.0 - tick.saturating_sub(state.grasped) as f64 / TRAIL as f64),
+        };
+        if fraction <= 0.0 {
+            return None;
+        }
+        let lost = [Keypoint::default(); 9];
+        let frame = reach.at((tick as f64 - onset as f64) * PERIOD_S);
+        Some(frame.map_or(lost, |frame| self.shaped(&state.hand, &frame, fraction)))
+    }
+
+    /// The recorded shape of the hand in the plane of `pose`, mixed with the model's: this `fraction` is recorded.
+    fn shaped(&self, pose: &HandPose, frame: &RecordedFrame, fraction: f64) -> [Keypoint; 9] {
+        let modelled = self.model.keypoints(pose);
+        let (ahead, aside, wrist) = (self.model.direction(pose), self.model.thumb_side(pose), pose.wrist());
+        std::array::from_fn(|joint| {
+            if frame.confidence[joint] <= 0.0 {
+                return Keypoint::default();
+            }
+            let on_arm = joint == KeypointName::Shoulder as usize || joint == KeypointName::Elbow as usize;
+            let shown = wrist + frame.shape[joint].x * ahead + frame.shape[joint].y * aside;
+            let place = if on_arm { modelled[joint] } else { modelled[joint].lerp(shown, fraction.min(1.0)) };
+            Keypoint { position: place.into(), confidence: frame.confidence[joint] }
+        })
+    }
+}

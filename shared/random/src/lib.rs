@@ -1,0 +1,65 @@
+//! Random numbers that depend on the seed, the purpose and the tick alone.
+//!
+//! A generator that is carried on from tick to tick would be state, and a killed process would lose it. Here each
+//! [`Stream`] makes a fresh generator for each tick, so that a resumed run draws what the run would have drawn:
+//!
+//! ```
+//! use coact_random::{RandomStreams, Stream};
+//! use rand::RngExt;
+//!
+//! let draw = |seed, stream, tick| RandomStreams::new(seed).at(stream, tick).random::<u64>();
+//! assert_eq!(draw(1, Stream::Choice, 42), draw(1, Stream::Choice, 42));
+//! assert_ne!(draw(1, Stream::Choice, 42), draw(1, Stream::Tracker, 42));
+//! assert_ne!(draw(1, Stream::Choice, 42), draw(1, Stream::Choice, 43));
+//! ```
+
+use rand::SeedableRng;
+use rand_pcg::Pcg32;
+
+/// What a random generator is for: one independent sequence each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u64)]
+pub enum Stream {
+    /// What the person chooses to do, and when.
+    Choice = 1,
+    /// How the person moves.
+    Movement = 2,
+    /// Noise and gaps of the hand tracker.
+    Tracker = 3,
+    /// Noise and gaps of the part recogniser.
+    Recogniser = 4,
+    /// Noise of the joint encoders.
+    Encoders = 5,
+    /// How a random partner varies its movements, and when it notices a mistake.
+    Mistake = 6,
+    /// When the tracker loses the hand of a random partner.
+    Dropout = 7,
+    /// When a random partner withdraws from a handover, or comes late.
+    Handover = 8,
+}
+
+/// The random generators of one run.
+#[derive(Debug, Clone, Copy)]
+pub struct RandomStreams {
+    seed: u64,
+}
+
+impl RandomStreams {
+    /// The generators of the run with this seed.
+    pub fn new(seed: u64) -> Self {
+        Self { seed }
+    }
+
+    /// A fresh generator for `stream` at `tick`.
+    pub fn at(&self, stream: Stream, tick: u64) -> Pcg32 {
+        Pcg32::seed_from_u64(scramble(self.seed ^ scramble(tick ^ scramble(stream as u64))))
+    }
+}
+
+/// Finaliser of SplitMix64 (Steele, Lea and Flood 2014): neighbouring numbers become unrelated ones.
+fn scramble(number: u64) -> u64 {
+    let mut mixed = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    mixed ^ (mixed >> 31)
+}
