@@ -41,9 +41,9 @@ fn main() -> anyhow::Result<()> {
     let percept = process.bus().input(topic::PERCEPT)?;
     let frame = process.bus().trigger(topic::FIELDS)?;
     let mut command = process.bus().output(topic::COMMAND)?;
-    if let Some(last) = process.survivor(&mut command)? {
+    if let Some(last) = process.checkpoint(&mut command)? {
         control.resume(&last);
     }
-    process.work_beside("planner", move || planner.run())?;
+    process.spawn_background("planner", move || planner.run())?;
     Ok(process.run_cycles(Servos { control, sample, percept, frame, command })?)
 }

@@ -37,7 +37,7 @@ fn main() -> anyhow::Result<()> {
     let percept = process.bus().trigger(topic::PERCEPT)?;
     let previous = process.bus().input(topic::FIELDS)?;
     let mut frame = process.bus().output(topic::FIELDS)?;
-    let start = match process.survivor(&mut frame)? {
+    let start = match process.checkpoint(&mut frame)? {
         Some(last) if network.fits(&last) => last,
         _ => at_rest(&network),
     };

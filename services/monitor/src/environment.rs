@@ -1,5 +1,5 @@
 use coact_pipeline::{Pipeline, Ready, Run};
-use coact_realtime::Punctuality;
+use coact_realtime::WakeUpLateness;
 use std::collections::BTreeMap;
 
 /// Later starts of a process than this one are not looked for.
@@ -35,8 +35,8 @@ pub struct MachineReport {
     pub longest_ns: u64,
 }
 
-impl From<Punctuality> for MachineReport {
-    fn from(seen: Punctuality) -> Self {
+impl From<WakeUpLateness> for MachineReport {
+    fn from(seen: WakeUpLateness) -> Self {
         Self { wakeups: seen.wakeups, late: seen.late, longest_ns: seen.longest_ns }
     }
 }

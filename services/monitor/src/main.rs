@@ -4,7 +4,7 @@ use anyhow::Context;
 use coact_joint_task::NetworkPlan;
 use coact_messages::{Command, FieldFrame, Pulse, SensorSample, Speech, Truth, topic};
 use coact_monitor::{Environment, Intentions, Monitor, MonitorError, Rules, Watched, links};
-use coact_realtime::{Bus, Input, PortError, Process, Schedule, Witness, now};
+use coact_realtime::{Bus, Input, LatencyProbe, PortError, Process, Schedule, now};
 use std::time::{Duration, Instant, SystemTime};
 
 /// How often the topics are drained. Much shorter than a peak lasts and than the readers' buffers last.
@@ -22,7 +22,7 @@ fn main() -> anyhow::Result<()> {
     let mut topics = Topics::open(process.bus(), names)?;
     process.report_ready()?;
     let Some(schedule) = process.wait_for_start()? else { return Ok(()) };
-    let witness = Witness::start(process.pipeline(), schedule);
+    let probe = LatencyProbe::start(process.pipeline(), schedule);
     let mut monitor = Monitor::open(since_start(watched, schedule))?;
     let mut written = Instant::now();
     let mut refused = None;
@@ -35,7 +35,7 @@ fn main() -> anyhow::Result<()> {
         }
     }
     topics.drain(&mut monitor, &mut refused)?;
-    let machine = witness.map(|witness| witness.punctuality().into());
+    let machine = probe.map(|probe| probe.lateness().into());
     let environment = Environment { machine, ..Environment::of_run(process.run(), process.pipeline()) };
     monitor.finish(environment, now())?;
     Ok(())

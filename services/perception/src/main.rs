@@ -34,7 +34,7 @@ fn main() -> anyhow::Result<()> {
     let mut perception = Perception::new(&task, &PreshapeModel::load(&run.model)?)?.with_robot(robot);
     let sample = process.bus().trigger(topic::SENSORS)?;
     let mut percept = process.bus().output(topic::PERCEPT)?;
-    if let Some(last) = process.survivor(&mut percept)? {
+    if let Some(last) = process.checkpoint(&mut percept)? {
         perception.resume(&last);
     }
     Ok(process.run_cycles(Observer { perception, sample, percept })?)

@@ -1,5 +1,6 @@
-use crate::{ProcessSpec, StderrTail, scheduling};
+use crate::{ProcessSpec, StderrTail};
 use coact_pipeline::GENERATION_VARIABLE;
+use coact_realtime::SchedulingClass;
 use rustix::process::{
     Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal, set_parent_process_death_signal,
 };
@@ -9,29 +10,30 @@ use std::os::unix::process::CommandExt;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
-/// A running process: what it takes to watch, signal and reap it.
+/// A running process, to be watched, signalled and reaped.
 ///
-/// Dropped, it is killed and reaped: no path out of the supervisor leaves a process behind. Should the supervisor
-/// itself be killed, the kernel kills the process ([parent-death signal][1]).
+/// Dropped, it is killed and reaped: however the supervisor ends, it leaves no process behind. When the supervisor itself
+/// is killed, the kernel kills the process ([parent-death signal][1]).
 ///
 /// [1]: https://man7.org/linux/man-pages/man2/PR_SET_PDEATHSIG.2const.html
 #[derive(Debug)]
 pub struct RunningChild {
     child: Child,
-    /// Becomes readable at the very moment of death; immune to the reuse of process ids.
+    /// Becomes readable when the process dies. Unlike a process id, it never comes to mean another process.
     pidfd: OwnedFd,
     stderr: StderrTail,
 }
 
 impl RunningChild {
-    /// Starts the program of `spec` for the `generation`-th time after the first; each line that it writes to standard error goes to `pass_on`.
+    /// Starts the program of `spec` as this generation of the process; `on_line` gets each line that it writes to standard
+    /// error.
     ///
     /// # Errors
     /// The program cannot be executed.
     pub fn spawn(
         spec: &ProcessSpec,
         generation: u32,
-        pass_on: impl FnMut(&str) + Send + 'static,
+        on_line: impl FnMut(&str) + Send + 'static,
     ) -> io::Result<Self> {
         let mut command = Command::new(&spec.program);
         command.args(&spec.arguments).env(GENERATION_VARIABLE, generation.to_string());
@@ -52,7 +54,7 @@ impl RunningChild {
             }
         };
         let stderr = child.stderr.take().ok_or(io::ErrorKind::BrokenPipe)?;
-        Ok(Self { child, pidfd, stderr: StderrTail::follow(stderr, pass_on) })
+        Ok(Self { child, pidfd, stderr: StderrTail::follow(stderr, on_line) })
     }
 
     /// Its process id.
@@ -65,7 +67,7 @@ impl RunningChild {
         self.pidfd.as_fd()
     }
 
-    /// Sends a signal. That it is dead already is no error: the death is reported on its own way.
+    /// Sends a signal. It is no error that the process is dead already: its death is noticed in any case.
     pub fn signal(&self, signal: Signal) {
         if let Err(error) = pidfd_send_signal(&self.pidfd, signal)
             && error != rustix::io::Errno::SRCH
@@ -75,13 +77,17 @@ impl RunningChild {
     }
 
     /// How it ended, if it did; reaps it.
-    pub fn ended(&mut self) -> Option<ExitStatus> {
+    pub fn exit_status(&mut self) -> Option<ExitStatus> {
         self.child.try_wait().ok().flatten()
     }
 
-    /// Its last lines on standard error; waits a moment for the rest when it has just died.
-    pub fn last_words(&self) -> Vec<String> {
-        self.stderr.last_lines(Duration::from_millis(50))
+    /// How long the rest of a dead process's standard error may take to arrive. The reader only has to empty a pipe; chosen
+    /// by hand, short enough not to delay the replacement.
+    const STDERR_TIMEOUT: Duration = Duration::from_millis(50);
+
+    /// Its last lines on standard error, with those that are still on their way.
+    pub fn stderr_tail(&self) -> Vec<String> {
+        self.stderr.last_lines(Self::STDERR_TIMEOUT)
     }
 }
 
@@ -93,10 +99,11 @@ impl Drop for RunningChild {
     }
 }
 
-/// In the forked child: be killed when `supervisor` dies, also when it just did; be ordinary unless `realtime`.
+/// In the forked child: has it killed when `supervisor` dies, also if it died just now; makes it ordinary unless `realtime`.
 fn prepare(supervisor: Pid, realtime: bool) -> io::Result<()> {
     if !realtime {
-        scheduling::stand_down();
+        // Refused only to a thread that never had another class.
+        let _ = SchedulingClass::Other.apply();
     }
     set_parent_process_death_signal(Some(Signal::KILL))?;
     if rustix::process::getppid() != Some(supervisor) {

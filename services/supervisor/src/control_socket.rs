@@ -1,4 +1,4 @@
-use crate::{Fault, Refusal};
+use crate::{Fault, InjectionRefusal};
 use coact_pipeline::Run;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::os::unix::net::{UnixListener, UnixStream};
@@ -7,86 +7,87 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
-/// Where a running set listens for faults to inject: `control.sock` in the run directory. One line of JSON asks
-/// ([`Asked`]), one line answers ([`Answer`]).
+/// Where a running set listens for faults to inject: `control.sock` in the run directory. A request is one line of JSON
+/// ([`RequestLine`]), and so is its answer ([`AnswerLine`]).
 #[derive(Debug)]
 pub(crate) struct ControlSocket {
     path: PathBuf,
-    requests: mpsc::Receiver<Request>,
+    requests: mpsc::Receiver<FaultRequest>,
     closed: Arc<AtomicBool>,
 }
 
-/// A fault that somebody wants to have injected now.
+/// A request to inject a fault now.
 #[derive(Debug)]
-pub(crate) struct Request {
+pub(crate) struct FaultRequest {
     pub(crate) process: String,
     pub(crate) fault: Fault,
-    answer: mpsc::Sender<Answer>,
+    answer: mpsc::Sender<AnswerLine>,
 }
 
 #[derive(Debug, serde::Serialize, serde::Deserialize)]
-struct Asked {
+struct RequestLine {
     process: String,
     fault: String,
 }
 
 /// `refused` is absent when the fault was injected.
 #[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
-struct Answer {
+struct AnswerLine {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     refused: Option<String>,
 }
 
 /// Why a running set injected nothing.
 #[derive(Debug, thiserror::Error)]
-pub enum AskError {
-    /// The set cannot be reached.
-    #[error("{}: {source}; expected a running set (coact launch) that listens there", path.display())]
+pub enum FaultRequestError {
+    /// The set cannot be reached. The message contains the cause, so that it is no source as well.
+    #[error("{}: {cause}; expected a running set (coact launch) that listens there", path.display())]
     Unreachable {
         /// Its socket.
         path: PathBuf,
         /// Why.
-        source: io::Error,
+        cause: io::Error,
     },
     /// It refused.
     #[error("{0}")]
     Refused(String),
 }
 
-/// Neither side waits longer than this for the other's line.
-const PATIENCE: Duration = Duration::from_secs(2);
-/// No request is longer than this, bytes.
-const LONGEST: u64 = 4096;
+/// Neither side waits longer than this for the other's line. The supervisor answers within some milliseconds: after this
+/// time it has ended, or hangs. Chosen by hand.
+const ANSWER_TIMEOUT: Duration = Duration::from_secs(2);
+/// No request is longer than this, bytes: far more than two names take.
+const MAX_REQUEST: u64 = 4096;
 
 fn path_of(run: &Run) -> PathBuf {
     run.directory().join("control.sock")
 }
 
-/// Asks a running set to inject a fault into one of its processes now.
+/// Requests that a running set injects a fault into one of its processes now.
 ///
 /// # Errors
-/// [`AskError`]: nothing listens there, or it knows no such process or fault.
-pub fn ask_for_fault(run: &Run, process: &str, fault: &str) -> Result<(), AskError> {
+/// [`FaultRequestError`]: nothing listens there, or it knows no such process or fault.
+pub fn request_fault(run: &Run, process: &str, fault: &str) -> Result<(), FaultRequestError> {
     let path = path_of(run);
-    let asked = Asked { process: process.into(), fault: fault.into() };
-    match exchange(&path, &asked) {
-        Ok(Answer { refused: None }) => Ok(()),
-        Ok(Answer { refused: Some(why) }) => Err(AskError::Refused(why)),
-        Err(source) => Err(AskError::Unreachable { path, source }),
+    let request = RequestLine { process: process.into(), fault: fault.into() };
+    match exchange(&path, &request) {
+        Ok(AnswerLine { refused: None }) => Ok(()),
+        Ok(AnswerLine { refused: Some(why) }) => Err(FaultRequestError::Refused(why)),
+        Err(cause) => Err(FaultRequestError::Unreachable { path, cause }),
     }
 }
 
-fn exchange(path: &std::path::Path, asked: &Asked) -> io::Result<Answer> {
+fn exchange(path: &std::path::Path, request: &RequestLine) -> io::Result<AnswerLine> {
     let mut stream = UnixStream::connect(path)?;
-    stream.set_read_timeout(Some(2 * PATIENCE))?;
-    writeln!(stream, "{}", serde_json::to_string(asked)?)?;
+    stream.set_read_timeout(Some(2 * ANSWER_TIMEOUT))?;
+    writeln!(stream, "{}", serde_json::to_string(request)?)?;
     let mut line = String::new();
     BufReader::new(stream).read_line(&mut line)?;
     Ok(serde_json::from_str(&line)?)
 }
 
 impl ControlSocket {
-    /// Listens on a thread of its own: nobody who asks can hold up the supervision.
+    /// Listens on a thread of its own: no client can delay the supervision.
     ///
     /// # Errors
     /// The socket cannot be made.
@@ -101,7 +102,7 @@ impl ControlSocket {
                 if over.load(Ordering::Relaxed) {
                     return;
                 }
-                // Who asks in the wrong way or goes away gets no answer; that is nobody else's trouble.
+                // A client that breaks the protocol or goes away gets no answer, and concerns nobody else.
                 stream.and_then(|stream| serve(stream, &sender)).ok();
             }
         });
@@ -109,7 +110,7 @@ impl ControlSocket {
     }
 
     /// The next request that has come.
-    pub(crate) fn next(&self) -> Option<Request> {
+    pub(crate) fn next(&self) -> Option<FaultRequest> {
         self.requests.try_recv().ok()
     }
 }
@@ -122,31 +123,31 @@ impl Drop for ControlSocket {
     }
 }
 
-impl Request {
-    /// Answers it.
-    pub(crate) fn answer(self, outcome: Result<(), Refusal>) {
+impl FaultRequest {
+    /// Sends the answer.
+    pub(crate) fn answer(self, outcome: Result<(), InjectionRefusal>) {
         let refused = outcome.err().map(|refusal| refusal.to_string());
-        self.answer.send(Answer { refused }).ok();
+        self.answer.send(AnswerLine { refused }).ok();
     }
 }
 
-fn serve(mut stream: UnixStream, requests: &mpsc::Sender<Request>) -> io::Result<()> {
-    stream.set_read_timeout(Some(PATIENCE))?;
-    stream.set_write_timeout(Some(PATIENCE))?;
+fn serve(mut stream: UnixStream, requests: &mpsc::Sender<FaultRequest>) -> io::Result<()> {
+    stream.set_read_timeout(Some(ANSWER_TIMEOUT))?;
+    stream.set_write_timeout(Some(ANSWER_TIMEOUT))?;
     let mut line = String::new();
-    BufReader::new((&stream).take(LONGEST)).read_line(&mut line)?;
-    let answer = pass_on(&line, requests).unwrap_or_else(|why| Answer { refused: Some(why) });
+    BufReader::new((&stream).take(MAX_REQUEST)).read_line(&mut line)?;
+    let answer = forward(&line, requests).unwrap_or_else(|why| AnswerLine { refused: Some(why) });
     writeln!(stream, "{}", serde_json::to_string(&answer)?)
 }
 
-fn pass_on(line: &str, requests: &mpsc::Sender<Request>) -> Result<Answer, String> {
-    let asked: Asked = serde_json::from_str(line)
+fn forward(line: &str, requests: &mpsc::Sender<FaultRequest>) -> Result<AnswerLine, String> {
+    let line: RequestLine = serde_json::from_str(line)
         .map_err(|error| format!("{error}; expected {{\"process\": \"...\", \"fault\": \"...\"}}"))?;
-    let fault = asked.fault.parse::<Fault>().map_err(|error| error.to_string())?;
+    let fault = line.fault.parse::<Fault>().map_err(|error| error.to_string())?;
     let (answer, answered) = mpsc::channel();
     let over = |_| "the run is ending".to_owned();
     requests
-        .send(Request { process: asked.process, fault, answer })
+        .send(FaultRequest { process: line.process, fault, answer })
         .map_err(|error| over(error.to_string()))?;
-    answered.recv_timeout(PATIENCE).map_err(|error| over(error.to_string()))
+    answered.recv_timeout(ANSWER_TIMEOUT).map_err(|error| over(error.to_string()))
 }

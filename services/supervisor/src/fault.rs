@@ -5,7 +5,7 @@ use std::str::FromStr;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fault {
-    /// SIGKILL: the process ends at once, without a word.
+    /// SIGKILL: the process ends at once, and cannot clean up.
     Kill,
     /// SIGSTOP, then SIGCONT after [`Fault::PAUSE`]: the process hangs.
     Stop,
@@ -19,7 +19,8 @@ impl Fault {
     /// Every fault, in the order in which messages name them.
     pub const ALL: [Self; 4] = [Self::Kill, Self::Stop, Self::Slow, Self::CrashOnStart];
 
-    /// How long [`Fault::Stop`] keeps a process stopped.
+    /// How long [`Fault::Stop`] stops a process. Chosen by hand: longer than the watchdog allows (500 ms), so that the
+    /// process is replaced.
     pub const PAUSE: std::time::Duration = std::time::Duration::from_secs(2);
 
     /// The name that the command line uses.

@@ -56,10 +56,12 @@ impl FromStr for Injection {
     }
 }
 
+const SECONDS_PER_MILLISECOND: f64 = 1e-3;
+
 /// Seconds (`20s`, `1.5s`) or milliseconds (`500ms`).
 fn read_time(text: &str) -> Option<Duration> {
     let (number, unit) = match text.strip_suffix("ms") {
-        Some(number) => (number, 1e-3),
+        Some(number) => (number, SECONDS_PER_MILLISECOND),
         None => (text.strip_suffix('s')?, 1.0),
     };
     Duration::try_from_secs_f64(number.parse::<f64>().ok()? * unit).ok()

@@ -1,5 +1,9 @@
-use crate::session::Session;
-use crate::{EventLog, Injection, LaunchError, Note, Notes, ProcessSet, ProcessSpec, Terminal, Tone};
+use crate::ending::EndCondition;
+use crate::run_loop::{RunLoop, RunParts};
+use crate::{
+    Ending, EventLog, Injection, LaunchError, Note, NoteKind, Notes, ProcessSet, ProcessSpec, Progress,
+    Terminal,
+};
 use coact_joint_task::Task;
 use coact_pipeline::{Pipeline, ProcessEntry, Run, RunSettings, Trigger};
 use std::path::{Path, PathBuf};
@@ -7,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// A run that is to be started: all that was asked for, read and checked.
+/// A run that is to be started: everything that was asked for, read and checked.
 #[derive(Debug)]
 pub struct Launch {
     /// What the processes find in the run directory.
@@ -18,29 +22,16 @@ pub struct Launch {
     pub task: Task,
     /// Folder of the programs that the process table names without a folder.
     pub programs: PathBuf,
-    /// How long the run lasts; without it, until all subgoals are achieved, [`Launch::LONGEST`] at most.
+    /// How long the run lasts; without it, until all subgoals are achieved, [`Launch::MAX_DURATION`] at most.
     pub duration: Option<Duration>,
     /// Faults to inject.
     pub injections: Vec<Injection>,
 }
 
-/// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
-    /// Its duration was over.
-    DurationOver,
-    /// All subgoals were achieved.
-    Achieved,
-    /// It was to last until all subgoals were achieved, and that took too long.
-    TooLong,
-    /// Ctrl-C or SIGTERM.
-    Interrupted,
-}
+/// Removes the run's directory and shared memory when it is dropped.
+struct OwnedRun(Run);
 
-/// A run's directory and shared memory: gone when this is.
-struct Owned(Run);
-
-impl Drop for Owned {
+impl Drop for OwnedRun {
     fn drop(&mut self) {
         if let Err(error) = self.0.remove() {
             tracing::error!("left behind: {error}");
@@ -50,46 +41,48 @@ impl Drop for Owned {
 
 impl Launch {
     /// Longest run without a duration.
-    pub const LONGEST: Duration = Duration::from_secs(300);
+    pub const MAX_DURATION: Duration = EndCondition::MAX_DURATION;
 
-    /// Starts the set, watches it until its end, and leaves nothing of it behind but the report.
+    /// Starts the set, supervises it until its end, and leaves nothing of it behind but the report.
     ///
     /// # Errors
     /// [`LaunchError`]: what is missing or wrong, or why the set was given up.
     pub fn run(self) -> Result<Ending, LaunchError> {
-        self.run_beside(|_, _| ()).map(|(ending, ())| ending)
+        self.run_with_observer(|_, _| ()).map(|(ending, ())| ending)
     }
 
-    /// As [`Launch::run`], with a `guest` who looks on from a thread of its own: it gets the run, all of whose topics
-    /// exist by then, and a flag that is set once the set has ended.
+    /// As [`Launch::run`], with an `observer` on a thread of its own. It gets the run, all of whose topics exist by then,
+    /// and a flag that is set once the set has ended.
     ///
     /// # Errors
     /// As [`Launch::run`].
-    pub fn run_beside<T: Send>(
+    pub fn run_with_observer<T: Send>(
         self,
-        guest: impl FnOnce(&Run, &AtomicBool) -> T + Send,
+        observer: impl FnOnce(&Run, &AtomicBool) -> T + Send,
     ) -> Result<(Ending, T), LaunchError> {
         self.check()?;
-        coact_realtime::keep_off_real_time_cores(&self.pipeline);
+        coact_realtime::exclude_real_time_cores(&self.pipeline);
         remove_dead_runs();
-        let report = self.settings.report.clone();
-        let file_error = |path: &Path, source| LaunchError::File { path: path.to_owned(), source };
-        std::fs::create_dir_all(&report).map_err(|error| file_error(&report, error))?;
-        forget_earlier_summary(&report).map_err(|error| file_error(&report, error))?;
-        let log =
-            EventLog::create(&report).map_err(|error| file_error(&report.join(EventLog::FILE), error))?;
+        let log = self.open_report()?;
         let terminal = Terminal::open();
-        // Declared before all that lives in it: removed after all that has ended.
-        let run = Owned(Run::create(self.settings.clone())?);
-        let set = self.process_set(&run.0, log, terminal.notes());
-        let session = Session::open(&self, &run.0, set, &terminal)?;
+        // Declared before everything that uses it: removed after all of that has ended.
+        let run = OwnedRun(Run::create(self.settings.clone())?);
+        let run_loop = RunLoop::prepare(RunParts {
+            run: &run.0,
+            pipeline: &self.pipeline,
+            terminal: &terminal,
+            set: self.process_set(&run.0, log, terminal.notes()),
+            progress: Progress::new(&self.task),
+            injections: self.injections.clone(),
+            end: EndCondition::new(self.duration),
+        })?;
         let over = AtomicBool::new(false);
         std::thread::scope(|scope| {
-            let guest = scope.spawn(|| guest(&run.0, &over));
-            let ending = session.attend();
+            let observer = scope.spawn(|| observer(&run.0, &over));
+            let ending = run_loop.run();
             over.store(true, Ordering::Relaxed);
-            let seen = guest.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            Ok((ending?, seen))
+            let observed = observer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            Ok((ending?, observed))
         })
     }
 
@@ -113,6 +106,17 @@ impl Launch {
         }
     }
 
+    /// Makes the report directory with an empty log, and without a summary of an earlier run.
+    fn open_report(&self) -> Result<EventLog, LaunchError> {
+        let report = &self.settings.report;
+        let file_error = |path: &Path, cause| LaunchError::File { path: path.to_owned(), cause };
+        std::fs::create_dir_all(report).map_err(|error| file_error(report, error))?;
+        match std::fs::remove_file(report.join("summary.json")) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(file_error(report, error)),
+            _ => EventLog::create(report).map_err(|error| file_error(&report.join(EventLog::FILE), error)),
+        }
+    }
+
     fn process_set(&self, run: &Run, log: EventLog, notes: Notes) -> ProcessSet {
         let spec = |entry: &ProcessEntry| ProcessSpec {
             name: entry.name.clone(),
@@ -127,21 +131,13 @@ impl Launch {
         };
         let specs = self.pipeline.processes.iter().map(spec).collect();
         let on_line = Arc::new(move |process: &str, line: &str| {
-            notes.show(Note::new(Tone::Plain, format!("{process}: {line}")));
+            notes.show(Note::new(NoteKind::Plain, format!("{process}: {line}")));
         });
         ProcessSet::new(specs, self.pipeline.restart, log, on_line)
     }
 }
 
-/// What is read at the end must be of this run.
-fn forget_earlier_summary(report: &Path) -> std::io::Result<()> {
-    match std::fs::remove_file(report.join("summary.json")) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
-}
-
-/// Removes what runs left behind whose supervisor was killed. Living runs are none of our business.
+/// Removes what runs left behind whose supervisor was killed. Runs that still go on are not touched.
 fn remove_dead_runs() {
     for run in Run::all().iter().filter(|run| !run.owner_lives()) {
         if let Err(error) = run.remove() {

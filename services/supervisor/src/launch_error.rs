@@ -24,15 +24,15 @@ pub enum LaunchError {
     /// iceoryx2 refuses.
     #[error(transparent)]
     Port(#[from] PortError),
-    /// A file of the report or the run.
-    #[error("{}: {source}; expected a place that can be written", path.display())]
+    /// A file of the report or the run. The message contains the cause, so that it is no source as well.
+    #[error("{}: {cause}; expected a place that can be written", path.display())]
     File {
         /// The file or directory.
         path: PathBuf,
         /// Why.
-        source: io::Error,
+        cause: io::Error,
     },
-    /// Signals cannot be handled.
+    /// Signals cannot be handled. The message contains the cause.
     #[error("signals cannot be handled: {0}")]
     Signals(io::Error),
     /// The set was given up.

@@ -1,35 +1,19 @@
+use crate::NoteKind;
 use std::time::Duration;
 
-/// A line for the person at the terminal, and what its colour means.
+/// A line for the person at the terminal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
     /// What it is about.
-    pub tone: Tone,
+    pub kind: NoteKind,
     /// The line.
     pub text: String,
 }
 
-/// What a line is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tone {
-    /// Something was achieved: green.
-    Achieved,
-    /// The robot decided: cyan.
-    Decision,
-    /// The robot speaks: magenta.
-    Speech,
-    /// A process died and is replaced, or a fault was injected: yellow.
-    Disturbance,
-    /// Something that spoils the run or its figures: red.
-    Alarm,
-    /// Anything else: plain.
-    Plain,
-}
-
 impl Note {
     /// A note.
-    pub fn new(tone: Tone, text: impl Into<String>) -> Self {
-        Self { tone, text: text.into() }
+    pub fn new(kind: NoteKind, text: impl Into<String>) -> Self {
+        Self { kind, text: text.into() }
     }
 
     /// The same, with the run's time in front.

@@ -1,8 +1,9 @@
-use crate::supervised::{Death, Phase, Supervised};
+use crate::supervised::{Death, Lifecycle, Supervised};
 use crate::{
-    Event, EventKind, EventLog, Fault, GaveUp, ProcessSpec, Refusal, RunningChild, Survivors, clock,
+    Checkpoints, Event, EventKind, EventLog, Fault, GaveUp, InjectionRefusal, ProcessSpec, RunningChild,
 };
 use coact_pipeline::RestartPolicy;
+use coact_realtime::monotonic_time;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::process::Signal;
 use std::collections::BTreeSet;
@@ -10,14 +11,14 @@ use std::time::Duration;
 
 /// A set of processes that are started in order, watched, restarted when they die, and stopped in reverse order.
 ///
-/// It waits for nothing but [`ProcessSet::wait`]: whoever owns it calls [`ProcessSet::advance`] after each wait,
-/// and each call does what is due by then.
+/// Only [`ProcessSet::wait`] and [`ProcessSet::stop`] wait. The owner calls [`ProcessSet::advance`] after each wait, and
+/// each call does what is due by then.
 pub struct ProcessSet {
     processes: Vec<Supervised>,
     policy: RestartPolicy,
     log: EventLog,
-    news: Vec<Event>,
-    /// From when on silence counts; none while the run's clock does not run yet.
+    new_events: Vec<Event>,
+    /// From when on pulses are expected; none while the run's clock does not run yet.
     pulses_from: Option<Duration>,
     /// Called with process name and line for each line that a process writes to standard error.
     on_line: LineSink,
@@ -27,64 +28,67 @@ pub struct ProcessSet {
 pub type LineSink = std::sync::Arc<dyn Fn(&str, &str) + Send + Sync>;
 
 impl ProcessSet {
+    /// How often a stopping set is looked at when no process ends. Chosen by hand; not sensitive.
+    const STOP_POLL: Duration = Duration::from_millis(3);
+
     /// A set of which nothing runs yet.
     pub fn new(specs: Vec<ProcessSpec>, policy: RestartPolicy, log: EventLog, on_line: LineSink) -> Self {
         let mut processes: Vec<_> = specs.into_iter().map(Supervised::new).collect();
         processes.sort_by_key(|process| process.spec.order);
-        Self { processes, policy, log, news: Vec::new(), pulses_from: None, on_line }
+        Self { processes, policy, log, new_events: Vec::new(), pulses_from: None, on_line }
     }
 
     /// Waits until a process dies, a signal arrives, or `limit` has passed.
     pub fn wait(&self, limit: Duration) {
-        let children = self.processes.iter().filter_map(|process| process.alive());
+        let children = self.processes.iter().filter_map(|process| process.running());
         let mut deaths: Vec<PollFd<'_>> =
-            children.map(|alive| PollFd::from_borrowed_fd(alive.child.death(), PollFlags::IN)).collect();
+            children.map(|running| PollFd::from_borrowed_fd(running.child.death(), PollFlags::IN)).collect();
         let limit = Timespec { tv_sec: limit.as_secs() as i64, tv_nsec: limit.subsec_nanos().into() };
         // The only failure is an interrupting signal: the caller looks for it anyway.
         poll(&mut deaths, Some(&limit)).ok();
     }
 
-    /// Buries the dead and starts those whose turn has come, replacements first of all: to be called right after
-    /// [`ProcessSet::wait`].
+    /// Handles every exit, and starts the processes whose turn has come. To be called right after [`ProcessSet::wait`], so
+    /// that replacements are started before anything else is done.
     ///
     /// # Errors
     /// The set was given up; what still runs is stopped by [`ProcessSet::stop`].
-    pub fn replace_dead(&mut self, survivors: &mut dyn Survivors) -> Result<(), GaveUp> {
+    pub fn replace_dead(&mut self, checkpoints: &mut dyn Checkpoints) -> Result<(), GaveUp> {
         for index in 0..self.processes.len() {
-            if let Some(death) = self.processes[index].died(clock::now()) {
-                self.bury(index, death)?;
+            if let Some(death) = self.processes[index].died(monotonic_time()) {
+                self.on_exit(index, death)?;
             }
-            self.start_if_due(index, survivors)?;
+            self.start_if_due(index, checkpoints)?;
         }
         Ok(())
     }
 
-    /// Does all that is due: replaces the dead, greets the ready, kills the hung.
+    /// Does everything that is due: replaces the dead, notes who is ready, and lets the watchdog kill the hung.
     ///
     /// # Errors
     /// As [`ProcessSet::replace_dead`].
-    pub fn advance(&mut self, survivors: &mut dyn Survivors) -> Result<(), GaveUp> {
-        self.replace_dead(survivors)?;
+    pub fn advance(&mut self, checkpoints: &mut dyn Checkpoints) -> Result<(), GaveUp> {
+        self.replace_dead(checkpoints)?;
         for index in 0..self.processes.len() {
-            if self.processes[index].becomes_ready(clock::now()) {
-                self.greet(index, survivors);
+            if self.processes[index].becomes_ready(monotonic_time()) {
+                self.on_ready(index, checkpoints);
             }
-            self.processes[index].discipline(clock::now(), self.pulses_from);
+            self.processes[index].watchdog(monotonic_time(), self.pulses_from);
         }
         Ok(())
     }
 
-    /// The run's clock starts at `from`: pulses are due from then on.
+    /// The run's clock starts at `from`: pulses are expected from then on.
     pub fn expect_pulses(&mut self, from: Duration) {
         self.pulses_from = Some(from);
     }
 
-    /// A process published a pulse at `at`: it is alive.
-    pub fn heard(&mut self, process: &str, at: Duration) {
-        let alive =
-            self.processes.iter_mut().find(|p| p.spec.name == process).and_then(Supervised::alive_mut);
-        if let Some(alive) = alive {
-            alive.heard = alive.heard.max(at);
+    /// A process published a pulse at `at`: it is not hung.
+    pub fn pulse(&mut self, process: &str, at: Duration) {
+        let running =
+            self.processes.iter_mut().find(|p| p.spec.name == process).and_then(Supervised::running_mut);
+        if let Some(running) = running {
+            running.last_sign = running.last_sign.max(at);
         }
     }
 
@@ -92,27 +96,28 @@ impl ProcessSet {
     ///
     /// # Errors
     /// There is no such process, or it is not running just now.
-    pub fn inject(&mut self, process: &str, fault: Fault) -> Result<(), Refusal> {
+    pub fn inject(&mut self, process: &str, fault: Fault) -> Result<(), InjectionRefusal> {
         let names = || self.names().map(str::to_owned).collect();
         let index = self.processes.iter().position(|p| p.spec.name == process);
-        let index = index.ok_or_else(|| Refusal::UnknownProcess { name: process.into(), known: names() })?;
+        let index =
+            index.ok_or_else(|| InjectionRefusal::UnknownProcess { name: process.into(), known: names() })?;
         if !self.processes[index].is_ready() {
-            return Err(Refusal::NotRunning(process.into()));
+            return Err(InjectionRefusal::NotRunning(process.into()));
         }
         self.processes[index].fault = Some(fault);
         self.record(index, EventKind::Injected, None, None);
         let target = &mut self.processes[index];
         target.crash_next = fault == Fault::CrashOnStart;
-        let Some(alive) = target.alive_mut() else { return Ok(()) };
+        let Some(running) = target.running_mut() else { return Ok(()) };
         match fault {
-            Fault::Kill | Fault::CrashOnStart => alive.child.signal(Signal::KILL),
+            Fault::Kill | Fault::CrashOnStart => running.child.signal(Signal::KILL),
             Fault::Slow => {
-                alive.child.signal(Signal::USR1);
+                running.child.signal(Signal::USR1);
                 target.fault = None;
             }
             Fault::Stop => {
-                alive.child.signal(Signal::STOP);
-                alive.continue_at = Some(clock::now() + Fault::PAUSE);
+                running.child.signal(Signal::STOP);
+                running.continue_at = Some(monotonic_time() + Fault::PAUSE);
             }
         }
         Ok(())
@@ -135,16 +140,16 @@ impl ProcessSet {
 
     /// Process id of each running process, by name.
     pub fn pids(&self) -> impl Iterator<Item = (&str, u32)> {
-        self.processes.iter().filter_map(|p| Some((p.spec.name.as_str(), p.alive()?.child.pid())))
+        self.processes.iter().filter_map(|p| Some((p.spec.name.as_str(), p.running()?.child.pid())))
     }
 
     /// What happened since the last call.
-    pub fn take_news(&mut self) -> Vec<Event> {
-        std::mem::take(&mut self.news)
+    pub fn take_events(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.new_events)
     }
 
-    /// Stops all in descending order, equal ones together: SIGTERM, and SIGKILL when the grace is over. Calls
-    /// `meanwhile` every few milliseconds.
+    /// Stops all in descending order, equal ones together: SIGTERM, and SIGKILL when the grace is over.
+    /// Calls `meanwhile` every few milliseconds.
     pub fn stop(&mut self, mut meanwhile: impl FnMut()) {
         let orders: BTreeSet<u32> = self.processes.iter().map(|process| process.spec.order).collect();
         for &order in orders.iter().rev() {
@@ -155,52 +160,52 @@ impl ProcessSet {
     }
 
     fn stop_together(&mut self, group: &[usize], meanwhile: &mut impl FnMut()) {
-        let begin = clock::now();
+        let begin = monotonic_time();
         for &index in group {
-            self.processes[index].ask_to_end();
+            self.processes[index].request_stop();
         }
-        while group.iter().any(|&index| self.processes[index].alive().is_some()) {
+        while group.iter().any(|&index| self.processes[index].running().is_some()) {
             for &index in group {
-                if let Some(death) = self.processes[index].died(clock::now()) {
+                if let Some(death) = self.processes[index].died(monotonic_time()) {
                     self.record(index, EventKind::Stopped, Some(death.pid), Some(death.reason));
                 }
-                self.processes[index].force_to_end(clock::now().saturating_sub(begin));
+                self.processes[index].kill_after_grace(monotonic_time().saturating_sub(begin));
             }
             meanwhile();
-            self.wait(Duration::from_millis(3));
+            self.wait(Self::STOP_POLL);
         }
         for &index in group {
-            self.processes[index].phase = Phase::Stopped;
+            self.processes[index].lifecycle = Lifecycle::Stopped;
         }
     }
 
-    /// Enters a death and decides whether a replacement is started, and when.
-    fn bury(&mut self, index: usize, death: Death) -> Result<(), GaveUp> {
-        let Death { pid, reason, was_ready, overdue, voluntary, child } = death;
+    /// Logs a death. A first start that failed gives the set up; otherwise the restart policy decides.
+    fn on_exit(&mut self, index: usize, death: Death) -> Result<(), GaveUp> {
+        let Death { pid, reason, was_ready, not_ready_in_time, exited, child } = death;
         self.record(index, EventKind::Died, Some(pid), Some(reason.clone()));
         let first_start = self.processes[index].generation == 0 && !was_ready;
-        if first_start && (voluntary || overdue) {
-            return Err(self.give_up(index, pid, reason, child.last_words(), true));
+        if first_start && (exited || not_ready_in_time) {
+            return Err(self.give_up(index, pid, reason, child.stderr_tail(), true));
         }
-        self.remedy(index, pid, &reason, || child.last_words())
+        self.schedule_restart(index, pid, &reason, || child.stderr_tail())
     }
 
-    /// Asks the policy; gives up when it says so.
-    fn remedy(
+    /// Schedules the replacement when the restart policy allows one, and gives the set up when it does not.
+    fn schedule_restart(
         &mut self,
         index: usize,
         pid: u32,
         reason: &str,
-        last_words: impl FnOnce() -> Vec<String>,
+        stderr_tail: impl FnOnce() -> Vec<String>,
     ) -> Result<(), GaveUp> {
-        let now = clock::now();
-        let RestartPolicy { intensity, period, .. } = self.policy;
-        if let Some(pause) = self.processes[index].ledger.died(&self.policy, now) {
-            self.processes[index].phase = Phase::Down(now + pause);
+        let now = monotonic_time();
+        let RestartPolicy { intensity, window, .. } = self.policy;
+        if let Some(pause) = self.processes[index].history.died(&self.policy, now) {
+            self.processes[index].lifecycle = Lifecycle::RestartDue(now + pause);
             return Ok(());
         }
-        let allowed = format!("{intensity} restarts within {} s are allowed", period.as_secs_f64());
-        Err(self.give_up(index, pid, format!("{reason}; not restarted: {allowed}"), last_words(), false))
+        let allowed = format!("{intensity} restarts within {} s are allowed", window.as_secs_f64());
+        Err(self.give_up(index, pid, format!("{reason}; not restarted: {allowed}"), stderr_tail(), false))
     }
 
     fn give_up(
@@ -208,32 +213,32 @@ impl ProcessSet {
         index: usize,
         pid: u32,
         reason: String,
-        last_words: Vec<String>,
+        stderr_tail: Vec<String>,
         configuration: bool,
     ) -> GaveUp {
         self.record(index, EventKind::GaveUp, Some(pid), Some(reason.clone()));
-        GaveUp { process: self.processes[index].spec.name.clone(), reason, last_words, configuration }
+        GaveUp { process: self.processes[index].spec.name.clone(), reason, stderr_tail, configuration }
     }
 
-    fn greet(&mut self, index: usize, survivors: &mut dyn Survivors) {
+    fn on_ready(&mut self, index: usize, checkpoints: &mut dyn Checkpoints) {
         self.record(index, EventKind::Ready, None, None);
         let process = &mut self.processes[index];
         if process.generation > 0 {
             process.fault = None;
-            survivors.recovered(&process.spec.name);
+            checkpoints.recovered(&process.spec.name);
         }
     }
 
-    /// Starts a process whose turn has come, or the replacement of a dead one.
-    fn start_if_due(&mut self, index: usize, survivors: &mut dyn Survivors) -> Result<(), GaveUp> {
+    /// Starts a process whose turn has come, or a replacement that is due.
+    fn start_if_due(&mut self, index: usize, checkpoints: &mut dyn Checkpoints) -> Result<(), GaveUp> {
         let process = &self.processes[index];
-        let kind = match process.phase {
-            Phase::Waiting if self.is_turn_of(process.spec.order) => EventKind::Started,
-            Phase::Down(due) if clock::now() >= due => EventKind::Restarted,
+        let kind = match process.lifecycle {
+            Lifecycle::Waiting if self.is_turn_of(process.spec.order) => EventKind::Started,
+            Lifecycle::RestartDue(due) if monotonic_time() >= due => EventKind::Restarted,
             _ => return Ok(()),
         };
         if kind == EventKind::Restarted {
-            survivors.offer(&process.spec.name);
+            checkpoints.publish(&process.spec.name);
             self.processes[index].generation += 1;
         }
         self.spawn(index, kind)
@@ -250,24 +255,24 @@ impl ProcessSet {
         let (sink, name) = (on_line.clone(), process.spec.name.clone());
         match RunningChild::spawn(&process.spec, process.generation, move |line| sink(&name, line)) {
             Ok(child) => {
-                process.started(child, clock::now());
+                process.started(child, monotonic_time());
                 self.record(index, kind, None, None);
                 Ok(())
             }
             Err(error) => {
                 let reason = format!("cannot start {}: {error}", process.spec.program.display());
                 self.record(index, EventKind::Died, Some(0), Some(reason.clone()));
-                self.remedy(index, 0, &reason, Vec::new)
+                self.schedule_restart(index, 0, &reason, Vec::new)
             }
         }
     }
 
-    /// Writes an event down and keeps it as news. Without `pid`: that of the running child.
+    /// Logs an event, and keeps it for [`ProcessSet::take_events`]. Without `pid`: that of the running child.
     fn record(&mut self, index: usize, event: EventKind, pid: Option<u32>, reason: Option<String>) {
         let process = &self.processes[index];
-        let pid = pid.or_else(|| process.alive().map(|alive| alive.child.pid())).unwrap_or(0);
+        let pid = pid.or_else(|| process.running().map(|running| running.child.pid())).unwrap_or(0);
         let event = Event {
-            at_ns: clock::stamp(clock::now()),
+            at_ns: monotonic_time().as_nanos() as u64,
             event,
             process: process.spec.name.clone(),
             generation: process.generation,
@@ -276,6 +281,6 @@ impl ProcessSet {
             reason,
         };
         self.log.write(&event);
-        self.news.push(event);
+        self.new_events.push(event);
     }
 }

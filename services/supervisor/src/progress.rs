@@ -1,10 +1,10 @@
-use crate::{Event, EventKind, Note, Tone};
+use crate::{Event, EventKind, Note, NoteKind};
 use coact_joint_task::Task;
 use coact_messages::{FieldFrame, LayerKind, Pulse, Speech};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// How the run stands, as the person at the terminal sees it; each change becomes a [`Note`].
+/// The state of the run, as the person at the terminal sees it; each change becomes a [`Note`].
 #[derive(Debug)]
 pub struct Progress {
     subgoals: Vec<String>,
@@ -12,19 +12,21 @@ pub struct Progress {
     achieved: Vec<bool>,
     decision: Option<usize>,
     /// Deadline misses of each process: of its dead generations, and of the present one.
-    missed: BTreeMap<String, Missed>,
+    missed: BTreeMap<String, DeadlineMisses>,
     restarts: u32,
     notes: Vec<Note>,
 }
 
 #[derive(Debug, Default)]
-struct Missed {
+struct DeadlineMisses {
+    /// In generations that are dead.
     before: u64,
     generation: u32,
     now: u64,
 }
 
-/// A population whose signal is above this stands for an achieved subgoal.
+/// A population whose output is above this stands for an achieved subgoal: the middle of the sigmoid's range, at which a
+/// site is at its threshold.
 const ACHIEVED: f64 = 0.5;
 
 impl Progress {
@@ -48,7 +50,7 @@ impl Progress {
         for ((population, achieved), name) in populations.zip(achieved.iter_mut()).zip(subgoals) {
             let now = frame.signal[population] > ACHIEVED;
             if now && !*achieved {
-                notes.push(Note::new(Tone::Achieved, format!("achieved: {name}")));
+                notes.push(Note::new(NoteKind::Achieved, format!("achieved: {name}")));
             }
             *achieved = now;
         }
@@ -58,7 +60,7 @@ impl Progress {
     fn decided(&mut self, action: Option<usize>) {
         let action = action.filter(|&index| index < self.actions.len());
         if let (Some(index), true) = (action, action != self.decision) {
-            self.notes.push(Note::new(Tone::Decision, format!("decides: {}", self.actions[index])));
+            self.notes.push(Note::new(NoteKind::Decision, format!("decides: {}", self.actions[index])));
         }
         self.decision = action;
     }
@@ -71,13 +73,13 @@ impl Progress {
 
     /// The robot says this sentence.
     pub fn says(&mut self, sentence: &str) {
-        self.notes.push(Note::new(Tone::Speech, format!("says: \u{201c}{sentence}\u{201d}")));
+        self.notes.push(Note::new(NoteKind::Speech, format!("says: \u{201c}{sentence}\u{201d}")));
     }
 
     /// The newest pulse of a process.
     pub fn pulse(&mut self, process: &str, pulse: &Pulse) {
         if !self.missed.contains_key(process) {
-            self.missed.insert(process.to_owned(), Missed::default());
+            self.missed.insert(process.to_owned(), DeadlineMisses::default());
         }
         let Some(missed) = self.missed.get_mut(process) else { return };
         if pulse.header.generation != missed.generation {
@@ -92,19 +94,19 @@ impl Progress {
         let Event { process, pid, generation, .. } = event;
         let fault = event.fault.as_deref().unwrap_or("fault");
         let reason = event.reason.as_deref().unwrap_or("no reason known");
-        let (tone, text) = match event.event {
+        let (kind, text) = match event.event {
             EventKind::Started | EventKind::Stopped => return,
             EventKind::Ready if *generation == 0 => return,
-            EventKind::Ready => (Tone::Achieved, format!("{process} is back (restart {generation})")),
-            EventKind::Died => (Tone::Disturbance, format!("{process} died: {reason} (pid {pid})")),
-            EventKind::Injected => (Tone::Disturbance, format!("injecting {fault} into {process}")),
-            EventKind::GaveUp => (Tone::Alarm, format!("{process} is given up: {reason}")),
+            EventKind::Ready => (NoteKind::Achieved, format!("{process} is back (restart {generation})")),
+            EventKind::Died => (NoteKind::Disturbance, format!("{process} died: {reason} (pid {pid})")),
+            EventKind::Injected => (NoteKind::Disturbance, format!("injecting {fault} into {process}")),
+            EventKind::GaveUp => (NoteKind::Alarm, format!("{process} is given up: {reason}")),
             EventKind::Restarted => {
                 self.restarts += 1;
                 return;
             }
         };
-        self.notes.push(Note::new(tone, text));
+        self.notes.push(Note::new(kind, text));
     }
 
     /// A note from elsewhere.

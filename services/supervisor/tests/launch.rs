@@ -3,7 +3,7 @@
 
 use coact_joint_task::Task;
 use coact_pipeline::{Pipeline, Run, RunSettings, WorldMode};
-use coact_supervisor::{Ending, Event, EventKind, EventLog, Launch, LaunchError, ask_for_fault};
+use coact_supervisor::{Ending, Event, EventKind, EventLog, Launch, LaunchError, request_fault};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
@@ -121,10 +121,10 @@ fn faults_are_injected_at_their_time_and_on_request() {
     let running = in_background(place.launch(&["a", "b"], LONG, &["a:kill@100ms"]));
     let run = place.run();
     wait_for(|| (place.count(EventKind::Ready, "a") == 2).then_some(()));
-    ask_for_fault(&run, "b", "crash-on-start").unwrap();
-    let unknown = ask_for_fault(&run, "c", "kill").unwrap_err().to_string();
+    request_fault(&run, "b", "crash-on-start").unwrap();
+    let unknown = request_fault(&run, "c", "kill").unwrap_err().to_string();
     assert!(unknown.contains("this set has: a, b"), "{unknown}");
-    let unknown = ask_for_fault(&run, "b", "melt").unwrap_err().to_string();
+    let unknown = request_fault(&run, "b", "melt").unwrap_err().to_string();
     assert!(unknown.contains("expected one of: kill, stop, slow, crash-on-start"), "{unknown}");
     running.join().unwrap().unwrap();
     assert_eq!((place.count(EventKind::Injected, "a"), place.count(EventKind::Restarted, "a")), (1, 1));

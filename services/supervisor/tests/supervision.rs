@@ -3,7 +3,7 @@
 
 use coact_pipeline::RestartPolicy;
 use coact_supervisor::{
-    Event, EventKind, EventLog, Fault, GaveUp, ProcessSet, ProcessSpec, Refusal, Survivors,
+    Checkpoints, Event, EventKind, EventLog, Fault, GaveUp, InjectionRefusal, ProcessSet, ProcessSpec,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -11,20 +11,20 @@ use std::time::{Duration, Instant};
 
 const READY_AND_RUN: &str = "touch \"$READY\"; exec sleep 600";
 
-/// A folder for ready files and report, and the set that is tried in it.
+/// A folder for ready files and report, and the set under test.
 struct Trial {
     folder: tempfile::TempDir,
     set: ProcessSet,
     events: Vec<Event>,
 }
 
-/// What was asked of it, in order.
+/// The calls that it got, in order.
 #[derive(Default)]
-struct Offers(Vec<String>);
+struct RecordedCalls(Vec<String>);
 
-impl Survivors for Offers {
-    fn offer(&mut self, process: &str) {
-        self.0.push(format!("offer {process}"));
+impl Checkpoints for RecordedCalls {
+    fn publish(&mut self, process: &str) {
+        self.0.push(format!("publish {process}"));
     }
     fn recovered(&mut self, process: &str) {
         self.0.push(format!("recovered {process}"));
@@ -59,7 +59,7 @@ impl Trial {
         specs.iter_mut().for_each(change);
         let policy = RestartPolicy {
             intensity: 3,
-            period: Duration::from_secs(600),
+            window: Duration::from_secs(600),
             backoff_initial: Duration::from_millis(1),
             backoff_max: Duration::from_millis(4),
             hung_after: Duration::from_millis(300),
@@ -76,13 +76,17 @@ impl Trial {
     }
 
     /// Advances until `done`, or the set is given up.
-    fn until(&mut self, survivors: &mut dyn Survivors, done: impl Fn(&Self) -> bool) -> Result<(), GaveUp> {
+    fn until(
+        &mut self,
+        checkpoints: &mut dyn Checkpoints,
+        done: impl Fn(&Self) -> bool,
+    ) -> Result<(), GaveUp> {
         let begin = Instant::now();
         while !done(self) {
             assert!(begin.elapsed() < Duration::from_secs(60), "it never came: {:#?}", self.events);
             self.set.wait(Duration::from_millis(2));
-            let outcome = self.set.advance(survivors);
-            self.events.extend(self.set.take_news());
+            let outcome = self.set.advance(checkpoints);
+            self.events.extend(self.set.take_events());
             outcome?;
         }
         Ok(())
@@ -104,7 +108,7 @@ impl Trial {
         self.events.iter().filter(|event| event.event == kind && event.process == process).count()
     }
 
-    fn story(&self) -> Vec<(EventKind, &str)> {
+    fn sequence(&self) -> Vec<(EventKind, &str)> {
         self.events.iter().map(|event| (event.event, event.process.as_str())).collect()
     }
 }
@@ -128,18 +132,18 @@ fn each_process_starts_when_those_before_it_are_ready() {
         (Started, "third"),
         (Ready, "third"),
     ];
-    assert_eq!(trial.story(), expected);
+    assert_eq!(trial.sequence(), expected);
 }
 
 #[test]
-fn a_killed_process_is_replaced_after_its_survivors_were_offered_and_the_others_run_on() {
+fn a_killed_process_is_replaced_after_its_checkpoint_was_published_and_the_others_run_on() {
     let mut trial = Trial::of(&[("a", READY_AND_RUN), ("b", READY_AND_RUN)]);
     trial.run_until_ready();
     let (a, b) = (trial.pid("a"), trial.pid("b"));
     trial.set.inject("a", Fault::Kill).unwrap();
-    let mut offers = Offers::default();
-    trial.until(&mut offers, |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
-    assert_eq!(offers.0, ["offer a", "recovered a"]);
+    let mut calls = RecordedCalls::default();
+    trial.until(&mut calls, |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
+    assert_eq!(calls.0, ["publish a", "recovered a"]);
     assert_eq!(trial.pid("b"), b);
     assert_ne!(trial.pid("a"), a);
     let died = trial.events.iter().find(|event| event.event == EventKind::Died).unwrap();
@@ -189,7 +193,7 @@ fn a_stopped_process_that_stays_silent_for_too_long_is_killed_as_hung_and_replac
         spec.hung_after = (spec.name == "a").then_some(Duration::from_millis(300));
     });
     trial.run_until_ready();
-    trial.set.expect_pulses(coact_supervisor::now());
+    trial.set.expect_pulses(coact_realtime::monotonic_time());
     trial.set.inject("a", Fault::Stop).unwrap();
     trial.until(&mut (), |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
     let died = trial.events.iter().find(|event| event.event == EventKind::Died).unwrap();
@@ -202,12 +206,12 @@ fn a_process_that_refuses_to_start_is_not_started_again() {
     let mut trial = Trial::of(&[("a", "echo 'task.toml:3: no such kind' >&2; exit 1")]);
     let gave_up = trial.gives_up();
     assert!(gave_up.configuration);
-    assert_eq!(gave_up.last_words, ["task.toml:3: no such kind"]);
+    assert_eq!(gave_up.stderr_tail, ["task.toml:3: no such kind"]);
     assert_eq!(trial.count(EventKind::Restarted, "a"), 0);
 }
 
 #[test]
-fn a_process_that_dies_over_and_over_is_given_up_with_its_last_words() {
+fn a_process_that_dies_over_and_over_is_given_up_with_the_tail_of_its_stderr() {
     let mut trial = Trial::of(&[("a", "touch \"$READY\"; sleep 0.1; echo 'the arm is on fire' >&2; exit 1")]);
     let gave_up = trial.gives_up();
     assert!(!gave_up.configuration);
@@ -227,7 +231,7 @@ fn a_process_that_never_gets_ready_is_given_up_with_the_reason() {
     let gave_up = trial.gives_up();
     assert!(gave_up.configuration);
     assert_eq!(gave_up.reason, "not ready within 0.2 s");
-    assert_eq!(gave_up.last_words, ["waiting for the camera"]);
+    assert_eq!(gave_up.stderr_tail, ["waiting for the camera"]);
 }
 
 #[test]
@@ -237,21 +241,21 @@ fn a_program_that_does_not_exist_is_named() {
 }
 
 #[test]
-fn all_are_stopped_in_descending_order_and_the_deaf_by_force() {
-    let deaf = "trap '' TERM; touch \"$READY\"; while :; do sleep 0.01; done";
+fn all_are_stopped_in_descending_order_and_one_that_ignores_the_signal_is_killed() {
+    let ignores_signal = "trap '' TERM; touch \"$READY\"; while :; do sleep 0.01; done";
     let mut trial = Trial::in_steps(&[
-        ("accountant", READY_AND_RUN),
+        ("first", READY_AND_RUN),
         ("a", READY_AND_RUN),
-        ("deaf", deaf),
+        ("ignores-signal", ignores_signal),
         ("z", READY_AND_RUN),
     ]);
     trial.run_until_ready();
     let pids: Vec<u32> = trial.set.pids().map(|(_, pid)| pid).collect();
     trial.events.clear();
     trial.set.stop(|| {});
-    trial.events.extend(trial.set.take_news());
-    let order: Vec<&str> = trial.story().iter().map(|(_, name)| *name).collect();
-    assert_eq!(order, ["z", "deaf", "a", "accountant"]);
+    trial.events.extend(trial.set.take_events());
+    let order: Vec<&str> = trial.sequence().iter().map(|(_, name)| *name).collect();
+    assert_eq!(order, ["z", "ignores-signal", "a", "first"]);
     assert!(trial.events.iter().all(|event| event.event == EventKind::Stopped));
     assert!(
         trial.events[1].reason.as_deref().unwrap().starts_with("killed: it did not"),
@@ -287,7 +291,7 @@ fn an_unknown_process_is_refused_with_the_names_that_there_are() {
     let mut trial = Trial::of(&[("a", READY_AND_RUN), ("b", READY_AND_RUN)]);
     let refusal = trial.set.inject("c", Fault::Kill).unwrap_err();
     assert_eq!(refusal.to_string(), "unknown process 'c'; this set has: a, b");
-    assert_eq!(trial.set.inject("a", Fault::Kill), Err(Refusal::NotRunning("a".into())));
+    assert_eq!(trial.set.inject("a", Fault::Kill), Err(InjectionRefusal::NotRunning("a".into())));
 }
 
 #[test]

@@ -115,7 +115,7 @@ fn simulate(mut process: Process) -> anyhow::Result<()> {
     let mut sample: Output<SensorSample> = process.bus().output(topic::SENSORS)?;
     let mut truth: Output<Truth> = process.bus().output(topic::TRUTH)?;
     let mut state: Output<WorldState> = process.bus().output(topic::WORLD_STATE)?;
-    if let Some(last) = process.survivor(&mut state)? {
+    if let Some(last) = process.checkpoint(&mut state)? {
         world.resume(&last);
         sample.continue_after(&last.header);
         truth.continue_after(&last.header);

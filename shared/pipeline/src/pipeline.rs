@@ -1,13 +1,9 @@
-use crate::{PipelineError, ProcessEntry, RestartPolicy, pipeline_file};
+use crate::{PipelineError, ProcessEntry, RestartPolicy};
 use std::path::Path;
 
 /// The process table: what runs, in which order, with which real-time properties, and what happens after a crash.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pipeline {
-    /// Length of one cycle, µs.
-    pub period_us: u64,
-    /// Offset from a cycle's release after which its output counts as missed, µs.
-    pub deadline_us: u64,
     /// What happens when a process dies.
     pub restart: RestartPolicy,
     /// Every process, sorted by [`ProcessEntry::order`].
@@ -21,21 +17,8 @@ impl Pipeline {
     /// [`PipelineError`] names file, line and key, and what was expected there.
     pub fn load(path: &Path) -> Result<Self, PipelineError> {
         let text = std::fs::read_to_string(path)
-            .map_err(|source| PipelineError::Unreadable { file: path.to_owned(), source })?;
+            .map_err(|cause| PipelineError::Unreadable { file: path.to_owned(), cause })?;
         Self::parse(&text, path)
-    }
-
-    /// Reads a process table from `text`; `file` is only named in errors.
-    ///
-    /// # Errors
-    /// As [`Pipeline::load`].
-    pub fn parse(text: &str, file: &Path) -> Result<Self, PipelineError> {
-        pipeline_file::parse(text, file)
-    }
-
-    /// Length of one cycle, ns.
-    pub fn period_ns(&self) -> u64 {
-        self.period_us * 1000
     }
 
     /// The entry of the process called `name`.

@@ -3,13 +3,13 @@ use std::path::PathBuf;
 /// Why a process table was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum PipelineError {
-    /// The file cannot be read.
-    #[error("{}: cannot be read: {source}; expected a process table such as rt-config/pipeline.toml", file.display())]
+    /// The file cannot be read. The message contains the cause, so that it is no source as well.
+    #[error("{}: cannot be read: {cause}; expected a process table such as rt-config/pipeline.toml", file.display())]
     Unreadable {
         /// The file.
         file: PathBuf,
         /// Why.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// The file's contents make no process table.
     #[error("{}:{line}: {key}{problem}; expected {expected}", file.display())]

@@ -1,16 +1,35 @@
 //! From the text of a process table to a [`Pipeline`], with the place of every mistake.
 
 use crate::{Pipeline, PipelineError, ProcessEntry, RestartPolicy, Trigger};
+use coact_period::PERIOD;
 use serde::Deserialize;
 use std::{path::Path, time::Duration};
 use toml::Spanned;
 
+/// How long a process may take until it is ready. Loading task and robot takes a second at most; the rest is for a slow
+/// disk. Chosen by hand; not sensitive.
+const READY_WITHIN: Duration = Duration::from_secs(10);
+/// How long a process may take to end after SIGTERM. A stage ends within a cycle; chosen by hand; not sensitive.
+const STOP_GRACE: Duration = Duration::from_secs(1);
+/// What a table without `[restart]` gets. A trade-off, chosen by hand: five restarts in half a minute repair what happens
+/// once in a while, and end a process that dies of its input or its configuration.
+const RESTART: RestartPolicy = RestartPolicy {
+    intensity: 5,
+    window: Duration::from_secs(30),
+    backoff_initial: Duration::from_millis(10),
+    backoff_max: Duration::from_secs(2),
+    hung_after: Duration::from_millis(500),
+};
+/// A shorter silence would take a process for hung that a busy machine delays. Chosen by hand.
+const SHORTEST_HUNG_AFTER: Duration = Duration::from_millis(50);
+/// A longer window would remember restarts that have nothing to do with each other.
+const LONGEST_WINDOW: Duration = Duration::from_secs(24 * 3600);
+/// A name becomes part of topic names and of the names of sockets, of which the system takes 108 bytes.
+const LONGEST_NAME: usize = 32;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PipelineText {
-    #[serde(default = "default_period")]
-    period_us: Spanned<u64>,
-    deadline_us: Option<Spanned<u64>>,
     #[serde(default)]
     restart: RestartText,
     process: Vec<ProcessText>,
@@ -20,7 +39,7 @@ struct PipelineText {
 #[serde(deny_unknown_fields, default)]
 struct RestartText {
     intensity: u32,
-    period_s: Spanned<f64>,
+    window_s: Spanned<f64>,
     backoff_initial_ms: u64,
     backoff_max_ms: u64,
     hung_after_ms: Spanned<u64>,
@@ -38,34 +57,21 @@ struct ProcessText {
     core: Option<usize>,
     trigger: Option<String>,
     latest_start_us: Option<Spanned<u64>>,
-    #[serde(default = "default_ready_within")]
-    ready_within_ms: u64,
-    #[serde(default = "default_stop_grace")]
-    stop_grace_ms: u64,
+    ready_within_ms: Option<u64>,
+    stop_grace_ms: Option<u64>,
 }
 
 impl Default for RestartText {
     fn default() -> Self {
+        let milliseconds = |duration: Duration| duration.as_millis() as u64;
         Self {
-            intensity: 5,
-            period_s: Spanned::new(0..0, 30.0),
-            backoff_initial_ms: 10,
-            backoff_max_ms: 2000,
-            hung_after_ms: Spanned::new(0..0, 500),
+            intensity: RESTART.intensity,
+            window_s: Spanned::new(0..0, RESTART.window.as_secs_f64()),
+            backoff_initial_ms: milliseconds(RESTART.backoff_initial),
+            backoff_max_ms: milliseconds(RESTART.backoff_max),
+            hung_after_ms: Spanned::new(0..0, milliseconds(RESTART.hung_after)),
         }
     }
-}
-
-fn default_period() -> Spanned<u64> {
-    Spanned::new(0..0, 1000)
-}
-
-fn default_ready_within() -> u64 {
-    10_000
-}
-
-fn default_stop_grace() -> u64 {
-    1000
 }
 
 /// Knows the text, to turn byte offsets into lines.
@@ -74,96 +80,114 @@ struct Source<'a> {
     file: &'a Path,
 }
 
-pub(crate) fn parse(text: &str, file: &Path) -> Result<Pipeline, PipelineError> {
-    let source = Source { text, file };
-    let raw: PipelineText = toml::from_str(text).map_err(|error| source.refused(&error))?;
-    let period_us = *raw.period_us.get_ref();
-    if !(100..=1_000_000).contains(&period_us) {
-        return Err(source.error(&raw.period_us, "period_us", period_us, "100 to 1000000"));
+/// Keys that a table had before, and why it has them no more.
+const REMOVED: [(&str, &str); 2] = [
+    ("period_us", "the period is 1 ms, a constant"),
+    ("deadline_us", "the deadline is one period after the release, a constant"),
+];
+
+impl Pipeline {
+    /// Reads a process table from `text`; `file` is only named in errors.
+    ///
+    /// # Errors
+    /// As [`Pipeline::load`].
+    pub fn parse(text: &str, file: &Path) -> Result<Self, PipelineError> {
+        let source = Source { text, file };
+        source.refuse_removed_keys()?;
+        let raw: PipelineText = toml::from_str(text).map_err(|error| source.refused(&error))?;
+        let restart = source.restart(&raw.restart)?;
+        let mut processes = Vec::with_capacity(raw.process.len());
+        for entry in raw.process {
+            processes.push(source.process(entry, &processes)?);
+        }
+        processes.sort_by_key(|entry| entry.order);
+        Ok(Self { restart, processes })
     }
-    let deadline_us = raw.deadline_us.as_ref().map_or(period_us, |value| *value.get_ref());
-    if let Some(value) = raw.deadline_us.filter(|value| !(1..=10 * period_us).contains(value.get_ref())) {
-        return Err(source.error(&value, "deadline_us", deadline_us, "1 to ten periods"));
-    }
-    let restart = source.restart(&raw.restart)?;
-    let mut processes = Vec::with_capacity(raw.process.len());
-    for entry in raw.process {
-        processes.push(source.process(entry, period_us, &processes)?);
-    }
-    processes.sort_by_key(|entry| entry.order);
-    Ok(Pipeline { period_us, deadline_us, restart, processes })
 }
 
 impl Source<'_> {
     fn restart(&self, raw: &RestartText) -> Result<RestartPolicy, PipelineError> {
-        let period_s = *raw.period_s.get_ref();
-        if !(period_s > 0.0 && period_s <= 86_400.0) {
-            return Err(self.error(&raw.period_s, "period_s", period_s, "seconds, above 0, at most a day"));
+        let window_s = *raw.window_s.get_ref();
+        if !(window_s > 0.0 && window_s <= LONGEST_WINDOW.as_secs_f64()) {
+            return Err(self.error(&raw.window_s, "window_s", window_s, "seconds, above 0, at most a day"));
         }
-        let hung_after_ms = *raw.hung_after_ms.get_ref();
-        if hung_after_ms < 50 {
-            return Err(self.error(&raw.hung_after_ms, "hung_after_ms", hung_after_ms, "at least 50"));
+        let hung_after = Duration::from_millis(*raw.hung_after_ms.get_ref());
+        if hung_after < SHORTEST_HUNG_AFTER {
+            let expected = format!("at least {}", SHORTEST_HUNG_AFTER.as_millis());
+            return Err(self.error(&raw.hung_after_ms, "hung_after_ms", hung_after.as_millis(), &expected));
         }
         Ok(RestartPolicy {
             intensity: raw.intensity,
-            period: Duration::from_secs_f64(period_s),
+            window: Duration::from_secs_f64(window_s),
             backoff_initial: Duration::from_millis(raw.backoff_initial_ms),
             backoff_max: Duration::from_millis(raw.backoff_max_ms),
-            hung_after: Duration::from_millis(hung_after_ms),
+            hung_after,
         })
     }
 
-    fn process(
-        &self,
-        raw: ProcessText,
-        period_us: u64,
-        before: &[ProcessEntry],
-    ) -> Result<ProcessEntry, PipelineError> {
+    fn process(&self, raw: ProcessText, before: &[ProcessEntry]) -> Result<ProcessEntry, PipelineError> {
         let name = self.name(&raw.name, before)?;
-        if let Some(value) = raw.priority.as_ref().filter(|value| !(1..=99).contains(value.get_ref())) {
-            return Err(self.error(value, "priority", value.get_ref(), "1 to 99"));
-        }
-        if raw.realtime && raw.priority.is_none() {
-            return Err(self.error(
-                &raw.name,
-                "name",
-                &name,
-                "a key \"priority\" (1 to 99) beside realtime = true",
-            ));
-        }
-        let latest_start_us = raw.latest_start_us.as_ref().map_or(0, |value| *value.get_ref());
-        if let Some(value) = raw.latest_start_us.filter(|value| *value.get_ref() >= period_us) {
-            return Err(self.error(&value, "latest_start_us", latest_start_us, "less than period_us"));
-        }
+        let priority = self.priority(&raw, &name)?;
         let trigger = match raw.trigger.as_deref() {
             Some("timer") => Trigger::Timer,
             Some(topic) => Trigger::Topic(topic.to_owned()),
             None => Trigger::None,
         };
-        if matches!(trigger, Trigger::Topic(_)) && latest_start_us == 0 {
-            let expected = "a key \"latest_start_us\" above 0 beside a topic as trigger";
-            return Err(self.error(&raw.name, "name", &name, expected));
-        }
+        let latest_start = self.latest_start(&raw, &name, &trigger)?;
         Ok(ProcessEntry {
             name,
             program: raw.program,
             order: raw.order,
             realtime: raw.realtime,
-            priority: raw.priority.map_or(0, Spanned::into_inner),
+            priority,
             core: raw.core,
             trigger,
-            latest_start_us,
-            ready_within: Duration::from_millis(raw.ready_within_ms),
-            stop_grace: Duration::from_millis(raw.stop_grace_ms),
+            latest_start,
+            ready_within: raw.ready_within_ms.map_or(READY_WITHIN, Duration::from_millis),
+            stop_grace: raw.stop_grace_ms.map_or(STOP_GRACE, Duration::from_millis),
         })
+    }
+
+    /// 0 for a process that is not real time and has none.
+    fn priority(&self, raw: &ProcessText, name: &str) -> Result<u8, PipelineError> {
+        match &raw.priority {
+            Some(value) if !(1..=99).contains(value.get_ref()) => {
+                Err(self.error(value, "priority", value.get_ref(), "1 to 99"))
+            }
+            Some(value) => Ok(*value.get_ref()),
+            None if raw.realtime => {
+                let expected = "a key \"priority\" (1 to 99) beside realtime = true";
+                Err(self.error(&raw.name, "name", name, expected))
+            }
+            None => Ok(0),
+        }
+    }
+
+    fn latest_start(
+        &self,
+        raw: &ProcessText,
+        name: &str,
+        trigger: &Trigger,
+    ) -> Result<Duration, PipelineError> {
+        let value = raw.latest_start_us.as_ref();
+        let latest_start = value.map_or(Duration::ZERO, |value| Duration::from_micros(*value.get_ref()));
+        if let Some(value) = value.filter(|_| latest_start >= PERIOD) {
+            let expected = format!("less than {}, the period", PERIOD.as_micros());
+            return Err(self.error(value, "latest_start_us", value.get_ref(), &expected));
+        }
+        if matches!(trigger, Trigger::Topic(_)) && latest_start.is_zero() {
+            let expected = "a key \"latest_start_us\" above 0 beside a topic as trigger";
+            return Err(self.error(&raw.name, "name", name, expected));
+        }
+        Ok(latest_start)
     }
 
     /// A name becomes part of topic and file names.
     fn name(&self, raw: &Spanned<String>, before: &[ProcessEntry]) -> Result<String, PipelineError> {
         let name = raw.get_ref();
         let simple = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-        if name.is_empty() || name.len() > 32 || !name.chars().all(simple) {
-            return Err(self.error(raw, "name", name, "1 to 32 of a-z, 0-9 and -"));
+        if name.is_empty() || name.len() > LONGEST_NAME || !name.chars().all(simple) {
+            return Err(self.error(raw, "name", name, &format!("1 to {LONGEST_NAME} of a-z, 0-9 and -")));
         }
         if before.iter().any(|entry| &entry.name == name) {
             return Err(self.error(raw, "name", name, "a name that no process above has"));
@@ -187,7 +211,28 @@ impl Source<'_> {
         }
     }
 
-    /// The parser's own complaint. Its message holds what it expected, where it knows.
+    /// Tables of earlier versions have keys that set nothing any more: the answer says so, and what to do.
+    fn refuse_removed_keys(&self) -> Result<(), PipelineError> {
+        for (line, text) in (1..).zip(self.text.lines()) {
+            // Behind the first table's head a key is that table's own.
+            if text.trim_start().starts_with('[') {
+                break;
+            }
+            let key = text.split_once('=').map(|(key, _)| key.trim());
+            if let Some((key, reason)) = REMOVED.into_iter().find(|(removed, _)| key == Some(*removed)) {
+                return Err(PipelineError::Invalid {
+                    file: self.file.to_owned(),
+                    line,
+                    key: format!("{key}: "),
+                    problem: format!("is not a setting: {reason}"),
+                    expected: "no such key: remove it".to_owned(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The parser's own error, with the place. Its message contains what it expected, where it knows.
     fn refused(&self, error: &toml::de::Error) -> PipelineError {
         let offset = error.span().map_or(0, |span| span.start);
         let line = self.line(offset);

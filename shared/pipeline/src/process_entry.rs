@@ -15,17 +15,17 @@ pub struct ProcessEntry {
     pub priority: u8,
     /// Core to which it is pinned; any core when absent.
     pub core: Option<usize>,
-    /// What starts its cycle.
+    /// What starts its cycles.
     pub trigger: Trigger,
-    /// Offset from the release at which a cycle starts without its trigger's message, µs; 0 for the timer.
-    pub latest_start_us: u64,
+    /// Offset from the release at which a cycle starts although its trigger's message has not come; zero for the timer.
+    pub latest_start: Duration,
     /// How long it may take from its start to its report of readiness.
     pub ready_within: Duration,
     /// How long it may take to stop after SIGTERM before it is killed.
     pub stop_grace: Duration,
 }
 
-/// What starts the cycle of a process.
+/// What starts the cycles of a process.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Trigger {
     /// The release of each period.

@@ -22,6 +22,6 @@ pub struct Ready {
     pub memory_locked: bool,
     /// Everything it asked for and was refused, each with the reason; empty when it got what it asked for.
     pub why_not: Vec<String>,
-    /// True if it goes on from the newest surviving message of its predecessor.
+    /// True if it resumed from its predecessor's checkpoint.
     pub resumed: bool,
 }

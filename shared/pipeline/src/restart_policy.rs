@@ -3,15 +3,15 @@ use std::time::Duration;
 /// What happens when a process dies, in the terms of OTP supervisors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RestartPolicy {
-    /// How many restarts of one process are made within [`RestartPolicy::period`]; one more and the run is given up.
+    /// How many restarts of one process are made within [`RestartPolicy::window`]; one more and the run is given up.
     pub intensity: u32,
     /// Length of that sliding window.
-    pub period: Duration,
+    pub window: Duration,
     /// Pause before the second restart within the window; the first one is immediate. Doubled with each further one.
     pub backoff_initial: Duration,
     /// Longest pause before a restart.
     pub backoff_max: Duration,
-    /// Silence (no pulse) after which a process that takes part in every cycle counts as hung and is killed.
+    /// Silence (no pulse) after which the watchdog takes a process that takes part in every cycle for hung, and kills it.
     pub hung_after: Duration,
 }
 
@@ -21,6 +21,7 @@ impl RestartPolicy {
         match recent {
             n if n >= self.intensity => None,
             0 => Some(Duration::ZERO),
+            // Beyond 20 doublings of 1 ms every backoff is longer than any that makes sense; the shift must not overflow.
             n => Some(self.backoff_initial.saturating_mul(1 << (n - 1).min(20)).min(self.backoff_max)),
         }
     }
@@ -32,7 +33,7 @@ mod tests {
 
     const POLICY: RestartPolicy = RestartPolicy {
         intensity: 5,
-        period: Duration::from_secs(30),
+        window: Duration::from_secs(30),
         backoff_initial: Duration::from_millis(100),
         backoff_max: Duration::from_millis(300),
         hung_after: Duration::from_millis(500),

@@ -191,8 +191,8 @@ fn read_json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, RunError>
         .map_err(|error| RunError::Malformed { path: path.to_owned(), problem: error.to_string() })
 }
 
-fn failed(operation: &'static str, path: &Path, source: io::Error) -> RunError {
-    RunError::File { path: path.to_owned(), operation, source }
+fn failed(operation: &'static str, path: &Path, cause: io::Error) -> RunError {
+    RunError::File { path: path.to_owned(), operation, cause }
 }
 
 /// Beside the shared memory: iceoryx2 syncs a dozen files when a process starts, which costs nothing where no disk is.

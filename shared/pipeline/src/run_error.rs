@@ -3,15 +3,16 @@ use std::path::PathBuf;
 /// Why a run directory could not be made or used.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// A file or directory of the run refused an operation.
-    #[error("{}: {operation}: {source}", path.display())]
+    /// A file or directory of the run refused an operation. The message contains the cause, so that it is no source as
+    /// well.
+    #[error("{}: {operation}: {cause}", path.display())]
     File {
         /// The file or directory.
         path: PathBuf,
         /// What was tried.
         operation: &'static str,
         /// Why it failed.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// A file of the run does not hold what it should.
     #[error("{}: {problem}; expected a file that a coact supervisor of this version wrote", path.display())]

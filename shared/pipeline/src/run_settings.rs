@@ -2,7 +2,9 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// What a run is made of: every process finds it in the run directory. Paths are absolute.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+///
+/// The default names no file: enough for a run of ports alone, as in examples and tests.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunSettings {
     /// The task file.

@@ -4,7 +4,8 @@ use crate::RunError;
 use std::path::Path;
 
 pub(crate) const DIRECTORY: &str = "/dev/shm";
-/// Every port of a full set with a replacement beside each process takes about 30 MiB.
+/// Free shared memory that a run needs, MiB. All ports of a full set, with a replacement beside each process, take about
+/// 30 MiB; the rest is reserve.
 const NEEDED_MIB: u64 = 48;
 
 pub(crate) fn check_space() -> Result<(), RunError> {
@@ -20,17 +21,17 @@ pub(crate) fn check_space() -> Result<(), RunError> {
 
 /// Removes every shared-memory file whose name starts with `prefix`.
 pub(crate) fn wipe(prefix: &str) -> Result<(), RunError> {
-    let failed = |operation, path: &Path, source| RunError::File { path: path.to_owned(), operation, source };
+    let failed = |operation, path: &Path, cause| RunError::File { path: path.to_owned(), operation, cause };
     let directory = Path::new(DIRECTORY);
     let Ok(entries) = std::fs::read_dir(directory) else { return Ok(()) };
     for entry in entries {
-        let entry = entry.map_err(|source| failed("cannot be listed", directory, source))?;
+        let entry = entry.map_err(|cause| failed("cannot be listed", directory, cause))?;
         if !entry.file_name().to_string_lossy().starts_with(prefix) {
             continue;
         }
         match std::fs::remove_file(entry.path()) {
-            Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                return Err(failed("cannot be removed", &entry.path(), source));
+            Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
+                return Err(failed("cannot be removed", &entry.path(), cause));
             }
             _ => {}
         }

@@ -4,21 +4,6 @@
 use coact_pipeline::{Ready, Run, RunSettings, WorldMode};
 use std::path::PathBuf;
 
-fn settings() -> RunSettings {
-    let path = PathBuf::from("/nowhere");
-    RunSettings {
-        task: path.clone(),
-        robot: path.clone(),
-        model: path.clone(),
-        pipeline: path.clone(),
-        safety: path.clone(),
-        report: path,
-        seed: 7,
-        partner: "synthetic".to_owned(),
-        world: WorldMode::Kinematic,
-    }
-}
-
 fn ready(process: &str) -> Ready {
     Ready {
         process: process.to_owned(),
@@ -35,7 +20,14 @@ fn ready(process: &str) -> Ready {
 
 #[test]
 fn run_is_found_again_with_its_settings_and_its_start() {
-    let run = Run::create(settings()).unwrap();
+    let settings = RunSettings {
+        task: "/nowhere/task.toml".into(),
+        seed: 7,
+        partner: "synthetic".to_owned(),
+        world: WorldMode::Kinematic,
+        ..RunSettings::default()
+    };
+    let run = Run::create(settings).unwrap();
     assert_eq!(run.start_ns().unwrap(), None);
     run.start(123).unwrap();
     let found = Run::load(run.directory()).unwrap();
@@ -48,7 +40,7 @@ fn run_is_found_again_with_its_settings_and_its_start() {
 
 #[test]
 fn other_iceoryx2_clients_find_root_and_prefix_in_the_run_directory() {
-    let run = Run::create(settings()).unwrap();
+    let run = Run::create(RunSettings::default()).unwrap();
     let text = std::fs::read_to_string(run.directory().join("config/iceoryx2.toml")).unwrap();
     let config: toml::Table = text.parse().unwrap();
     assert_eq!(config["global"]["prefix"].as_str(), Some(run.prefix().as_str()));
@@ -58,7 +50,8 @@ fn other_iceoryx2_clients_find_root_and_prefix_in_the_run_directory() {
 
 #[test]
 fn removing_one_run_leaves_the_other_alone() {
-    let (first, second) = (Run::create(settings()).unwrap(), Run::create(settings()).unwrap());
+    let (first, second) =
+        (Run::create(RunSettings::default()).unwrap(), Run::create(RunSettings::default()).unwrap());
     assert!(!first.prefix().starts_with(&second.prefix()) && !second.prefix().starts_with(&first.prefix()));
     let memory = |run: &Run| PathBuf::from(format!("/dev/shm/{}segment", run.prefix()));
     for run in [&first, &second] {
@@ -72,7 +65,7 @@ fn removing_one_run_leaves_the_other_alone() {
 
 #[test]
 fn readiness_is_known_for_the_generation_that_reported_it() {
-    let run = Run::create(settings()).unwrap();
+    let run = Run::create(RunSettings::default()).unwrap();
     run.report_ready(&ready("fields")).unwrap();
     assert_eq!(run.ready("fields", 2).unwrap(), Some(ready("fields")));
     assert_eq!(run.ready("fields", 3).unwrap(), None);
@@ -80,8 +73,16 @@ fn readiness_is_known_for_the_generation_that_reported_it() {
 }
 
 #[test]
+fn a_directory_without_a_run_says_why_once() {
+    let error = Run::load("/no/such/run".as_ref()).unwrap_err();
+    let shown = format!("{:#}", anyhow::Error::from(error));
+    assert_eq!(shown.matches("No such file").count(), 1, "{shown}");
+    assert!(shown.starts_with("/no/such/run/run.json: cannot be read: "), "{shown}");
+}
+
+#[test]
 fn malformed_run_file_is_named() {
-    let run = Run::create(settings()).unwrap();
+    let run = Run::create(RunSettings::default()).unwrap();
     std::fs::write(run.directory().join("run.json"), "{}").unwrap();
     let error = Run::load(run.directory()).unwrap_err().to_string();
     assert!(error.contains("run.json: missing field `id`"), "{error}");

@@ -4,10 +4,10 @@
 use coact_pipeline::{Pipeline, Trigger};
 use std::time::Duration;
 
-const GOOD: &str = r#"period_us = 1000
+const GOOD: &str = r#"# A table.
 [restart]
 intensity = 3
-period_s = 10
+window_s = 10
 [[process]]
 name = "fields"
 program = "coact-fields"
@@ -33,10 +33,11 @@ fn processes_are_sorted_by_order_and_defaults_apply() {
     let pipeline = Pipeline::parse(GOOD, "p.toml".as_ref()).unwrap();
     let names: Vec<_> = pipeline.processes.iter().map(|entry| entry.name.as_str()).collect();
     assert_eq!(names, ["world", "fields"]);
-    assert_eq!((pipeline.deadline_us, pipeline.restart.intensity), (1000, 3));
+    assert_eq!((pipeline.restart.intensity, pipeline.restart.window), (3, Duration::from_secs(10)));
     let fields = pipeline.process("fields").unwrap();
     assert_eq!(fields.trigger, Trigger::Topic("coact/percept".to_owned()));
-    assert_eq!(fields.stop_grace, Duration::from_millis(1000));
+    assert_eq!(fields.latest_start, Duration::from_micros(600));
+    assert_eq!((fields.ready_within, fields.stop_grace), (Duration::from_secs(10), Duration::from_secs(1)));
 }
 
 #[test]
@@ -46,7 +47,7 @@ fn every_mistake_names_file_line_key_and_what_was_expected() {
         (
             "latest_start_us = 600",
             "latest_start_us = 1000",
-            "p.toml:12: latest_start_us: is 1000; expected less",
+            "p.toml:12: latest_start_us: is 1000; expected less than 1000, the period",
         ),
         (
             "name = \"world\"",
@@ -54,8 +55,8 @@ fn every_mistake_names_file_line_key_and_what_was_expected() {
             "p.toml:14: name: is fields; expected a name that no process",
         ),
         ("name = \"world\"", "name = \"My World\"", "p.toml:14: name: is My World; expected 1 to 32 of"),
-        ("period_us = 1000", "period_us = 0", "p.toml:1: period_us: is 0; expected 100 to 1000000"),
-        ("period_s = 10", "period_s = 0", "p.toml:4: period_s: is 0; expected seconds"),
+        ("window_s = 10", "window_s = 0", "p.toml:4: window_s: is 0; expected seconds"),
+        ("intensity = 3", "hung_after_ms = 49", "p.toml:3: hung_after_ms: is 49; expected at least 50"),
         ("order = 3", "order = \"x\"", "p.toml:8: order: invalid type: string \"x\"; expected u32"),
         (
             "realtime = true",
@@ -70,6 +71,30 @@ fn every_mistake_names_file_line_key_and_what_was_expected() {
         let found = refused(from, to);
         assert!(found.starts_with(message), "{from} -> {to}:\n{found}\nshould start with\n{message}");
     }
+}
+
+#[test]
+fn the_period_and_the_deadline_are_no_settings() {
+    for (key, reason) in
+        [("period_us", "the period is 1 ms, a constant"), ("deadline_us", "one period after the release")]
+    {
+        for value in [1000, 500] {
+            let found = refused("# A table.", &format!("{key} = {value}"));
+            assert!(found.starts_with(&format!("p.toml:1: {key}: is not a setting: ")), "{found}");
+            assert!(found.contains(reason) && found.ends_with("remove it"), "{found}");
+        }
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_read_says_why_once() {
+    let error = Pipeline::load("/no/such/pipeline.toml".as_ref()).unwrap_err();
+    let shown = format!("{:#}", anyhow::Error::from(error));
+    assert_eq!(shown.matches("No such file").count(), 1, "{shown}");
+    assert!(
+        shown.starts_with("/no/such/pipeline.toml: ") && shown.contains("rt-config/pipeline.toml"),
+        "{shown}"
+    );
 }
 
 #[test]
@@ -93,7 +118,6 @@ fn reference_table_is_read_and_shows_the_defaults_of_the_restart_policy() {
     let started_by_the_timer = pipeline.processes.iter().filter(|entry| entry.trigger == Trigger::Timer);
     assert_eq!(started_by_the_timer.count(), 1);
     let defaults = Pipeline::parse("process = []", "defaults".as_ref()).unwrap();
-    assert_eq!((pipeline.period_us, pipeline.deadline_us), (defaults.period_us, defaults.deadline_us));
     assert_eq!(pipeline.restart, defaults.restart);
 }
 

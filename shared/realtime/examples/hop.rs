@@ -1,22 +1,28 @@
-//! Four processes in a chain as the real set's, with steps that do nothing: what the shell itself costs.
+//! Four processes in a chain like the real set's, with steps that do nothing: measures what the shell itself costs.
 //!
 //! `cargo run --release -p coact-realtime --example hop -- [SECONDS] [WORLD,PERCEPTION,FIELDS,CONTROL cores]`
 //!
 //! Prints the percentiles of wake-up lateness, hop and end to end, from the processes' own pulses.
 
 use coact_messages::{Command, FieldFrame, Header, Percept, Pulse, SensorSample, topic};
-use coact_pipeline::{Pipeline, Run, RunSettings, WorldMode};
-use coact_realtime::{Bus, Cycle, Input, Message, Output, PortError, Process, Tick, now};
+use coact_pipeline::{Pipeline, Run, RunSettings};
+use coact_realtime::{Bus, Cycle, Input, Message, Output, PortError, Process, Tick, TopicAnchors, now};
 use hdrhistogram::Histogram;
 use std::error::Error;
 use std::process::{Child, Command as Program};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// In which variable a copy of this program finds the name of the process that it is to be.
 const ROLE: &str = "COACT_HOP_ROLE";
 const NAMES: [&str; 4] = ["world", "perception", "fields", "control"];
+/// From "all are ready" to tick 0: every process has seen the start by then. Chosen by hand.
+const START_DELAY: Duration = Duration::from_millis(20);
+/// Longest latency that the histograms take: far more than a machine is ever late.
+const LONGEST: Duration = Duration::from_secs(1);
+/// Significant digits of the histograms, as in the monitor's.
+const DIGITS: u8 = 3;
 
 /// Takes the trigger's newest message and publishes one of its own.
 struct Relay<In: Message, Out: Message> {
@@ -60,7 +66,7 @@ fn measure() -> Outcome<()> {
     let cores = std::env::args().nth(2).unwrap_or_else(|| "0,1,1,1".to_owned());
     let table = std::env::temp_dir().join(format!("coact-hop-{}.toml", std::process::id()));
     std::fs::write(&table, process_table(&cores))?;
-    let run = Run::create(settings(&table))?;
+    let run = Run::create(RunSettings { pipeline: table.clone(), ..RunSettings::default() })?;
     let outcome = measure_run(&run, seconds);
     std::fs::remove_file(&table)?;
     run.remove()?;
@@ -70,13 +76,13 @@ fn measure() -> Outcome<()> {
 fn measure_run(run: &Run, seconds: u64) -> Outcome<()> {
     let pipeline = Pipeline::load(&run.settings().pipeline)?;
     let supervisor = Bus::open(run, "supervisor", 0)?;
-    let _held = supervisor.hold_all(&pipeline)?;
+    let _anchors = TopicAnchors::new(&supervisor, &pipeline)?;
     let mut children = NAMES.map(|name| spawn(run, name)).into_iter().collect::<Outcome<Vec<_>>>()?;
     let pulses = NAMES.map(|name| supervisor.input::<Pulse>(&topic::pulse(name)));
     let mut pulses = pulses.into_iter().collect::<Result<Vec<_>, _>>()?;
     let counted = wait_until_ready(run).and_then(|()| {
-        run.start(now() + 20_000_000)?;
-        collect(&mut pulses, seconds)
+        run.start(now() + START_DELAY.as_nanos() as u64)?;
+        collect(&mut pulses, Duration::from_secs(seconds))
     });
     children.iter_mut().for_each(stop);
     counted
@@ -106,14 +112,14 @@ fn wait_until_ready(run: &Run) -> Outcome<()> {
     Ok(())
 }
 
-fn collect(pulses: &mut [Input<Pulse>], seconds: u64) -> Outcome<()> {
-    let histogram = || Histogram::<u64>::new_with_max(1_000_000_000, 3);
+fn collect(pulses: &mut [Input<Pulse>], duration: Duration) -> Outcome<()> {
+    let histogram = || Histogram::<u64>::new_with_max(LONGEST.as_nanos() as u64, DIGITS);
     let mut late = NAMES.map(|_| histogram()).into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut hop = late.clone();
     let mut end_to_end = histogram()?;
     let mut last = [Pulse::default(); NAMES.len()];
-    let until = now() + seconds * 1_000_000_000;
-    while now() < until {
+    let until = Instant::now() + duration;
+    while Instant::now() < until {
         std::thread::sleep(Duration::from_millis(50));
         for (index, input) in pulses.iter_mut().enumerate() {
             input.each(|pulse| {
@@ -167,18 +173,4 @@ fn process_table(cores: &str) -> String {
         )
     });
     entries.collect()
-}
-
-fn settings(table: &std::path::Path) -> RunSettings {
-    RunSettings {
-        task: table.to_owned(),
-        robot: table.to_owned(),
-        model: table.to_owned(),
-        pipeline: table.to_owned(),
-        safety: Default::default(),
-        report: table.to_owned(),
-        seed: 1,
-        partner: "synthetic".to_owned(),
-        world: WorldMode::Kinematic,
-    }
 }

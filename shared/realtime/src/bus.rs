@@ -1,20 +1,25 @@
-use crate::{Held, Input, Message, Output, PortError};
+use crate::{Input, Message, Output, PortError};
 use coact_messages::{LAYOUT, topic};
-use coact_pipeline::{Pipeline, Run};
+use coact_pipeline::Run;
 use iceoryx2::prelude::*;
 use iceoryx2::service::port_factory::{event, publish_subscribe};
 use std::time::{Duration, Instant};
 
-/// Readers that may look at one topic at the same time.
+/// Readers that may read one topic at the same time. The set itself has six of a field frame, the topic that is read
+/// most; the others are for operators' tools and for replacements beside their dead predecessors. More would only cost
+/// shared memory.
 const MAX_READERS: usize = 8;
-/// Writers of one topic: the living one, and dead ones until the supervisor has cleaned up after them.
+/// Writers of one topic: the living one, and dead ones until the supervisor has cleaned up after them. It
+/// does so before each restart but the first: more than two dead ones at a time do not occur.
 const MAX_WRITERS: usize = 4;
-/// Processes that may have one topic open: the set, replacements beside their dead predecessors, and guests.
+/// Processes that may have one topic open: the set (7 with the supervisor), replacements beside their dead predecessors
+/// (as many), and operators' tools. Chosen by hand; more would only cost shared memory.
 const MAX_NODES: usize = 24;
-/// How often a replacement looks for what its predecessor left.
-const LOOK_AGAIN: Duration = Duration::from_micros(200);
+/// How often a replacement looks for its checkpoint. A trade-off: less often would lengthen the recovery by a fraction of
+/// a period, more often would take time from the processes that live on.
+const CHECKPOINT_POLL: Duration = Duration::from_micros(200);
 
-/// A process's way into one run's topics: its iceoryx2 node, kept apart from other runs by the run's prefix.
+/// Opens ports on one run's topics: a process's iceoryx2 node, kept apart from other runs by the run's prefix.
 #[derive(Debug)]
 pub struct Bus {
     node: Node<ipc::Service>,
@@ -76,40 +81,31 @@ impl Bus {
         Input::new(topic, &self.service(topic)?, Some(listener))
     }
 
-    /// The newest message that a killed predecessor sent on `topic`, as the supervisor's keeper offers it.
+    /// The checkpoint of a killed predecessor: its newest message on `topic`, as the supervisor's
+    /// [`CheckpointStore`](crate::CheckpointStore) publishes it.
     ///
-    /// `None` when the predecessor left nothing, or when nobody offers anything `within` this time.
+    /// `None` when the predecessor left nothing, or when nobody publishes anything `within` this time.
     ///
     /// # Errors
     /// [`PortError::Refused`] or [`PortError::Layout`].
-    pub fn survivor<T: Message>(&self, topic: &str, within: Duration) -> Result<Option<Box<T>>, PortError> {
+    pub fn checkpoint<T: Message>(&self, topic: &str, within: Duration) -> Result<Option<Box<T>>, PortError> {
         let topic = topic::resume(topic);
-        let mut offer = Input::<T>::new(&topic, &self.service(&topic)?, None)?;
+        let mut input = Input::<T>::new(&topic, &self.service(&topic)?, None)?;
         let since = Instant::now();
         while since.elapsed() < within {
-            offer.receive_any()?;
-            match offer.latest() {
+            input.receive_any()?;
+            match input.latest() {
                 Some(message) if message.header().layout == LAYOUT => return Ok(Some(Box::new(*message))),
-                // The keeper says that nothing survived by a header of zeros.
+                // The supervisor says that there is no checkpoint by a header of zeros.
                 Some(message) if message.header().layout == 0 => return Ok(None),
-                Some(message) => return Err(layout_error(&topic, message)),
-                None => std::thread::sleep(LOOK_AGAIN),
+                Some(message) => return Err(PortError::layout(&topic, message.header())),
+                None => std::thread::sleep(CHECKPOINT_POLL),
             }
         }
         Ok(None)
     }
 
-    /// Creates every topic of a set, and keeps all of them usable until the answer is dropped.
-    ///
-    /// A process that is killed while it creates a topic alone would leave it unusable: the supervisor calls this first.
-    ///
-    /// # Errors
-    /// [`PortError::Refused`].
-    pub fn hold_all(&self, pipeline: &Pipeline) -> Result<Held, PortError> {
-        Held::new(self, pipeline)
-    }
-
-    /// Frees what dead processes left in shared memory; answers how many were cleaned up.
+    /// Frees what dead processes left in shared memory; returns how many were cleaned up.
     ///
     /// Takes 1 to 9 ms for each: never to be called on a real-time thread.
     pub fn clean_dead(&self) -> u64 {
@@ -139,11 +135,11 @@ impl Bus {
         self.node
             .service_builder(&service_name(topic)?)
             .publish_subscribe::<T>()
-            // A reader that hangs loses old messages; it never holds up the writer.
+            // A reader that hangs loses old messages; it never delays the writer.
             .enable_safe_overflow(true)
             .history_size(1)
             .subscriber_max_buffer_size(topic::depth(topic))
-            // One held by the stage, one on its way to replace it.
+            // The one that the stage reads, and the newer one that replaces it.
             .subscriber_max_borrowed_samples(2)
             .max_subscribers(MAX_READERS)
             .max_publishers(MAX_WRITERS)
@@ -164,10 +160,6 @@ impl Bus {
             .open_or_create()
             .map_err(|error| PortError::refused(topic, "opening its event", error))
     }
-}
-
-pub(crate) fn layout_error(topic: &str, message: &impl Message) -> PortError {
-    PortError::Layout { topic: topic.to_owned(), found: message.header().layout, expected: LAYOUT }
 }
 
 fn service_name(topic: &str) -> Result<ServiceName, PortError> {

@@ -1,5 +1,5 @@
-use crate::bus::layout_error;
-use crate::{Message, PortError, clock, now};
+use crate::monotonic_clock::{now, timespec};
+use crate::{Message, PortError};
 use coact_messages::{Header, LAYOUT};
 use iceoryx2::port::{listener::Listener, subscriber::Subscriber};
 use iceoryx2::prelude::*;
@@ -8,12 +8,12 @@ use iceoryx2::service::port_factory::publish_subscribe;
 use rustix::event::{PollFd, PollFlags, poll};
 use std::os::fd::BorrowedFd;
 
-/// Reader of one topic. It holds the newest message where its writer wrote it: nothing is copied.
+/// Reader of one topic. It keeps the newest message where its writer wrote it: nothing is copied.
 #[derive(Debug)]
 pub struct Input<T: Message> {
     topic: String,
-    // Declared before the subscriber: the held message is given back before the port closes.
-    held: Option<Sample<ipc::Service, T, ()>>,
+    // Declared before the subscriber: the message is given back before the port closes.
+    newest: Option<Sample<ipc::Service, T, ()>>,
     subscriber: Subscriber<ipc::Service, T, ()>,
     listener: Option<Listener<ipc::Service>>,
     received_ns: u64,
@@ -29,10 +29,10 @@ impl<T: Message> Input<T> {
             .subscriber_builder()
             .create()
             .map_err(|error| PortError::refused(topic, "reading", error))?;
-        Ok(Self { topic: topic.to_owned(), held: None, subscriber, listener, received_ns: 0 })
+        Ok(Self { topic: topic.to_owned(), newest: None, subscriber, listener, received_ns: 0 })
     }
 
-    /// Takes in what has arrived, keeps the newest, and tells whether there was anything newer.
+    /// Takes in what has arrived, keeps the newest, and returns whether there was anything newer.
     ///
     /// Newest is the highest cycle: messages of a dead writer that are found late do not replace its successor's.
     ///
@@ -41,17 +41,19 @@ impl<T: Message> Input<T> {
     pub fn refresh(&mut self) -> Result<bool, PortError> {
         let fresh = self.receive_any()?;
         match self.latest() {
-            Some(message) if message.header().layout != LAYOUT => Err(layout_error(&self.topic, message)),
+            Some(message) if message.header().layout != LAYOUT => {
+                Err(PortError::layout(&self.topic, message.header()))
+            }
             _ => Ok(fresh),
         }
     }
 
-    /// As [`Input::refresh`], but leaves the judgement of the layout to the caller.
+    /// As [`Input::refresh`], but leaves the check of the layout to the caller.
     pub(crate) fn receive_any(&mut self) -> Result<bool, PortError> {
         let mut fresh = false;
         while let Some(sample) = self.receive()? {
-            if self.latest().is_none_or(|held| Message::header(&*sample).cycle >= held.header().cycle) {
-                self.held = Some(sample);
+            if self.latest().is_none_or(|newest| Message::header(&*sample).cycle >= newest.header().cycle) {
+                self.newest = Some(sample);
                 fresh = true;
             }
         }
@@ -61,18 +63,18 @@ impl<T: Message> Input<T> {
         Ok(fresh)
     }
 
-    /// Shows every message that has arrived, oldest first, and keeps the last; answers how many there were.
+    /// Calls `visit` with every message that has arrived, oldest first, and keeps the last; returns how many there were.
     ///
     /// # Errors
     /// As [`Input::refresh`].
-    pub fn each(&mut self, mut see: impl FnMut(&T)) -> Result<usize, PortError> {
+    pub fn each(&mut self, mut visit: impl FnMut(&T)) -> Result<usize, PortError> {
         let mut count = 0;
         while let Some(sample) = self.receive()? {
             if Message::header(&*sample).layout != LAYOUT {
-                return Err(layout_error(&self.topic, &*sample));
+                return Err(PortError::layout(&self.topic, Message::header(&*sample)));
             }
-            see(&sample);
-            self.held = Some(sample);
+            visit(&sample);
+            self.newest = Some(sample);
             count += 1;
         }
         Ok(count)
@@ -85,7 +87,7 @@ impl<T: Message> Input<T> {
 
     /// The newest message taken in so far, however old it is.
     pub fn latest(&self) -> Option<&T> {
-        self.held.as_deref()
+        self.newest.as_deref()
     }
 
     /// Its header.
@@ -98,9 +100,9 @@ impl<T: Message> Input<T> {
         self.received_ns
     }
 
-    /// Waits for the message of `cycle` or a later one, at the longest until `until_ns`; tells whether it is there.
+    /// Waits for the message of `cycle` or a later one, at the longest until `until_ns`; returns whether it is there.
     ///
-    /// An event may be older than the message it announced, or come twice: only the message itself counts.
+    /// An event may be older than the message that it announced, or come twice: only the message itself counts.
     ///
     /// # Errors
     /// As [`Input::refresh`].
@@ -126,7 +128,7 @@ impl<T: Message> Input<T> {
         // SAFETY: the descriptor belongs to the listener, which outlives this call and keeps it open.
         let socket = unsafe { BorrowedFd::borrow_raw(listener.file_descriptor().native_handle()) };
         // An interrupted or failed poll is a spurious wake-up: the caller looks for the message and the time.
-        let _ = poll(&mut [PollFd::new(&socket, PollFlags::IN)], Some(&clock::timespec(span_ns)));
+        let _ = poll(&mut [PollFd::new(&socket, PollFlags::IN)], Some(&timespec(span_ns)));
         listener.try_wait(|_| {}).map_err(|error| PortError::refused(&self.topic, "waiting", error))?;
         Ok(())
     }

@@ -1,40 +1,78 @@
-//! The real-time shell around the stages: ports, cycles, deadlines, memory, and going on after a crash.
+//! The real-time shell around the stages: ports, cycles, deadlines, memory, and resuming after a crash.
 //!
-//! A service's `main` opens its [`Process`], its ports on the [`Bus`], and hands a [`Cycle`] to [`Process::run`]:
-//! that waits for each period's release or the arrival of the input, calls the stage, publishes, and keeps accounts.
+//! A service's `main` opens its [`Process`] and its ports on the [`Bus`], and hands a [`Cycle`] to
+//! [`Process::run_cycles`]. That waits for each period's release or for the arrival of the input, calls the stage, which
+//! publishes, and counts deadline misses, stale inputs and skipped cycles. The counters leave the process in its
+//! [`Pulse`](coact_messages::Pulse).
+//!
+//! Ports work without a process, too. Messages are written and read in place, in the shared memory of one run:
+//!
+//! ```
+//! use coact_messages::{Pulse, topic};
+//! use coact_pipeline::{Run, RunSettings};
+//! use coact_realtime::{Bus, Input, Output, Schedule, now};
+//!
+//! let run = Run::create(RunSettings::default())?;
+//! let bus = Bus::open(&run, "fields", 0)?;
+//! let mut output: Output<Pulse> = bus.output(&topic::pulse("fields"))?;
+//! let mut input: Input<Pulse> = bus.input(&topic::pulse("fields"))?;
+//!
+//! let schedule = Schedule { start_ns: now() };
+//! let mut pulse = output.loan()?;
+//! pulse.released_ns = schedule.release(7);
+//! pulse.missed = 2;
+//! pulse.send(7, now())?;
+//!
+//! assert!(input.refresh()?, "something newer has come");
+//! let newest = input.latest().ok_or("no message")?;
+//! assert_eq!((newest.header.cycle, newest.missed), (7, 2));
+//! assert_eq!(schedule.tick_at(newest.released_ns), 7);
+//! # drop((input, output, bus));
+//! run.remove()?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
-mod accounts;
 mod arguments;
 mod bus;
-mod clock;
+mod checkpoint;
+mod checkpoint_store;
 mod cycle;
+mod cycle_accounting;
 mod executor;
-mod held;
 mod input;
-mod keeper;
+mod latency_probe;
 mod loan;
-mod memory;
+mod memory_lock;
 mod message;
+mod monotonic_clock;
 mod output;
 mod port_error;
 mod process;
 mod process_error;
+mod schedule;
 mod scheduling;
+mod scheduling_class;
 mod signals;
-mod witness;
+mod tick;
+mod topic_anchors;
+mod wake_up_lateness;
 
 pub use arguments::Arguments;
 pub use bus::Bus;
-pub use clock::{Schedule, now};
-pub use cycle::{Cycle, Tick};
-pub use held::Held;
+pub use checkpoint_store::CheckpointStore;
+pub use cycle::Cycle;
 pub use input::Input;
-pub use keeper::Keeper;
+pub use latency_probe::LatencyProbe;
 pub use loan::Loan;
 pub use message::Message;
+pub use monotonic_clock::{monotonic_time, now};
 pub use output::Output;
 pub use port_error::PortError;
 pub use process::Process;
 pub use process_error::ProcessError;
-pub use scheduling::keep_off_real_time_cores;
-pub use witness::{Punctuality, Witness};
+pub use schedule::Schedule;
+pub use scheduling::exclude_real_time_cores;
+pub use scheduling_class::SchedulingClass;
+pub use tick::Tick;
+pub use topic_anchors::TopicAnchors;
+pub use wake_up_lateness::WakeUpLateness;

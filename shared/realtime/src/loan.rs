@@ -1,12 +1,16 @@
-use crate::{Message, Output, PortError, now};
+use crate::{Message, PortError, now};
 use coact_messages::{Header, LAYOUT};
+use iceoryx2::port::notifier::Notifier;
 use iceoryx2::prelude::ipc;
 use iceoryx2::sample_mut::SampleMut;
 use std::ops::{Deref, DerefMut};
 
-/// A message under construction, in the very memory that readers will see. Dropped unsent, nobody sees it.
+/// A message that is being written, in the memory that readers will see. Dropped unsent, nobody sees it.
 pub struct Loan<'a, T: Message> {
-    pub(crate) output: &'a mut Output<T>,
+    pub(crate) topic: &'a str,
+    pub(crate) notifier: Option<&'a Notifier<ipc::Service>>,
+    pub(crate) generation: u32,
+    pub(crate) sequence: &'a mut u64,
     pub(crate) sample: SampleMut<ipc::Service, T, ()>,
 }
 
@@ -14,35 +18,34 @@ impl<T: Message> Loan<'_, T> {
     /// Fills the header, publishes the message, and wakes who waits for it.
     ///
     /// `cycle` is the tick that produced it, `sensor_ns` the stamp of the sensor sample that it descends from.
-    /// Answers the header as sent.
+    /// Returns the header as sent.
     ///
     /// # Errors
     /// [`PortError::Refused`].
     pub fn send(self, cycle: u64, sensor_ns: u64) -> Result<Header, PortError> {
-        let Self { output, mut sample } = self;
+        let Self { topic, notifier, generation, sequence, mut sample } = self;
         let header = Header {
             layout: LAYOUT,
-            generation: output.generation,
-            sequence: output.sequence,
+            generation,
+            sequence: *sequence,
             cycle,
             sensor_ns,
             published_ns: now(),
             reserved: 0,
         };
         *sample.payload_mut().header_mut() = header;
-        sample.send().map_err(|error| PortError::refused(&output.topic, "sending", error))?;
-        output.sequence += 1;
-        if let Some(notifier) = &output.notifier {
+        sample.send().map_err(|error| PortError::refused(topic, "sending", error))?;
+        *sequence += 1;
+        if let Some(notifier) = notifier {
             // A listener that just died cannot be told, and need not be: nobody waits beyond the latest start.
             let _ = notifier.notify();
         }
         Ok(header)
     }
 
-    /// Publishes the message with the header that it holds.
+    /// Publishes the message with the header that it has.
     pub(crate) fn send_as_is(self) -> Result<(), PortError> {
-        let Self { output, sample } = self;
-        sample.send().map_err(|error| PortError::refused(&output.topic, "sending", error))?;
+        self.sample.send().map_err(|error| PortError::refused(self.topic, "sending", error))?;
         Ok(())
     }
 }

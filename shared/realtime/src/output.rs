@@ -6,14 +6,14 @@ use iceoryx2::service::port_factory::publish_subscribe;
 
 /// Writer of one topic.
 ///
-/// Messages are written in place: [`Output::loan`] hands out memory that readers will see, [`Loan::send`] shows it.
+/// Messages are written in place: [`Output::loan`] hands out memory that readers will see, [`Loan::send`] publishes it.
 #[derive(Debug)]
 pub struct Output<T: Message> {
-    pub(crate) topic: String,
-    pub(crate) publisher: Publisher<ipc::Service, T, ()>,
-    pub(crate) notifier: Option<Notifier<ipc::Service>>,
-    pub(crate) generation: u32,
-    pub(crate) sequence: u64,
+    topic: String,
+    publisher: Publisher<ipc::Service, T, ()>,
+    notifier: Option<Notifier<ipc::Service>>,
+    generation: u32,
+    sequence: u64,
 }
 
 impl<T: Message> Output<T> {
@@ -25,6 +25,7 @@ impl<T: Message> Output<T> {
     ) -> Result<Self, PortError> {
         let publisher = service
             .publisher_builder()
+            // One that is being written, and one that a caller keeps by mistake: then loaning fails, with a reason.
             .max_loaned_samples(2)
             .backpressure_strategy(BackpressureStrategy::DiscardData)
             .create()
@@ -37,7 +38,7 @@ impl<T: Message> Output<T> {
         &self.topic
     }
 
-    /// Counts on from a predecessor's last message, so that the topic's sequence has no second beginning.
+    /// Goes on with the sequence of a predecessor's last message, so that it does not begin again at 0.
     pub fn continue_after(&mut self, last: &Header) {
         self.sequence = last.sequence + 1;
     }
@@ -54,14 +55,15 @@ impl<T: Message> Output<T> {
         // SAFETY: the payload lies in a shared-memory segment that the kernel filled with zeros and that only
         // messages were written to since, so every byte is initialised; `T: Pod` accepts any bit pattern.
         let sample = unsafe { sample.assume_init() };
-        Ok(Loan { output: self, sample })
+        let Self { topic, notifier, generation, sequence, .. } = self;
+        Ok(Loan { topic, notifier: notifier.as_ref(), generation: *generation, sequence, sample })
     }
 
     /// Connects to readers that joined since the last message, and hands them that message.
     ///
     /// # Errors
     /// [`PortError::Refused`].
-    pub(crate) fn greet(&self) -> Result<(), PortError> {
+    pub(crate) fn connect_new_readers(&self) -> Result<(), PortError> {
         self.publisher
             .update_connections()
             .map_err(|error| PortError::refused(&self.topic, "connecting readers", error))

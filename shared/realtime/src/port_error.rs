@@ -1,3 +1,4 @@
+use coact_messages::{Header, LAYOUT};
 use std::fmt::Debug;
 
 /// Why a port could not be opened or used.
@@ -6,7 +7,7 @@ pub enum PortError {
     /// iceoryx2 refused an operation.
     #[error(
         "topic {topic}: {operation} failed: {problem}; expected programs that were built together, a supervisor that \
-         holds the topic, and room in shared memory"
+         keeps the topic open, and room in shared memory"
     )]
     Refused {
         /// The topic.
@@ -24,7 +25,7 @@ pub enum PortError {
         /// iceoryx2's reason.
         problem: String,
     },
-    /// Only the monitor may know the truth.
+    /// Only the monitor may read the truth.
     #[error("process {process} asked for {topic}; expected the process \"monitor\": truth is for it alone")]
     TruthIsForTheMonitor {
         /// The process that asked.
@@ -49,5 +50,10 @@ pub enum PortError {
 impl PortError {
     pub(crate) fn refused(topic: &str, operation: &'static str, problem: impl Debug) -> Self {
         Self::Refused { topic: topic.to_owned(), operation, problem: format!("{problem:?}") }
+    }
+
+    /// For a message with this header.
+    pub(crate) fn layout(topic: &str, header: &Header) -> Self {
+        Self::Layout { topic: topic.to_owned(), found: header.layout, expected: LAYOUT }
     }
 }

@@ -1,6 +1,8 @@
 use crate::executor::Executor;
 use crate::signals::Signals;
-use crate::{Arguments, Bus, Cycle, Message, Output, PortError, ProcessError, Schedule, memory, scheduling};
+use crate::{
+    Arguments, Bus, Cycle, Message, Output, PortError, ProcessError, Schedule, memory_lock, scheduling,
+};
 use clap::Parser;
 use coact_messages::topic;
 use coact_pipeline::{GENERATION_VARIABLE, Pipeline, ProcessEntry, Ready, Run};
@@ -9,10 +11,12 @@ use std::path::Path;
 use std::time::Duration;
 use tracing_subscriber::EnvFilter;
 
-/// How long a replacement waits for the offer of what its predecessor left, before it begins anew.
-const SURVIVOR_WITHIN: Duration = Duration::from_millis(500);
-/// How often a process that is ready looks whether the run has started.
-const LOOK_AGAIN: Duration = Duration::from_millis(1);
+/// How long a replacement waits for its predecessor's checkpoint before it begins anew. The supervisor publishes it before
+/// it starts the replacement, and hands it over within some 2 ms: after half a second it never will. Chosen by hand.
+const CHECKPOINT_TIMEOUT: Duration = Duration::from_millis(500);
+/// How often a process that is ready looks whether the run has started. The supervisor announces the start some 50 ms
+/// ahead, so that this delays nothing.
+const START_POLL: Duration = Duration::from_millis(1);
 
 /// A process of a set, from its command line to its last cycle.
 #[derive(Debug)]
@@ -48,9 +52,9 @@ impl Process {
         let pipeline = Pipeline::load(&run.settings().pipeline)?;
         let entry = pipeline.process(name)?.clone();
         if entry.realtime {
-            scheduling::hurry(entry.core);
+            scheduling::prepare_start(entry.core);
         } else {
-            scheduling::keep_off_real_time_cores(&pipeline);
+            scheduling::exclude_real_time_cores(&pipeline);
         }
         let bus = Bus::open(&run, name, generation)?;
         Ok(Self { run, pipeline, entry, generation, bus, signals, resumed: false })
@@ -76,7 +80,7 @@ impl Process {
         self.generation
     }
 
-    /// Its way into the run's topics.
+    /// Opens ports on the run's topics.
     pub fn bus(&self) -> &Bus {
         &self.bus
     }
@@ -86,39 +90,43 @@ impl Process {
         self.signals.stop()
     }
 
-    /// The last message of the predecessor that this process replaces, and `output` counts on from it.
+    /// The checkpoint of the predecessor that this process replaces: its last message. `output` goes on with its sequence.
     ///
-    /// `None` in a first start, and when nothing survived.
+    /// `None` in a first start, and when the predecessor left no checkpoint.
     ///
     /// # Errors
     /// [`PortError`].
-    pub fn survivor<T: Message>(&mut self, output: &mut Output<T>) -> Result<Option<Box<T>>, PortError> {
+    pub fn checkpoint<T: Message>(&mut self, output: &mut Output<T>) -> Result<Option<Box<T>>, PortError> {
         if self.generation == 0 {
             return Ok(None);
         }
-        let survivor = self.bus.survivor::<T>(output.topic(), SURVIVOR_WITHIN)?;
-        if let Some(last) = &survivor {
+        let checkpoint = self.bus.checkpoint::<T>(output.topic(), CHECKPOINT_TIMEOUT)?;
+        if let Some(last) = &checkpoint {
             output.continue_after(last.header());
             self.resumed = true;
         }
-        Ok(survivor)
+        Ok(checkpoint)
     }
 
-    /// Starts a thread for work that takes longer than a cycle: of the ordinary class, and off the real-time cores where
-    /// there are others, so that it never holds up a cycle. It ends with the process.
+    /// Starts a thread for work that takes longer than a cycle. It is an ordinary thread, off the real-time cores where
+    /// there are others, so that it never delays a cycle. It ends with the process.
     ///
     /// # Errors
     /// [`ProcessError::Thread`] when the system grants no thread.
-    pub fn work_beside(&self, name: &str, work: impl FnOnce() + Send + 'static) -> Result<(), ProcessError> {
+    pub fn spawn_background(
+        &self,
+        name: &str,
+        work: impl FnOnce() + Send + 'static,
+    ) -> Result<(), ProcessError> {
         let pipeline = self.pipeline.clone();
-        let beside = move || {
-            scheduling::step_aside(&pipeline);
-            // A process whose work beside the cycle died would wait for it for ever: it ends, and is replaced.
+        let background = move || {
+            scheduling::become_ordinary(&pipeline);
+            // A process whose background work died would wait for it for ever: it ends instead, and is replaced.
             if std::panic::catch_unwind(AssertUnwindSafe(work)).is_err() {
                 std::process::abort();
             }
         };
-        std::thread::Builder::new().name(name.to_owned()).spawn(beside).map_err(ProcessError::Thread)?;
+        std::thread::Builder::new().name(name.to_owned()).spawn(background).map_err(ProcessError::Thread)?;
         Ok(())
     }
 
@@ -129,10 +137,10 @@ impl Process {
     /// # Errors
     /// [`ProcessError::Run`] when the report cannot be written.
     pub fn report_ready(&self) -> Result<(), ProcessError> {
-        let lock = if self.entry.realtime { memory::settle() } else { Err(String::new()) };
-        let memory_locked = lock.is_ok();
-        let mut why_not: Vec<_> = lock.err().into_iter().filter(|reason| !reason.is_empty()).collect();
-        why_not.extend(scheduling::request(&self.entry));
+        let lock = self.entry.realtime.then(memory_lock::lock_and_prefault);
+        let memory_locked = matches!(lock, Some(Ok(())));
+        let mut why_not: Vec<_> = lock.and_then(Result::err).into_iter().collect();
+        why_not.extend(scheduling::apply(&self.entry));
         let mut ready = Ready {
             process: self.entry.name.clone(),
             generation: self.generation,
@@ -144,7 +152,7 @@ impl Process {
             why_not,
             resumed: self.resumed,
         };
-        scheduling::obtained(&mut ready);
+        scheduling::report_obtained(&mut ready);
         Ok(self.run.report_ready(&ready)?)
     }
 
@@ -155,9 +163,9 @@ impl Process {
     pub fn wait_for_start(&self) -> Result<Option<Schedule>, ProcessError> {
         while !self.stop_requested() {
             if let Some(start_ns) = self.run.start_ns()? {
-                return Ok(Some(Schedule { start_ns, period_ns: self.pipeline.period_ns() }));
+                return Ok(Some(Schedule { start_ns }));
             }
-            std::thread::sleep(LOOK_AGAIN);
+            std::thread::sleep(START_POLL);
         }
         Ok(None)
     }
@@ -172,8 +180,8 @@ impl Process {
         let pulse = self.bus.output(&topic::pulse(&self.entry.name))?;
         self.report_ready()?;
         let Some(schedule) = self.wait_for_start()? else { return Ok(()) };
-        let Self { pipeline, entry, signals, .. } = self;
-        Executor::new(&pipeline, &entry, schedule, waits, pulse).run(&mut cycle, &signals)?;
+        let Self { entry, signals, .. } = self;
+        Executor::new(&entry, schedule, waits, pulse).run(&mut cycle, &signals)?;
         Ok(())
     }
 }

@@ -33,12 +33,10 @@ pub enum ProcessError {
         /// Its value.
         found: String,
     },
-    /// No thread for work beside the cycle.
-    #[error(
-        "the system grants no thread for work beside the cycle: {0}; raise the limit on threads (ulimit -u)"
-    )]
-    Thread(#[source] std::io::Error),
-    /// A signal handler cannot be installed.
+    /// No thread for background work. The message contains the cause, so that it is no source as well.
+    #[error("the system grants no thread for background work: {0}; raise the limit on threads (ulimit -u)")]
+    Thread(std::io::Error),
+    /// A signal handler cannot be installed. The message contains the cause.
     #[error("signals cannot be handled: {0}; expected a system that lets a process handle SIGTERM")]
-    Signals(#[source] std::io::Error),
+    Signals(std::io::Error),
 }

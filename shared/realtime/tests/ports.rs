@@ -104,7 +104,7 @@ fn reader_that_joins_late_gets_the_last_message_with_the_next_one_at_the_latest(
 }
 
 #[test]
-fn reader_of_accounts_misses_none_while_it_falls_behind_by_half_a_second() {
+fn reader_of_pulses_misses_none_while_it_falls_behind_by_half_a_second() {
     let run = TestRun::new(TABLE);
     let bus = Bus::open(&run.0, "monitor", 0).unwrap();
     let topic = topic::pulse("fields");
@@ -122,7 +122,7 @@ fn reader_of_accounts_misses_none_while_it_falls_behind_by_half_a_second() {
 }
 
 #[test]
-fn writer_is_not_held_up_by_a_reader_that_never_looks() {
+fn writer_is_not_delayed_by_a_reader_that_never_reads() {
     let run = TestRun::new(TABLE);
     let bus = Bus::open(&run.0, "perception", 0).unwrap();
     let mut hung: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
@@ -181,7 +181,7 @@ fn waiting_ends_with_the_message_and_not_with_its_event_alone() {
     let mut input: Input<Percept> = bus.trigger(topic::PERCEPT).unwrap();
     let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
     send(&mut output, 4);
-    let soon = || coact_realtime::now() + 3_000_000;
+    let soon = || coact_realtime::now() + 3 * coact_period::PERIOD_NS;
     assert!(input.wait_for(4, soon()).unwrap(), "the message of cycle 4 is there");
     send(&mut output, 5);
     let until = soon();

@@ -26,7 +26,7 @@ pub struct Args {
 /// There is no such run, process or fault, or the process is not running just now.
 pub fn run(args: Args) -> Result<ExitCode> {
     let run = living_run(args.run.as_deref())?;
-    coact_supervisor::ask_for_fault(&run, &args.process, args.fault.name())
+    coact_supervisor::request_fault(&run, &args.process, args.fault.name())
         .with_context(|| format!("run {}", run.id()))?;
     eprintln!("run {}: {} injected into {}", run.id(), args.fault, args.process);
     Ok(ExitCode::SUCCESS)

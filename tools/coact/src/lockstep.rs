@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use coact_monitor::Monitor;
-use coact_supervisor::{Launch, Note, Progress, Terminal, Tone};
+use coact_supervisor::{Launch, Note, NoteKind, Progress, Terminal};
 use std::time::Duration;
 
 /// Runs all stages to the end of the run.
@@ -29,6 +29,6 @@ pub fn run(launch: &Launch) -> Result<()> {
     })?;
     let (run, taken) = (outcome.ticks as f64 / 1e3, outcome.elapsed.as_secs_f64());
     let text = format!("{run:.1} s in {taken:.1} s: {:.1} times real time", run / taken);
-    terminal.note(Note::new(Tone::Plain, text));
+    terminal.note(Note::new(NoteKind::Plain, text));
     Ok(())
 }

@@ -1,8 +1,7 @@
 //! A run of its own for each test, and helpers to be a process of it.
 #![allow(dead_code, clippy::unwrap_used, reason = "each test binary uses a part of this")]
 
-use coact_pipeline::{Run, RunSettings, WorldMode};
-use std::path::PathBuf;
+use coact_pipeline::{Run, RunSettings};
 use std::process::{Child, Command, Stdio};
 
 /// A run that is removed when the test ends, however it ends.
@@ -11,23 +10,9 @@ pub struct TestRun(pub Run);
 impl TestRun {
     /// A run with this process table; none of its other files exist.
     pub fn new(pipeline: &str) -> Self {
-        let nowhere = PathBuf::from("nowhere");
         let table = std::env::temp_dir().join(format!("coact-test-{}-{}.toml", std::process::id(), unique()));
         std::fs::write(&table, pipeline).unwrap();
-        Self(
-            Run::create(RunSettings {
-                task: nowhere.clone(),
-                robot: nowhere.clone(),
-                model: nowhere.clone(),
-                pipeline: table,
-                safety: Default::default(),
-                report: nowhere,
-                seed: 1,
-                partner: "synthetic".to_owned(),
-                world: WorldMode::Kinematic,
-            })
-            .unwrap(),
-        )
+        Self(Run::create(RunSettings { pipeline: table, ..RunSettings::default() }).unwrap())
     }
 }
 

@@ -57,7 +57,7 @@ impl RealTime<'_> {
             .with_context(|| model.display().to_string())?;
         let launch = self.launch(subject, model, &report)?;
         let plan = self.evaluation.plan;
-        let (ending, observer) = launch.run_beside(|run, over| {
+        let (ending, observer) = launch.run_with_observer(|run, over| {
             let mut observer = Observer::default();
             observer.observe(run, over, plan).map(|()| observer)
         })?;

@@ -4,15 +4,15 @@ use coact_pipeline::{Pipeline, Trigger};
 use coact_realtime::{Bus, Input, PortError};
 use std::time::Duration;
 
-/// Looks on: the newest field frame, what is said, and every process's pulses.
-pub(crate) struct Observer {
+/// Reads what the supervisor needs of the run's topics: the newest field frame, what is said, every process's pulses.
+pub(crate) struct TopicReader {
     frame: Input<FieldFrame>,
     speech: Input<Speech>,
     pulses: Vec<(String, Input<Pulse>)>,
     failed: bool,
 }
 
-impl Observer {
+impl TopicReader {
     /// Opens its topics.
     ///
     /// # Errors
@@ -26,20 +26,20 @@ impl Observer {
         Ok(Self { frame, speech, pulses, failed: false })
     }
 
-    /// Tells `set` who is alive, and `progress` what has changed.
+    /// Tells `set` who published a pulse, and `progress` what has changed.
     pub(crate) fn poll(&mut self, set: &mut ProcessSet, progress: &mut Progress) {
-        if let (Err(error), false) = (self.look(set, progress), self.failed) {
+        if let (Err(error), false) = (self.read(set, progress), self.failed) {
             self.failed = true;
             tracing::warn!("the progress shown is incomplete: {error}");
         }
     }
 
-    fn look(&mut self, set: &mut ProcessSet, progress: &mut Progress) -> Result<(), PortError> {
+    fn read(&mut self, set: &mut ProcessSet, progress: &mut Progress) -> Result<(), PortError> {
         for (process, input) in &mut self.pulses {
             if input.refresh()?
                 && let Some(pulse) = input.latest()
             {
-                set.heard(process, Duration::from_nanos(pulse.header.published_ns));
+                set.pulse(process, Duration::from_nanos(pulse.header.published_ns));
                 progress.pulse(process, pulse);
             }
         }

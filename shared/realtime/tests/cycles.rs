@@ -1,9 +1,10 @@
-//! Cycles of real processes' shells: two stages in threads of one program, observed through their pulses.
+//! Cycles of the shell: two stages in threads of one program, observed through their pulses.
 #![allow(clippy::unwrap_used)]
 
 mod support;
 
 use coact_messages::{FieldFrame, Header, Percept, Pulse, topic};
+use coact_period::PERIOD_NS;
 use coact_realtime::{Bus, Cycle, Input, Message, Output, PortError, Process, Schedule, Tick, now};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -11,8 +12,8 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 use support::TestRun;
 
-const LATEST_START_US: u64 = 700;
-const PERIOD_NS: u64 = 1_000_000;
+/// As in the table below.
+const LATEST_START: Duration = Duration::from_micros(700);
 const TABLE: &str = r#"
 [[process]]
 name = "perception"
@@ -33,7 +34,7 @@ fn alone() -> MutexGuard<'static, ()> {
     ALONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Publishes a message per cycle, up to a last cycle after which it only goes through the motions.
+/// Publishes a message in each cycle up to the `last` one; later cycles publish nothing.
 struct Relay<In: Message, Out: Message> {
     input: Input<In>,
     output: Output<Out>,
@@ -72,7 +73,7 @@ fn start<In: Message, Out: Message>(
     })
 }
 
-/// Both stages, the first of which falls silent after `last`; and a monitor's view of the second.
+/// Both stages, the first of which publishes nothing after `last`, and the pulses of the second.
 fn chain(run: &TestRun, last: u64) -> ([JoinHandle<()>; 2], Input<Pulse>) {
     let directory = run.0.directory();
     let stages = [
@@ -87,7 +88,7 @@ fn chain(run: &TestRun, last: u64) -> ([JoinHandle<()>; 2], Input<Pulse>) {
             std::thread::sleep(Duration::from_millis(1));
         }
     }
-    run.0.start(now() + 5_000_000).unwrap();
+    run.0.start(now() + 5 * PERIOD_NS).unwrap();
     (stages, pulses)
 }
 
@@ -116,7 +117,7 @@ fn later_stage_runs_on_each_message_and_at_its_latest_start_once_they_stop() {
     watch(&mut pulses, &mut seen, |seen| seen.last().is_some_and(|pulse| pulse.header.cycle > last + 50));
     let start_ns = run.0.start_ns().unwrap().unwrap();
     stop(stages);
-    let schedule = Schedule { start_ns, period_ns: PERIOD_NS };
+    let schedule = Schedule { start_ns };
     for pulse in &seen {
         assert_eq!(pulse.released_ns, schedule.release(pulse.header.cycle));
         assert!(pulse.started_ns >= pulse.released_ns && pulse.header.published_ns >= pulse.started_ns);
@@ -126,7 +127,7 @@ fn later_stage_runs_on_each_message_and_at_its_latest_start_once_they_stop() {
         assert_eq!(
             gap,
             1 + pair[1].skipped - pair[0].skipped,
-            "a period has one cycle or is booked as skipped"
+            "a period has one cycle or is counted as skipped"
         );
     }
     let fresh: Vec<_> = seen.iter().filter(|pulse| pulse.input_received_ns > 0).collect();
@@ -136,11 +137,11 @@ fn later_stage_runs_on_each_message_and_at_its_latest_start_once_they_stop() {
     assert!(silent.len() > 10);
     for pulse in &silent {
         assert_eq!(pulse.input_received_ns, 0);
-        assert!(pulse.started_ns >= pulse.released_ns + LATEST_START_US * 1000);
-        assert_eq!(pulse.scheduled_ns, pulse.released_ns + LATEST_START_US * 1000);
+        assert!(pulse.started_ns >= pulse.released_ns + LATEST_START.as_nanos() as u64);
+        assert_eq!(pulse.scheduled_ns, pulse.released_ns + LATEST_START.as_nanos() as u64);
     }
     let stale = silent.last().unwrap().stale - silent.first().unwrap().stale;
-    assert_eq!(stale, silent.len() as u64 - 1, "each cycle without a new message is booked as stale");
+    assert_eq!(stale, silent.len() as u64 - 1, "each cycle without a new message is counted as stale");
 }
 
 #[test]
@@ -152,7 +153,7 @@ fn injected_slowness_lasts_fifty_cycles_and_skips_periods() {
     watch(&mut pulses, &mut seen, |seen| seen.len() > 20);
     // SAFETY: the shells of this program handle the signal as a request to be slow.
     unsafe { libc::raise(libc::SIGUSR1) };
-    let slow = |pulse: &&Pulse| pulse.header.published_ns - pulse.started_ns >= 2_000_000;
+    let slow = |pulse: &&Pulse| pulse.header.published_ns - pulse.started_ns >= 2 * PERIOD_NS;
     watch(&mut pulses, &mut seen, |seen| seen.iter().filter(slow).count() >= 50);
     stop(stages);
     let last = seen.last().unwrap();

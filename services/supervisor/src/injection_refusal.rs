@@ -1,6 +1,6 @@
 /// Why a fault was not injected.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Refusal {
+pub enum InjectionRefusal {
     /// The set has no process of this name.
     #[error("unknown process '{name}'; this set has: {}", .known.join(", "))]
     UnknownProcess {

@@ -1,21 +1,23 @@
-//! No page fault in a steady cycle: memory is locked, or at least present before the first cycle.
+//! No page fault in a steady cycle: memory is locked, or at least prefaulted before the first cycle.
 
 use rustix::mm::{Advice, MlockAllFlags, madvise, mlockall};
 use rustix::process::{Resource, getrlimit};
 use rustix::thread::{CapabilitySet, capabilities};
 use std::hint::black_box;
 
-/// Heap that is kept present for allocations in steady cycles: iceoryx2 makes one for each loan.
+/// Heap that is prefaulted for allocations in steady cycles, bytes: iceoryx2 makes one for each loan. Chosen by hand: far
+/// more than those take, and little beside a process of some 10 MB; untested elsewhere.
 const HEAP_RESERVE: usize = 1 << 20;
-/// Stack that steady cycles may use.
+/// Stack that is prefaulted for steady cycles, bytes. Chosen by hand: stages keep their state in boxes, not on the stack;
+/// untested elsewhere.
 const STACK_RESERVE: usize = 256 << 10;
 
-/// Makes all memory present, and locks it if the machine grants that.
+/// Prefaults all memory, and locks it if the machine grants that.
 ///
 /// # Errors
 /// Why it is not locked.
-pub(crate) fn settle() -> Result<(), String> {
-    keep_heap();
+pub(crate) fn lock_and_prefault() -> Result<(), String> {
+    retain_heap();
     touch_stack();
     let locked = lock();
     if locked.is_err() {
@@ -24,8 +26,8 @@ pub(crate) fn settle() -> Result<(), String> {
     locked
 }
 
-/// Lets the allocator keep what it has: memory once present is never given back to the kernel.
-fn keep_heap() {
+/// Makes the allocator retain its memory: what was prefaulted is never given back to the kernel.
+fn retain_heap() {
     // SAFETY: mallopt only sets parameters of the allocator; called before any other thread exists.
     unsafe {
         libc::mallopt(libc::M_TRIM_THRESHOLD, -1);
@@ -47,14 +49,14 @@ fn lock() -> Result<(), String> {
     if let (false, Some(limit)) = (may_lock, getrlimit(Resource::Memlock).current) {
         return Err(format!("memory lock: limit is {} KiB (expected memlock unlimited)", limit >> 10));
     }
-    // Later mappings are buffers of peers that join or come again. Making all their megabytes present at once would hold
-    // up a cycle for more than its period; on first use, it costs some microseconds for each of the first few messages.
+    // Later mappings are buffers of peers that join or are restarted. Prefaulting all their megabytes at once would delay
+    // a cycle by more than its period; on first use, it costs some microseconds for each of the first few messages.
     mlockall(MlockAllFlags::CURRENT)
         .and_then(|()| mlockall(MlockAllFlags::FUTURE | MlockAllFlags::ONFAULT))
         .map_err(|error| format!("memory lock: {error}"))
 }
 
-/// Makes every present mapping's pages present without locking them.
+/// Prefaults the pages of every mapping that exists now, without locking them.
 fn populate() {
     let Ok(maps) = std::fs::read_to_string("/proc/self/maps") else { return };
     for (range, rights) in maps.lines().filter_map(mapping) {

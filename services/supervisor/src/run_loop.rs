@@ -1,0 +1,205 @@
+use crate::control_socket::ControlSocket;
+use crate::ending::EndCondition;
+use crate::run_topics::RunTopics;
+use crate::topic_reader::TopicReader;
+use crate::{
+    Ending, Injection, InjectionRefusal, LaunchError, Note, NoteKind, ProcessSet, Progress, Terminal,
+};
+use coact_pipeline::{Pipeline, Run};
+use coact_realtime::{SchedulingClass, monotonic_time};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// What a run consists of, before anything is started.
+pub(crate) struct RunParts<'a> {
+    pub(crate) run: &'a Run,
+    pub(crate) pipeline: &'a Pipeline,
+    pub(crate) terminal: &'a Terminal,
+    pub(crate) set: ProcessSet,
+    pub(crate) progress: Progress,
+    pub(crate) injections: Vec<Injection>,
+    pub(crate) end: EndCondition,
+}
+
+/// A run in progress: does in turn all that has to be done until its end.
+pub(crate) struct RunLoop<'a> {
+    run: &'a Run,
+    pipeline: &'a Pipeline,
+    terminal: &'a Terminal,
+    // Stopped (dropped) before the topics are closed.
+    set: ProcessSet,
+    reader: TopicReader,
+    topics: RunTopics,
+    socket: ControlSocket,
+    progress: Progress,
+    /// Faults that are still to come, the next one last.
+    injections: Vec<Injection>,
+    end: EndCondition,
+    interrupted: Arc<AtomicBool>,
+    /// Release of tick 0, once the whole set was ready.
+    start: Option<Duration>,
+    /// When the status is shown next.
+    status_at: Duration,
+}
+
+/// A death wakes the supervisor at once; everything else is looked at this often. A trade-off between the time that a
+/// replacement waits for its checkpoint and the supervisor's load.
+const POLL_INTERVAL: Duration = Duration::from_millis(2);
+/// From "all are ready" to tick 0. Every process polls for the start once in a millisecond: all have seen it by then, also
+/// on a busy machine.
+const START_DELAY: Duration = Duration::from_millis(50);
+/// How often the status line is renewed when nothing happens.
+const STATUS_INTERVAL: Duration = Duration::from_secs(1);
+/// SCHED_FIFO priority of the supervisor: above the processes that are not ready yet (1), below those that are. So a death
+/// is noticed on a busy machine, too, and no cycle waits for the supervisor.
+const PRIORITY: u8 = 2;
+
+impl<'a> RunLoop<'a> {
+    /// Prepares everything that the processes need; starts none.
+    pub(crate) fn prepare(parts: RunParts<'a>) -> Result<Self, LaunchError> {
+        let RunParts { run, pipeline, terminal, set, progress, mut injections, end } = parts;
+        let interrupted = Arc::new(AtomicBool::new(false));
+        for signal in [SIGINT, SIGTERM, SIGHUP] {
+            signal_hook::flag::register(signal, Arc::clone(&interrupted)).map_err(LaunchError::Signals)?;
+        }
+        let topics = RunTopics::create(run, pipeline)?;
+        let reader = TopicReader::new(topics.bus(), pipeline)?;
+        let socket = ControlSocket::open(run)
+            .map_err(|cause| LaunchError::File { path: run.directory().to_owned(), cause })?;
+        injections.sort_by_key(|injection| std::cmp::Reverse(injection.at));
+        Ok(Self {
+            run,
+            pipeline,
+            terminal,
+            set,
+            reader,
+            topics,
+            socket,
+            progress,
+            injections,
+            end,
+            interrupted,
+            start: None,
+            status_at: Duration::ZERO,
+        })
+    }
+
+    /// Starts the set, supervises it until the run's end, and stops it.
+    pub(crate) fn run(mut self) -> Result<Ending, LaunchError> {
+        // What it starts inherits the class: a replacement is needed soon.
+        if let Err(error) = SchedulingClass::Fifo(PRIORITY).apply() {
+            tracing::debug!("the supervisor runs without SCHED_FIFO: {error}");
+        }
+        let ending = self.supervise();
+        self.show();
+        self.terminal.status("stopping".into());
+        let Self { set, topics, .. } = &mut self;
+        set.stop(|| topics.poll());
+        self.show_events();
+        ending
+    }
+
+    fn supervise(&mut self) -> Result<Ending, LaunchError> {
+        loop {
+            self.set.wait(POLL_INTERVAL);
+            self.set.replace_dead(&mut self.topics)?;
+            self.topics.poll();
+            self.reader.poll(&mut self.set, &mut self.progress);
+            self.set.advance(&mut self.topics)?;
+            self.start_clock()?;
+            self.inject();
+            self.show();
+            if let Some(ending) = self.ending() {
+                return Ok(ending);
+            }
+        }
+    }
+
+    /// Starts the run's clock as soon as all processes are ready for the first time.
+    fn start_clock(&mut self) -> Result<(), LaunchError> {
+        if self.start.is_some() || !self.set.all_ready() {
+            return Ok(());
+        }
+        let start = monotonic_time() + START_DELAY;
+        self.run.start(start.as_nanos() as u64)?;
+        self.set.expect_pulses(start);
+        self.start = Some(start);
+        self.warn_of_missing_privileges();
+        Ok(())
+    }
+
+    /// In red: which process runs without the scheduling or the locked memory that it asked for.
+    fn warn_of_missing_privileges(&mut self) {
+        for entry in &self.pipeline.processes {
+            let Ok(Some(ready)) = self.run.ready(&entry.name, 0) else { continue };
+            if !ready.why_not.is_empty() {
+                let refused = ready.why_not.join("; ");
+                let text =
+                    format!("{} is not real time: {refused}; see rt-config/system/README.md", entry.name);
+                self.progress.note(Note::new(NoteKind::Alarm, text));
+            }
+        }
+    }
+
+    /// Time since tick 0.
+    fn elapsed(&self) -> Option<Duration> {
+        Some(monotonic_time().saturating_sub(self.start?))
+    }
+
+    fn inject(&mut self) {
+        while let Some(request) = self.socket.next() {
+            let outcome = self.set.inject(&request.process, request.fault);
+            request.answer(outcome);
+        }
+        let Some(elapsed) = self.elapsed() else { return };
+        while let Some(injection) = self.injections.pop_if(|injection| injection.at <= elapsed) {
+            match self.set.inject(&injection.process, injection.fault) {
+                // It is being restarted: the fault waits for it.
+                Err(InjectionRefusal::NotRunning(_)) => {
+                    self.injections.push(injection);
+                    return;
+                }
+                Err(refusal) => self.progress.note(Note::new(NoteKind::Alarm, refusal.to_string())),
+                Ok(()) => {}
+            }
+        }
+    }
+
+    fn show(&mut self) {
+        if self.show_events() || monotonic_time() >= self.status_at {
+            self.status_at = monotonic_time() + STATUS_INTERVAL;
+            let status = self.elapsed().map(|elapsed| self.progress.status(elapsed));
+            self.terminal.status(status.unwrap_or_else(|| self.starting_status()));
+        }
+    }
+
+    /// Returns whether anything happened to a process.
+    fn show_events(&mut self) -> bool {
+        let events = self.set.take_events();
+        for event in &events {
+            self.progress.event(event);
+        }
+        for note in self.progress.take_notes() {
+            self.terminal.note(match self.elapsed() {
+                Some(elapsed) => note.at(elapsed),
+                None => note,
+            });
+        }
+        !events.is_empty()
+    }
+
+    /// Which processes the start of the run waits for.
+    fn starting_status(&self) -> String {
+        format!("starting; not ready yet: {}", self.set.not_ready().collect::<Vec<_>>().join(", "))
+    }
+
+    fn ending(&mut self) -> Option<Ending> {
+        if self.interrupted.load(Ordering::Relaxed) {
+            return Some(Ending::Interrupted);
+        }
+        let elapsed = self.elapsed()?;
+        self.end.check(elapsed, self.progress.all_achieved())
+    }
+}
