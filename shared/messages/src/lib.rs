@@ -38,6 +38,7 @@ mod sensor_sample;
 mod sentence;
 mod speech;
 pub mod topic;
+mod topic_entry;
 mod truth;
 mod world_state;
 
@@ -51,6 +52,7 @@ pub use person_arm::{PersonArm, TrackedPoint};
 pub use pulse::Pulse;
 pub use sensor_sample::{HandView, JointReading, Keypoint, KeypointName, SceneView, SensorSample, Sighting};
 pub use speech::Speech;
+pub use topic_entry::TopicEntry;
 pub use truth::{PartnerError, PartnerPhase, Truth};
 pub use world_state::{PartState, WorldState};
 

@@ -1,58 +1,178 @@
-//! Names of all topics. Each run's names live under that run's own iceoryx2 prefix.
+//! All topics: their names, their messages, and who writes and reads them.
+//!
+//! [`ALL`] is the one place of these facts. Ports take their rules from it, `docs/processes.svg` is drawn from it, and
+//! a whole-system test compares it with what the processes of a running set have opened. Each run's names live under
+//! that run's own iceoryx2 prefix.
+//!
+//! ```
+//! use coact_messages::topic;
+//!
+//! assert_eq!(topic::state_of("fields"), Some(topic::FIELDS));
+//! assert!(topic::may_read(topic::TRUTH, "monitor") && !topic::may_read(topic::TRUTH, "control"));
+//! assert_eq!(topic::depth(&topic::pulse("world")), 512);
+//! ```
 
-/// [`SensorSample`](crate::SensorSample), world to perception, control and monitor.
+use crate::TopicEntry;
+
+/// [`SensorSample`](crate::SensorSample), what the sensors tell.
 pub const SENSORS: &str = "coact/sensors";
-/// [`Percept`](crate::Percept), perception to fields and control.
+/// [`Percept`](crate::Percept), what perception makes of it.
 pub const PERCEPT: &str = "coact/percept";
-/// [`FieldFrame`](crate::FieldFrame), fields to control, voice, monitor and anyone who wants to look.
+/// [`FieldFrame`](crate::FieldFrame), the network, and the decision in it.
 pub const FIELDS: &str = "coact/fields";
-/// [`Command`](crate::Command), control to world.
+/// [`Command`](crate::Command), setpoints of the joints.
 pub const COMMAND: &str = "coact/command";
-/// [`Truth`](crate::Truth), world to monitor alone.
+/// [`Truth`](crate::Truth), what the simulation knows and no sensor tells.
 pub const TRUTH: &str = "coact/truth";
-/// [`WorldState`](crate::WorldState), world to the supervisor's keeper alone.
+/// [`WorldState`](crate::WorldState), the simulation's own state.
 pub const WORLD_STATE: &str = "coact/world-state";
-/// [`Speech`](crate::Speech), voice to monitor and supervisor.
+/// [`Speech`](crate::Speech) of the robot.
 pub const SPEECH: &str = "coact/speech";
-/// [`Speech`](crate::Speech) of the person, as text: anyone (`coact say`, a recogniser) to world, which puts it into the
-/// sensor sample.
+/// [`Speech`](crate::Speech) of the person, as text: from `coact say` or a recogniser. The world puts it into the sensor
+/// sample.
 pub const HEARD: &str = "coact/heard";
+
+/// In [`TopicEntry::writers`]: any program outside the set.
+pub const ANYONE: &str = "anyone";
+
+/// The stages of the chain, in its order. Each publishes a pulse in each cycle, and resumes from a checkpoint.
+const STAGES: &[&str] = &["world", "perception", "fields", "control"];
+
+/// Depth of the chain's topics, which only the newest message matters of: it, and the one that a reader still holds.
+const NEWEST: usize = 2;
+/// Depth where every cycle's message must arrive at a monitor that looks every 5 ms: half a second of them.
+const EVERY_CYCLE: usize = 512;
+/// Depth of spoken sentences: many more than are said while nobody looks.
+const SENTENCES: usize = 32;
+
+/// A topic of the chain: of each message the next stage is told by an event.
+const CHAIN: TopicEntry = TopicEntry {
+    name: "",
+    message: "",
+    writers: &[],
+    readers: &[],
+    closed: false,
+    announced: true,
+    checkpoint: true,
+    depth: NEWEST,
+};
+/// Any other topic.
+const PLAIN: TopicEntry = TopicEntry { announced: false, checkpoint: false, ..CHAIN };
+
+/// Every topic of a process set: the chain of one cycle in its order, then what stands beside it.
+pub const ALL: [TopicEntry; 10] = [
+    TopicEntry {
+        name: SENSORS,
+        message: "SensorSample",
+        writers: &["world"],
+        readers: &["perception", "control", "monitor"],
+        checkpoint: false,
+        ..CHAIN
+    },
+    TopicEntry {
+        name: PERCEPT,
+        message: "Percept",
+        writers: &["perception"],
+        readers: &["fields", "control", "supervisor"],
+        ..CHAIN
+    },
+    TopicEntry {
+        name: FIELDS,
+        message: "FieldFrame",
+        writers: &["fields"],
+        // A frame is integrated from the one before: fields reads its own topic.
+        readers: &["fields", "control", "voice", "monitor", "supervisor"],
+        ..CHAIN
+    },
+    TopicEntry {
+        name: COMMAND,
+        message: "Command",
+        writers: &["control"],
+        readers: &["world", "monitor", "supervisor"],
+        ..CHAIN
+    },
+    TopicEntry {
+        name: "coact/pulse/*",
+        message: "Pulse",
+        writers: STAGES,
+        readers: &["monitor", "supervisor"],
+        depth: EVERY_CYCLE,
+        ..PLAIN
+    },
+    TopicEntry {
+        name: SPEECH,
+        message: "Speech",
+        writers: &["voice"],
+        readers: &["monitor", "supervisor"],
+        depth: SENTENCES,
+        ..PLAIN
+    },
+    TopicEntry {
+        name: HEARD,
+        message: "Speech",
+        writers: &[ANYONE],
+        readers: &["world"],
+        depth: SENTENCES,
+        ..PLAIN
+    },
+    TopicEntry {
+        name: TRUTH,
+        message: "Truth",
+        writers: &["world"],
+        readers: &["monitor"],
+        closed: true,
+        depth: EVERY_CYCLE,
+        ..PLAIN
+    },
+    TopicEntry {
+        name: WORLD_STATE,
+        message: "WorldState",
+        writers: &["world"],
+        readers: &["supervisor"],
+        closed: true,
+        checkpoint: true,
+        ..PLAIN
+    },
+    TopicEntry {
+        name: "coact/*/resume",
+        message: "as checkpointed",
+        writers: &["supervisor"],
+        readers: STAGES,
+        ..PLAIN
+    },
+];
 
 /// [`Pulse`](crate::Pulse) of one process.
 pub fn pulse(process: &str) -> String {
     format!("coact/pulse/{process}")
 }
 
-/// The surviving last message of `topic`, offered by the keeper to a restarted producer.
+/// The checkpoint of a killed writer of `topic`, published by the supervisor for the writer's replacement.
 pub fn resume(topic: &str) -> String {
     format!("{topic}/resume")
 }
 
-/// The topic whose newest message is all the memory that `process` has; `None` for a process that needs none.
+/// The topic whose newest message is the checkpoint of `process`; `None` for a process that needs none.
 pub fn state_of(process: &str) -> Option<&'static str> {
-    match process {
-        "world" => Some(WORLD_STATE),
-        "perception" => Some(PERCEPT),
-        "fields" => Some(FIELDS),
-        "control" => Some(COMMAND),
-        _ => None,
-    }
+    ALL.iter().find(|entry| entry.checkpoint && entry.writers.contains(&process)).map(|entry| entry.name)
 }
 
 /// True if each message of `topic` is announced by an event, so that a process may wait for it.
 pub fn announces(topic: &str) -> bool {
-    matches!(topic, SENSORS | PERCEPT | FIELDS | COMMAND)
+    find(topic).is_some_and(|entry| entry.announced)
 }
 
 /// How many messages of `topic` a reader may fall behind without losing one.
-///
-/// The chain wants the newest message only. Accounts, truth and sentences must all arrive at a monitor that
-/// looks a few times a second.
 pub fn depth(topic: &str) -> usize {
-    match topic {
-        TRUTH => 512,
-        SPEECH | HEARD => 32,
-        _ if topic.starts_with("coact/pulse/") => 512,
-        _ => 2,
-    }
+    find(topic).map_or(NEWEST, |entry| entry.depth)
+}
+
+/// Whether `process` may read `topic`.
+pub fn may_read(topic: &str, process: &str) -> bool {
+    find(topic).is_none_or(|entry| entry.is_open_to(process))
+}
+
+/// The entry of `topic`; `None` for a topic of a program outside the set.
+pub fn find(topic: &str) -> Option<&'static TopicEntry> {
+    ALL.iter().find(|entry| entry.covers(topic))
 }
