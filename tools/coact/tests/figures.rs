@@ -1,10 +1,13 @@
 //! `coact figures`: what it prints and how it refuses.
 #![allow(clippy::unwrap_used)]
 
-use std::process::{Command, Output};
+mod program;
+
+use program::coact;
+use std::process::Output;
 
 fn figures(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_coact")).arg("figures").args(arguments).output().unwrap()
+    coact(&[&["figures"], arguments].concat())
 }
 
 #[test]
@@ -35,10 +38,4 @@ fn a_folder_that_cannot_be_written_to_is_one_error() {
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(said.lines().count() == 1 && said.contains("expected a folder that can be written to"), "{said}");
-}
-
-#[test]
-fn help_has_examples() {
-    let output = figures(&["--help"]);
-    assert!(String::from_utf8_lossy(&output.stdout).contains("coact figures --out figures --only 7,8"));
 }

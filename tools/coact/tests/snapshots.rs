@@ -1,11 +1,9 @@
 //! Snapshots: drawn after a run, named in its report, drawn once more, and refused where there are none.
 #![allow(clippy::unwrap_used)]
 
-use std::process::{Command, Output};
+mod program;
 
-fn coact(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_coact")).args(arguments).output().unwrap()
-}
+use program::coact;
 
 #[test]
 fn snapshots_of_a_run_are_drawn_and_can_be_drawn_once_more() {
