@@ -2,6 +2,7 @@
 
 use coact_lockstep::Lockstep;
 use coact_messages::{ARM_JOINTS, LayerKind, NONE};
+use coact_period::{CYCLES_PER_SECOND, seconds};
 use coact_pipeline::{RunSettings, WorldMode};
 use std::path::Path;
 
@@ -9,7 +10,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let seed = arguments.next().map_or(Ok(1), |seed| seed.parse())?;
     let partner = arguments.next().unwrap_or_else(|| "synthetic".into());
-    let seconds: u64 = arguments.next().map_or(Ok(200), |seconds| seconds.parse())?;
+    let duration: u64 = arguments.next().map_or(Ok(200), |seconds| seconds.parse())?;
     let world = arguments.next().map_or(Ok(WorldMode::Kinematic), |world| world.parse())?;
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
     let model = std::env::var("MODEL").map_or_else(|_| folder.join("perception/preshape.toml"), Into::into);
@@ -27,12 +28,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut last = String::new();
     let mut errors = Vec::new();
     let started = std::time::Instant::now();
-    while stages.ticks() < seconds * 1000 && !stages.complete() {
+    while stages.ticks() < duration * CYCLES_PER_SECOND && !stages.complete() {
         stages.step();
         errors.push(tracking_error(&stages));
         let now = describe(&stages);
         if now != last {
-            println!("{:8.3} {now}", stages.ticks() as f64 / 1000.0);
+            println!("{:8.3} {now}", seconds(stages.ticks()));
             last = now;
         }
     }
@@ -49,9 +50,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "tracking error: more than 20 mrad for {} ms, largest {:.1} mrad at {:.3} s",
         errors.iter().filter(|error| **error > 0.02).count(),
         1e3 * errors.get(largest).copied().unwrap_or(0.0),
-        largest as f64 / 1000.0
+        seconds(largest as u64)
     );
-    println!("{} ms in {elapsed:.2} s: {:.1} times real time", ticks, ticks as f64 / 1000.0 / elapsed);
+    println!("{} ms in {elapsed:.2} s: {:.1} times real time", ticks, seconds(ticks) / elapsed);
     Ok(())
 }
 

@@ -8,4 +8,4 @@ mod lockstep;
 mod run;
 
 pub use lockstep::{Lockstep, LockstepError};
-pub use run::{Outcome, RunError, run};
+pub use run::{FinishedRun, RunError, run};

@@ -5,12 +5,10 @@ use coact_messages::{
     Command, FieldFrame, Header, LAYOUT, LayerKind, Percept, SensorSample, Truth, WorldState,
 };
 use coact_perception::Perception;
+use coact_period::PERIOD_NS;
 use coact_pipeline::RunSettings;
 use coact_robot::Robot;
 use coact_world::{Partner, Settings, World};
-
-/// One period, ns.
-const PERIOD_NS: u64 = 1_000_000;
 
 /// All stages, and the newest message of each topic.
 pub struct Lockstep {
@@ -30,7 +28,7 @@ pub struct Lockstep {
     pub command: Box<Command>,
     /// What is true now.
     pub truth: Box<Truth>,
-    /// The world's own memory.
+    /// The world's own state.
     pub state: Box<WorldState>,
     previous_frame: Box<FieldFrame>,
     previous_command: Box<Command>,
@@ -65,8 +63,8 @@ impl Lockstep {
         Self::with_plan(settings, |plan| plan)
     }
 
-    /// The same with another network than the task's files make: `change` is given theirs. So a robot without some of
-    /// its synapses is compared with the whole one.
+    /// The same with another network than the task's files make: `change` is given theirs. So an ablation is compared
+    /// with the whole network.
     ///
     /// # Errors
     /// As [`new`](Self::new).

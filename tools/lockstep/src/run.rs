@@ -1,24 +1,25 @@
 use crate::{Lockstep, LockstepError};
 use coact_messages::{Header, Speech};
 use coact_monitor::{Environment, Intentions, Monitor, MonitorError, Rules, RulesError, Summary, Watched};
+use coact_period::{PERIOD_NS, cycles};
 use coact_pipeline::RunSettings;
 use coact_voice::{Meanings, Sentence, Voice};
 use std::time::{Duration, Instant, SystemTime};
 
-/// How often monitor and voice look at the messages, ticks: as their processes do.
-const LOOK_EVERY: u64 = 5;
-/// How long a run without a duration goes on when nothing is completed.
+/// How often monitor and voice look at the messages: as their processes do.
+const LOOK_EVERY: u64 = cycles(Duration::from_millis(5));
+/// How long a run without a duration goes on when nothing is completed: some five times as long as the toy vehicle takes.
 const LONGEST: Duration = Duration::from_secs(300);
-/// How long it goes on after completion.
-const AFTERWARDS: u64 = 2000;
+/// How long it goes on after completion: until the last sentence has been said. Chosen by hand.
+const AFTER_COMPLETION: u64 = cycles(Duration::from_secs(2));
 
-/// What a run was like.
-pub struct Outcome {
+/// A run that has come to its end.
+pub struct FinishedRun {
     /// What went into `summary.json`.
     pub summary: Summary,
-    /// Ticks that were run: ms of the run's own time.
+    /// Cycles of the run's own time.
     pub ticks: u64,
-    /// How long that took.
+    /// How long they took to compute.
     pub elapsed: Duration,
 }
 
@@ -45,13 +46,13 @@ pub fn run(
     settings: &RunSettings,
     duration: Option<Duration>,
     mut progress: impl FnMut(&Lockstep, Option<&Sentence>),
-) -> Result<Outcome, RunError> {
+) -> Result<FinishedRun, RunError> {
     let mut stages = Lockstep::new(settings)?;
     std::fs::create_dir_all(&settings.report)
         .map_err(|cause| RunError::Report { path: settings.report.clone(), cause })?;
     let mut monitor = monitor(settings, &stages)?;
     let mut voice = Voice::new(stages.task(), Meanings::from(stages.plan()));
-    let most = duration.unwrap_or(LONGEST).as_millis() as u64;
+    let most = (duration.unwrap_or(LONGEST).as_nanos() / u128::from(PERIOD_NS)) as u64;
     let (started, mut end) = (Instant::now(), most);
     while stages.ticks() < end {
         stages.step();
@@ -70,12 +71,12 @@ pub fn run(
         monitor.keep(0, events)?;
         progress(&stages, sentence.as_ref());
         if duration.is_none() && end == most && stages.complete() {
-            end = most.min(stages.ticks() + AFTERWARDS);
+            end = most.min(stages.ticks() + AFTER_COMPLETION);
         }
     }
     let elapsed = started.elapsed();
-    let summary = monitor.finish(Environment::of_machine(), stages.ticks() * 1_000_000)?;
-    Ok(Outcome { summary, ticks: stages.ticks(), elapsed })
+    let summary = monitor.finish(Environment::of_machine(), stages.ticks() * PERIOD_NS)?;
+    Ok(FinishedRun { summary, ticks: stages.ticks(), elapsed })
 }
 
 fn monitor(settings: &RunSettings, stages: &Lockstep) -> Result<Monitor, RunError> {

@@ -4,13 +4,14 @@
 mod shipped;
 
 use coact_lockstep::Lockstep;
+use coact_period::CYCLES_PER_SECOND;
 use shipped::settings;
 
 /// Ticks with evidence of a loss, and subgoals achieved, in so many seconds.
 fn watch(seed: u64, partner: &str, seconds: u64) -> (u64, u32) {
     let mut stages = Lockstep::new(&settings(seed, partner)).unwrap();
     let mut lost = 0;
-    for _ in 0..seconds * 1000 {
+    for _ in 0..seconds * CYCLES_PER_SECOND {
         stages.step();
         lost += u64::from(stages.percept.lost.iter().any(|evidence| *evidence > 0.0));
     }

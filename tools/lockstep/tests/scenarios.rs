@@ -6,6 +6,7 @@ mod shipped;
 
 use coact_lockstep::Lockstep;
 use coact_messages::LayerKind;
+use coact_period::CYCLES_PER_SECOND;
 use shipped::{configuration, decision, settings};
 
 /// Seeds in the order in which they are drawn; `COACT_SEEDS=100` tries as many.
@@ -18,7 +19,7 @@ fn story(scenario: &str, seed: u64, seconds: u64) -> Vec<String> {
     let script = format!("script:{}", configuration().join(format!("scenarios/{scenario}.toml")).display());
     let mut stages = Lockstep::new(&settings(seed, &script)).unwrap();
     let (mut told, mut decided, mut wrong) = (Vec::new(), None, Vec::new());
-    while stages.ticks() < seconds * 1000 {
+    while stages.ticks() < seconds * CYCLES_PER_SECOND {
         stages.step();
         let now = decision(&stages).map(str::to_owned);
         if now != decided {
