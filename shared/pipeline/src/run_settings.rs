@@ -1,5 +1,5 @@
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What a run is made of: every process finds it in the run directory. Paths are absolute.
 ///
@@ -26,6 +26,24 @@ pub struct RunSettings {
     pub partner: String,
     /// How the world computes.
     pub world: WorldMode,
+}
+
+impl RunSettings {
+    /// The toy vehicle and ARoS with the synthetic partner, in the physics world, seed 1, without a report: all that is
+    /// shipped in the folder `rt_config`. To be varied with `..RunSettings::shipped(rt_config)`.
+    pub fn shipped(rt_config: &Path) -> Self {
+        Self {
+            task: rt_config.join("tasks/toy-vehicle.toml"),
+            robot: rt_config.join("robots/aros.toml"),
+            model: rt_config.join("perception/preshape.toml"),
+            pipeline: rt_config.join("pipeline.toml"),
+            safety: rt_config.join("safety.toml"),
+            report: PathBuf::new(),
+            seed: 1,
+            partner: "synthetic".into(),
+            world: WorldMode::Physics,
+        }
+    }
 }
 
 /// How the world computes.

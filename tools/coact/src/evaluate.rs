@@ -157,20 +157,16 @@ impl Ablated {
 
 fn settings(args: &Args) -> Result<RunSettings> {
     let Installation { configuration, reaches, .. } = Installation::find()?;
-    let below = |path: &str| configuration.join(path);
     if args.seed.checked_add(args.trials).is_none() {
         bail!("--seed {}: too large for {} trials", args.seed, args.trials);
     }
+    let shipped = RunSettings::shipped(&configuration);
     Ok(RunSettings {
-        task: absolute(args.task.clone().unwrap_or_else(|| below("tasks/toy-vehicle.toml")))?,
-        robot: below("robots/aros.toml"),
-        model: below("perception/preshape.toml"),
-        pipeline: below("pipeline.toml"),
-        safety: below("safety.toml"),
-        report: PathBuf::new(),
+        task: absolute(args.task.as_ref().unwrap_or(&shipped.task))?,
         seed: args.seed,
         partner: partner::setting(&args.partner, &reaches),
         world: WorldMode::Kinematic,
+        ..shipped
     })
 }
 

@@ -89,21 +89,16 @@ pub fn run(args: Args) -> Result<ExitCode> {
 /// Reads and checks every file before anything is started.
 fn prepare(args: Args) -> Result<Launch> {
     let Installation { programs, configuration, reaches } = Installation::find()?;
-    let below = |path: &str| configuration.join(path);
-    let task = absolute(args.task.unwrap_or_else(|| below("tasks/toy-vehicle.toml")))?;
-    let pipeline = absolute(args.pipeline.unwrap_or_else(|| below("pipeline.toml")))?;
-    let report = absolute(args.report.unwrap_or_else(|| unused_report_folder(Path::new("reports"))))?;
-    let robot = below("robots/aros.toml");
+    let shipped = RunSettings::shipped(&configuration);
     let settings = RunSettings {
-        task,
-        robot,
-        model: below("perception/preshape.toml"),
-        pipeline: pipeline.clone(),
-        safety: absolute(args.safety.unwrap_or_else(|| below("safety.toml")))?,
-        report,
+        task: absolute(args.task.unwrap_or(shipped.task))?,
+        pipeline: absolute(args.pipeline.unwrap_or(shipped.pipeline))?,
+        safety: absolute(args.safety.unwrap_or(shipped.safety))?,
+        report: absolute(args.report.unwrap_or_else(|| unused_report_folder(Path::new("reports"))))?,
         seed: args.seed,
         partner: partner::setting(&args.partner, &reaches),
         world: args.world,
+        ..shipped
     };
     let (task, _) = NetworkPlan::load(&settings.task)?;
     Robot::load(&settings.robot)?;
@@ -111,8 +106,8 @@ fn prepare(args: Args) -> Result<Launch> {
     PreshapeModel::load(&settings.model)?;
     Partner::load(&settings.partner, &task, settings.seed)?;
     Ok(Launch {
+        pipeline: Pipeline::load(&settings.pipeline)?,
         settings,
-        pipeline: Pipeline::load(&pipeline)?,
         task,
         programs,
         duration: args.duration,

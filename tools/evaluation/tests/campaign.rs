@@ -5,22 +5,12 @@ use coact_evaluation::{Ablation, Campaign, Comparison, Mind, Report, Trial, draw
 use coact_joint_task::NetworkPlan;
 use coact_messages::LayerKind;
 use coact_pipeline::{RunSettings, WorldMode};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn settings(partner: &str) -> RunSettings {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
-    RunSettings {
-        task: folder.join("tasks/toy-vehicle.toml"),
-        robot: folder.join("robots/aros.toml"),
-        model: folder.join("perception/preshape.toml"),
-        pipeline: folder.join("pipeline.toml"),
-        safety: folder.join("safety.toml"),
-        report: PathBuf::new(),
-        seed: 1,
-        partner: partner.into(),
-        world: WorldMode::Kinematic,
-    }
+    RunSettings { partner: partner.into(), world: WorldMode::Kinematic, ..RunSettings::shipped(&folder) }
 }
 
 fn trials(partner: &str, mind: &Mind, trials: u64, threads: usize) -> Vec<Trial> {

@@ -1,5 +1,5 @@
 use coact_pipeline::{RunSettings, WorldMode};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// What the person does in a run that is shown: a script of `rt-config/scenarios`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -51,15 +51,10 @@ impl Scenario {
     pub(crate) fn settings(self, configuration: &Path, seed: u64) -> RunSettings {
         let script = configuration.join("scenarios").join(self.file());
         RunSettings {
-            task: configuration.join("tasks/toy-vehicle.toml"),
-            robot: configuration.join("robots/aros.toml"),
-            model: configuration.join("perception/preshape.toml"),
-            pipeline: configuration.join("pipeline.toml"),
-            safety: configuration.join("safety.toml"),
-            report: PathBuf::new(),
             seed,
             partner: format!("script:{}", script.display()),
             world: WorldMode::Kinematic,
+            ..RunSettings::shipped(configuration)
         }
     }
 }

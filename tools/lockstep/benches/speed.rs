@@ -51,17 +51,7 @@ fn report(name: &str, ticks: u64, taken: Duration, target: f64) {
 
 fn settings(world: WorldMode) -> RunSettings {
     let configuration = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
-    RunSettings {
-        task: configuration.join("tasks/toy-vehicle.toml"),
-        robot: configuration.join("robots/aros.toml"),
-        model: configuration.join("perception/preshape.toml"),
-        pipeline: configuration.join("pipeline.toml"),
-        safety: configuration.join("safety.toml"),
-        report: PathBuf::new(),
-        seed: 1,
-        partner: "synthetic".into(),
-        world,
-    }
+    RunSettings { world, ..RunSettings::shipped(&configuration) }
 }
 
 fn lockstep(world: WorldMode) -> Lockstep {

@@ -13,18 +13,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let duration: u64 = arguments.next().map_or(Ok(200), |seconds| seconds.parse())?;
     let world = arguments.next().map_or(Ok(WorldMode::Kinematic), |world| world.parse())?;
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
-    let model = std::env::var("MODEL").map_or_else(|_| folder.join("perception/preshape.toml"), Into::into);
-    let mut stages = Lockstep::new(&RunSettings {
-        task: folder.join("tasks/toy-vehicle.toml"),
-        robot: folder.join("robots/aros.toml"),
-        model,
-        pipeline: folder.join("pipeline.toml"),
-        safety: folder.join("safety.toml"),
-        report: std::env::temp_dir(),
-        seed,
-        partner,
-        world,
-    })?;
+    let shipped = RunSettings::shipped(&folder);
+    let model = std::env::var("MODEL").map_or_else(|_| shipped.model.clone(), Into::into);
+    let mut stages = Lockstep::new(&RunSettings { model, seed, partner, world, ..shipped })?;
     let mut last = String::new();
     let mut errors = Vec::new();
     let started = std::time::Instant::now();

@@ -47,17 +47,8 @@ fn report(
     world: WorldMode,
     seconds: u64,
 ) -> Result<(), Box<dyn std::error::Error>> {
-    let mut stages = Lockstep::new(&RunSettings {
-        task: config.join("tasks/toy-vehicle.toml"),
-        robot: config.join("robots/aros.toml"),
-        model: config.join("perception/preshape.toml"),
-        pipeline: config.join("pipeline.toml"),
-        safety: config.join("safety.toml"),
-        report: std::env::temp_dir(),
-        seed,
-        partner: partner.into(),
-        world,
-    })?;
+    let mut stages =
+        Lockstep::new(&RunSettings { seed, partner: partner.into(), world, ..RunSettings::shipped(config) })?;
     let [mut decided, mut fields, mut setpoints] = [const { () }; 3].map(|()| DefaultHasher::new());
     let mut decisions = Vec::new();
     while stages.ticks() < seconds * CYCLES_PER_SECOND {

@@ -40,19 +40,10 @@ pub struct Args {
 /// # Errors
 /// A file that is refused or cannot be written, or nothing that succeeded.
 pub fn run(args: Args) -> Result<ExitCode> {
-    let configuration = Installation::find()?.configuration;
-    let task = absolute(args.task.unwrap_or_else(|| configuration.join("tasks/toy-vehicle.toml")))?;
-    let settings = |seed: u64| RunSettings {
-        task: task.clone(),
-        robot: configuration.join("robots/aros.toml"),
-        model: configuration.join("perception/preshape.toml"),
-        pipeline: configuration.join("pipeline.toml"),
-        safety: configuration.join("safety.toml"),
-        report: PathBuf::new(),
-        seed,
-        partner: "synthetic".into(),
-        world: WorldMode::Kinematic,
-    };
+    let shipped = RunSettings::shipped(&Installation::find()?.configuration);
+    let task = absolute(args.task.unwrap_or_else(|| shipped.task.clone()))?;
+    let settings =
+        |seed: u64| RunSettings { task: task.clone(), seed, world: WorldMode::Kinematic, ..shipped.clone() };
     let first = Lockstep::new(&settings(args.seed))?;
     let mut mapping = Mapping::new(first.task(), first.plan())?;
     let name = first.task().name.clone();

@@ -70,19 +70,16 @@ impl RealTime<'_> {
     }
 
     fn launch(&self, subject: &Subject, model: PathBuf, report: &Path) -> Result<Launch> {
-        let below = |path: &str| self.installation.configuration.join(path);
         let folder = std::path::absolute(self.recordings)?;
         let last = subject.replay.spans().last().map_or(0, |span| span.end);
         let settings = RunSettings {
             task: std::path::absolute(self.task)?,
-            robot: below("robots/aros.toml"),
             model: std::path::absolute(model)?,
-            pipeline: below("pipeline.toml"),
-            safety: below("safety.toml"),
             report: std::path::absolute(report)?,
             seed: self.evaluation.seed,
             partner: format!("replay:{}:{}", subject.participant, folder.display()),
             world: WorldMode::Kinematic,
+            ..RunSettings::shipped(&self.installation.configuration)
         };
         Ok(Launch {
             pipeline: Pipeline::load(&settings.pipeline)?,

@@ -11,17 +11,11 @@ pub fn configuration() -> PathBuf {
 }
 
 pub fn settings(seed: u64, partner: &str) -> RunSettings {
-    let folder = configuration();
     RunSettings {
-        task: folder.join("tasks/toy-vehicle.toml"),
-        robot: folder.join("robots/aros.toml"),
-        model: folder.join("perception/preshape.toml"),
-        pipeline: folder.join("pipeline.toml"),
-        safety: folder.join("safety.toml"),
-        report: PathBuf::new(),
         seed,
         partner: partner.into(),
         world: WorldMode::Kinematic,
+        ..RunSettings::shipped(&configuration())
     }
 }
 
