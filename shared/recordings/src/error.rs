@@ -12,10 +12,26 @@ pub enum RecordingError {
         reason: std::io::Error,
     },
     /// The folder holds no recording.
-    #[error("{path}: no .csv file in it; expected one for each person, e.g. p1.csv", path = path.display())]
+    #[error("{path}: no recording in it; expected one file for each person, e.g. p1.csv or p1.csv.gz", path = path.display())]
     Empty {
         /// The folder.
         path: PathBuf,
+    },
+    /// The same recording stands in the folder with and without compression.
+    #[error("{path}: stands beside {other}; expected one of them only", path = path.display(), other = other.display())]
+    Twice {
+        /// One file.
+        path: PathBuf,
+        /// The other one.
+        other: PathBuf,
+    },
+    /// A file holds more text than any recording should.
+    #[error("{path}: holds more than {limit} bytes of text; expected the recording of one person", path = path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// How much is read at most, bytes.
+        limit: u64,
     },
     /// A column is missing.
     #[error("{path}:1: column \"{column}\" is missing; expected {expected}", path = path.display())]

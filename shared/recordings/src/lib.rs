@@ -1,4 +1,20 @@
-//! Recordings of people's reaches: a folder of CSV files, one for each person.
+//! Recordings of people's reaches: a folder of CSV files, one for each person, compressed with gzip or not.
+//!
+//! ```
+//! use coact_recordings::{Order, read_folder};
+//! use std::path::Path;
+//!
+//! # let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/reaches"));
+//! let reaches = read_folder(folder)?;
+//! let people = Order::Trial { seed: 1 }.people(&reaches);
+//! for person in &people {
+//!     let times: f64 = person.iter().map(|reach| reach.movement_time).sum();
+//!     let mean = times / person.len() as f64;
+//!     println!("participant {}: {} reaches of {mean:.2} s", person[0].participant, person.len());
+//! }
+//! assert_eq!((people.len(), reaches.len()), (6, 537));
+//! # Ok::<(), coact_recordings::RecordingError>(())
+//! ```
 //!
 //! Columns: `participant`, `size` (S, M, L), `trial`, `t_rel_onset_s` (0 = reach onset), `mt_s` (onset to grasp end),
 //! `rtg` (1 within the reach), then `x`, `y` (pixels) and `p` (the detector's confidence, 0 = joint lost) of each of

@@ -1,5 +1,8 @@
 use crate::{Frame, ImagePoint, Reach, RecordingError, Size};
 use csv::StringRecord;
+use flate2::read::MultiGzDecoder;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Joints of the right arm and hand, as the columns name them, in the order of
@@ -16,23 +19,29 @@ pub const JOINTS: [&str; 9] = [
     "RPinky1Knuckles",
 ];
 
-/// Longest reach that is plausible, s.
+/// How much text of one file is read at most, bytes: some thirty times the longest recording that is shipped, and little enough
+/// that a compressed file cannot fill the memory.
+const LARGEST: u64 = 64 << 20;
+/// Longest reach that is plausible, s: ten times the longest recorded one.
 const LONGEST: f64 = 10.0;
 
-/// Reads every `.csv` file of a folder, in the order of their names.
+/// Reads every `.csv` and `.csv.gz` file of a folder, in the order of their names.
 ///
 /// # Errors
-/// [`RecordingError`] when the folder holds none, or one of them is refused.
+/// [`RecordingError`] when the folder holds none, one of them is refused, or one stands there both ways.
 pub fn read_folder(folder: &Path) -> Result<Vec<Reach>, RecordingError> {
     let io = |reason| RecordingError::Io { path: folder.to_path_buf(), reason };
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(io)? {
         let path = entry.map_err(io)?.path();
-        if path.extension().is_some_and(|extension| extension == "csv") {
+        if recording_name(&path).is_some() {
             files.push(path);
         }
     }
     files.sort();
+    if let Some(pair) = files.windows(2).find(|pair| recording_name(&pair[0]) == recording_name(&pair[1])) {
+        return Err(RecordingError::Twice { path: pair[1].clone(), other: pair[0].clone() });
+    }
     if files.is_empty() {
         return Err(RecordingError::Empty { path: folder.to_path_buf() });
     }
@@ -43,15 +52,20 @@ pub fn read_folder(folder: &Path) -> Result<Vec<Reach>, RecordingError> {
     Ok(reaches)
 }
 
-/// Reads one file.
+/// A file's name without the endings of a recording; none for other files.
+fn recording_name(path: &Path) -> Option<&str> {
+    let name = path.file_name()?.to_str()?;
+    name.strip_suffix(".gz").unwrap_or(name).strip_suffix(".csv")
+}
+
+/// Reads one file; one that ends in `.gz` is decompressed on the way.
 ///
 /// # Errors
 /// [`RecordingError`] with file and line for a missing column, a field that is no number or out of range, a broken
 /// line, frames out of order, or a reach that stands in two places.
 pub fn read_file(path: &Path) -> Result<Vec<Reach>, RecordingError> {
-    let file = std::fs::File::open(path)
-        .map_err(|reason| RecordingError::Io { path: path.to_path_buf(), reason })?;
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
+    let text = read_text(path)?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_slice());
     let header = reader.headers().map_err(|error| broken(path, &error))?.clone();
     let columns = Columns::find(path, &header)?;
     let mut reaches: Vec<Reach> = Vec::new();
@@ -62,6 +76,21 @@ pub fn read_file(path: &Path) -> Result<Vec<Reach>, RecordingError> {
         append(row, &mut reaches).map_err(|message| at(path, line, message))?;
     }
     Ok(reaches)
+}
+
+/// The whole text of a file, decompressed if need be.
+fn read_text(path: &Path) -> Result<Vec<u8>, RecordingError> {
+    let io = |reason| RecordingError::Io { path: path.to_path_buf(), reason };
+    let file = File::open(path).map_err(io)?;
+    let is_compressed = path.extension().is_some_and(|extension| extension == "gz");
+    let source: Box<dyn Read> =
+        if is_compressed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
+    let mut text = Vec::new();
+    source.take(LARGEST + 1).read_to_end(&mut text).map_err(io)?;
+    if text.len() as u64 > LARGEST {
+        return Err(RecordingError::TooLarge { path: path.to_path_buf(), limit: LARGEST });
+    }
+    Ok(text)
 }
 
 fn at(path: &Path, line: u64, message: String) -> RecordingError {

@@ -2,7 +2,10 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use coact_recordings::{JOINTS, RecordingError, Size, read_file, read_folder};
-use std::path::PathBuf;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 fn header() -> String {
@@ -99,4 +102,63 @@ fn a_folder_without_recordings_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     assert!(matches!(read_folder(folder.path()), Err(RecordingError::Empty { .. })));
     assert!(matches!(read_folder(&folder.path().join("absent")), Err(RecordingError::Io { .. })));
+}
+
+/// Writes what `source` yields to `path`, compressed.
+fn compress(mut source: impl Read, path: &Path) {
+    let mut encoder = GzEncoder::new(std::fs::File::create(path).unwrap(), Compression::fast());
+    std::io::copy(&mut source, &mut encoder).unwrap();
+    encoder.finish().unwrap().flush().unwrap();
+}
+
+#[test]
+fn a_compressed_file_is_read_as_the_plain_one() {
+    let rows = [header(), row("S", 1, 0.0), row("M", 1, 0.0), row("M", 1, 0.1)];
+    let (plain, _path) = file(&rows);
+    let folder = tempfile::tempdir().unwrap();
+    compress((rows.join("\n") + "\n").as_bytes(), &folder.path().join("p7.csv.gz"));
+    std::fs::write(folder.path().join("LICENSE"), "no recording").unwrap();
+    assert_eq!(read_folder(folder.path()).unwrap(), read_folder(plain.path()).unwrap());
+}
+
+#[test]
+fn a_mistake_in_a_compressed_file_is_named_with_file_and_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p7.csv.gz");
+    let lines = [header(), row("S", 1, 0.0), row("XL", 1, 0.1)];
+    compress(lines.join("\n").as_bytes(), &path);
+    let message = read_file(&path).unwrap_err().to_string();
+    assert!(message.contains("p7.csv.gz:3: size: expected S, M or L"), "{message}");
+}
+
+#[test]
+fn a_broken_archive_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p7.csv.gz");
+    compress(header().as_bytes(), &path);
+    let whole = std::fs::read(&path).unwrap();
+    for broken in [&whole[..whole.len() / 2], &b"participant,size"[..]] {
+        std::fs::write(&path, broken).unwrap();
+        let error = read_file(&path).unwrap_err();
+        assert!(
+            matches!(&error, RecordingError::Io { .. }) && error.to_string().contains("p7.csv.gz"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn an_archive_that_would_fill_the_memory_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p7.csv.gz");
+    compress(std::io::repeat(b' ').take(1 << 30), &path);
+    assert!(matches!(read_file(&path), Err(RecordingError::TooLarge { .. })));
+}
+
+#[test]
+fn a_recording_that_stands_in_the_folder_both_ways_is_refused() {
+    let (folder, path) = file(&[header(), row("S", 1, 0.0)]);
+    compress(std::fs::File::open(&path).unwrap(), &folder.path().join("p7.csv.gz"));
+    let message = read_folder(folder.path()).unwrap_err().to_string();
+    assert!(message.contains("p7.csv.gz") && message.contains("p7.csv;"), "{message}");
 }
