@@ -1,4 +1,4 @@
-use coact_joint_task::{NetworkPlan, Population};
+use coact_joint_task::{NetworkPlan, Population, Role};
 use coact_messages::LayerKind;
 
 /// What the populations of the layers stand for that the robot speaks of, in their order in the field.
@@ -35,13 +35,13 @@ pub enum Mistake {
 impl From<&NetworkPlan> for Meanings {
     fn from(plan: &NetworkPlan) -> Self {
         let of = |layer| plan.populations_of(layer).iter();
-        let word = |population: &Population| population.chain_index.filter(|_| population.role == "word");
+        let word = |population: &Population| population.chain_index.filter(|_| population.role == Role::Word);
         let goal = |population: &Population| {
             population.chain_index.zip(population.subgoal).map(|(chain, subgoal)| Goal { chain, subgoal })
         };
         let error = |population: &Population| match population.role {
-            "means" => population.kind.map(Mistake::Means),
-            "loss" => population.kind.map(Mistake::Loss),
+            Role::Means => population.kind.map(Mistake::Means),
+            Role::Loss => population.kind.map(Mistake::Loss),
             _ => population.subgoal.map(Mistake::Goal),
         };
         Self {

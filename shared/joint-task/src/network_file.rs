@@ -1,6 +1,6 @@
 //! The network file as it is written.
 
-use crate::{Agent, Pool, file::Name};
+use crate::{Agent, Pool, Role, task_file::Name};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -80,7 +80,7 @@ pub(crate) struct RuleEntry {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Selector {
     pub layer: Name,
-    pub role: Option<Name>,
+    pub role: Option<Role>,
     pub side: Option<Agent>,
     pub workspace: Option<Agent>,
     pub steadied: Option<bool>,

@@ -1,13 +1,13 @@
-use crate::{Act, ActionType, Agent, Task};
+use crate::{Act, Action, Agent, Chain, Kind, Role, Task};
 use coact_messages::LayerKind;
 
 /// One population of a layer, or one channel of the percept, and what it stands for in the task.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Population {
     /// What it stands for, in words.
     pub label: String,
-    /// Role that rules select by: how an act, chain or action works (see the network file).
-    pub role: &'static str,
+    /// What rules select by.
+    pub role: Role,
     /// Index of the observable act.
     pub act: Option<usize>,
     /// Index of the kind of part.
@@ -36,6 +36,29 @@ pub struct Population {
     pub first: bool,
 }
 
+impl Population {
+    /// A population that stands for nothing of the task's lists.
+    pub(crate) fn new(role: Role, label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            role,
+            act: None,
+            kind: None,
+            grip: None,
+            gesture: None,
+            subgoal: None,
+            side: None,
+            workspace: None,
+            chain: None,
+            chain_index: None,
+            answer: None,
+            rule: None,
+            steadied: false,
+            first: false,
+        }
+    }
+}
+
 /// The populations of `layer`, in their order in the field.
 pub(crate) fn populations(task: &Task, layer: LayerKind) -> Vec<Population> {
     match layer {
@@ -52,36 +75,30 @@ pub(crate) fn populations(task: &Task, layer: LayerKind) -> Vec<Population> {
 
 pub(crate) fn acts(task: &Task) -> Vec<Population> {
     let act = |(index, act): (usize, &Act)| {
-        let nothing = Population::default();
-        let meaning = match *act {
-            Act::Rest => Population { role: "rest", ..nothing },
-            Act::Idle => Population { role: "idle", ..nothing },
-            Act::Reach => Population { role: "reach", ..nothing },
-            Act::Hidden => Population { role: "hidden", ..nothing },
-            Act::Gesture(gesture) => Population { role: "gesture", gesture: Some(gesture), ..nothing },
+        let of = |role| Population { act: Some(index), ..Population::new(role, task.act_name(index)) };
+        match *act {
+            Act::Rest => of(Role::Rest),
+            Act::Idle => of(Role::Idle),
+            Act::Reach => of(Role::Reach),
+            Act::Hidden => of(Role::Hidden),
+            Act::Gesture(gesture) => Population { gesture: Some(gesture), ..of(Role::Gesture) },
             Act::Word(chain) => Population {
-                role: "word",
                 kind: Some(task.chains[chain].kind),
                 chain: Some(task.chains[chain].name.clone()),
                 chain_index: Some(chain),
-                ..nothing
+                ..of(Role::Word)
             },
-            Act::Grasp { grip, kind } => {
-                Population { role: "grasp", grip: Some(grip), kind: Some(kind), ..nothing }
-            }
-        };
-        Population { label: task.act_name(index), act: Some(index), ..meaning }
+            Act::Grasp { grip, kind } => Population { grip: Some(grip), kind: Some(kind), ..of(Role::Grasp) },
+        }
     };
     task.acts.iter().enumerate().map(act).collect()
 }
 
 pub(crate) fn objects(task: &Task, workspace: Agent) -> Vec<Population> {
-    let object = |(index, kind): (usize, &crate::Kind)| Population {
-        label: kind.name.clone(),
-        role: "object",
+    let object = |(index, kind): (usize, &Kind)| Population {
         kind: Some(index),
         workspace: Some(workspace),
-        ..Population::default()
+        ..Population::new(Role::Object, &kind.name)
     };
     task.kinds.iter().enumerate().map(object).collect()
 }
@@ -93,44 +110,40 @@ pub(crate) fn subgoals(task: &Task) -> Vec<Population> {
 /// What can be wrong: the goal (its turn has not come, or it is done already), the means (a part is asked for that is at
 /// hand), and what the robot itself does (a part is lost).
 fn errors(task: &Task) -> Vec<Population> {
-    let goals = subgoals(task).into_iter().map(|goal| Population { role: "goal", ..goal });
+    let goals = subgoals(task).into_iter().map(|goal| Population { role: Role::Goal, ..goal });
     let done = subgoals(task).into_iter().map(|goal| Population {
-        role: "done",
+        role: Role::Done,
         label: format!("done: {}", goal.label),
         ..goal
     });
-    let of_kind = |role: &'static str, what: &'static str| {
+    let of_kind = |role: Role, what: &'static str| {
         let error =
             move |part: Population| Population { role, label: format!("{what}: {}", part.label), ..part };
         objects(task, Agent::Person).into_iter().map(error)
     };
-    goals.chain(done).chain(of_kind("means", "at hand")).chain(of_kind("loss", "lost")).collect()
+    goals.chain(done).chain(of_kind(Role::Means, "at hand")).chain(of_kind(Role::Loss, "lost")).collect()
 }
 
 fn of_subgoal(task: &Task, index: usize) -> Population {
     let subgoal = &task.subgoals[index];
     Population {
-        label: subgoal.name.clone(),
-        role: "subgoal",
         kind: Some(subgoal.kind),
         subgoal: Some(index),
         side: Some(subgoal.side),
         steadied: subgoal.steadied,
         first: subgoal.after.is_empty(),
-        ..Population::default()
+        ..Population::new(Role::Subgoal, &subgoal.name)
     }
 }
 
 fn chains(task: &Task) -> Vec<Population> {
-    let chain = |(index, chain): (usize, &crate::Chain)| {
+    let chain = |(index, chain): (usize, &Chain)| {
         let (role, grip, gesture) = match chain.act {
-            Act::Grasp { grip, .. } => ("grip", Some(grip), None),
-            Act::Gesture(gesture) => ("gesture", None, Some(gesture)),
-            Act::Rest | Act::Idle | Act::Reach | Act::Hidden | Act::Word(_) => ("movement", None, None),
+            Act::Grasp { grip, .. } => (Role::Grip, Some(grip), None),
+            Act::Gesture(gesture) => (Role::Gesture, None, Some(gesture)),
+            Act::Rest | Act::Idle | Act::Reach | Act::Hidden | Act::Word(_) => (Role::Movement, None, None),
         };
         Population {
-            label: format!("{}: {}", chain.name, task.kinds[chain.kind].name),
-            role,
             grip,
             gesture,
             kind: Some(chain.kind),
@@ -139,7 +152,7 @@ fn chains(task: &Task) -> Vec<Population> {
             chain: Some(chain.name.clone()),
             chain_index: Some(index),
             answer: chain.answer.clone(),
-            ..Population::default()
+            ..Population::new(role, format!("{}: {}", chain.name, task.kinds[chain.kind].name))
         }
     };
     task.chains.iter().enumerate().map(chain).collect()
@@ -171,28 +184,16 @@ fn goals(task: &Task) -> Vec<Population> {
 }
 
 fn actions(task: &Task) -> Vec<Population> {
-    let action = |action: &crate::Action| {
-        let subgoal = action.subgoal.map(|index| of_subgoal(task, index)).unwrap_or_default();
+    let action = |action: &Action| {
+        let role = Role::from(action.action_type);
+        let served = action.subgoal.map(|index| of_subgoal(task, index));
         Population {
             label: action.name.clone(),
-            role: type_name(action.action_type),
+            role,
             kind: action.kind,
             rule: Some(action.rule.clone()),
-            ..subgoal
+            ..served.unwrap_or_else(|| Population::new(role, ""))
         }
     };
     task.actions.iter().map(action).collect()
-}
-
-fn type_name(action_type: ActionType) -> &'static str {
-    match action_type {
-        ActionType::Insert => "insert",
-        ActionType::Request => "request",
-        ActionType::Receive => "receive",
-        ActionType::Give => "give",
-        ActionType::Steady => "steady",
-        ActionType::Point => "point",
-        ActionType::Speak => "speak",
-        ActionType::Report => "report",
-    }
 }

@@ -1,15 +1,24 @@
 //! From the network file's rules and a task to layers, populations and synapses.
 
-use crate::error::Source;
-use crate::network_file::{Attribute, LayerEntry, NetworkFile, Relation, RuleEntry, Selector};
-use crate::network_plan::{Channel, ChannelPlan, LayerPlan, NetworkPlan, Synapse};
-use crate::population::{Population, acts, objects, populations, subgoals};
-use crate::{Agent, Task, TaskError};
+use crate::network_file::{LayerEntry, NetworkFile};
+use crate::network_plan::{LayerPlan, NetworkPlan};
+use crate::percept_channels::channels;
+use crate::population::{Population, populations};
+use crate::source_file::SourceFile;
+use crate::synapse_rules::SynapseRules;
+use crate::{Task, TaskError};
 use coact_messages::{LayerKind, MAX_POPULATIONS, MAX_SITES};
 use coact_neural_field::{Forgetting, Kernel, Parameters};
 use std::hash::{DefaultHasher, Hasher};
 use std::ops::Range;
 use std::path::Path;
+
+/// Fewest sites of a population: fewer do not hold the middle of its input, a Gaussian of some sites' width. Chosen by
+/// hand; the shipped networks have 10.
+const LEAST_SITES: usize = 6;
+/// Shortest time scale of a layer, ms: explicit Euler steps of one period follow a field's equation as long as they are at
+/// most a twentieth of tau, for slopes of the sigmoid about 5.
+const LEAST_TAU: f64 = 20.0;
 
 impl NetworkPlan {
     /// Makes the network of the task file at `path` by the rules of the network file that it names.
@@ -17,7 +26,7 @@ impl NetworkPlan {
     /// # Errors
     /// A [`TaskError`] that names file, line, key and what was expected.
     pub fn load(path: &Path) -> Result<(Task, Self), TaskError> {
-        let (mut task, network, learned) = crate::load::load(path)?;
+        let (mut task, network, learned) = crate::load_task::load(path)?;
         let (mut plan, fingerprint) = wire(&task, &network)?;
         task.fingerprint ^= fingerprint;
         if let Some(learned) = learned {
@@ -29,7 +38,7 @@ impl NetworkPlan {
 
 /// The network of `task` by the rules at `path`, and the fingerprint of those rules.
 fn wire(task: &Task, path: &Path) -> Result<(NetworkPlan, u64), TaskError> {
-    let source = Source::read(path)?;
+    let source = SourceFile::read(path)?;
     let file: NetworkFile = source.parse()?;
     let mut hash = DefaultHasher::new();
     hash.write(source.text().as_bytes());
@@ -38,37 +47,27 @@ fn wire(task: &Task, path: &Path) -> Result<(NetworkPlan, u64), TaskError> {
 }
 
 struct Wiring<'a> {
-    source: &'a Source,
+    source: &'a SourceFile,
     file: &'a NetworkFile,
     task: &'a Task,
-}
-
-/// A place in the row of populations and channels under a name of the network file.
-struct Row {
-    names: Vec<(String, Range<usize>)>,
-    meanings: Vec<Population>,
 }
 
 impl Wiring<'_> {
     fn plan(&self) -> Result<NetworkPlan, TaskError> {
         let (layers, populations) = self.layers()?;
         let (channels, channel_names) = channels(self.task, populations.len());
-        let row = Row {
-            names: layers
-                .iter()
-                .map(|layer| (layer.kind.name().into(), layer.populations.clone()))
-                .chain(channel_names)
-                .collect(),
-            meanings: populations
-                .iter()
-                .chain(channels.iter().map(|channel| &channel.meaning))
-                .cloned()
-                .collect(),
+        let named = |layer: &LayerPlan| (layer.kind.name().to_owned(), layer.populations.clone());
+        let meanings = populations.iter().chain(channels.iter().map(|channel| &channel.meaning));
+        let rules = SynapseRules {
+            source: self.source,
+            task: self.task,
+            names: layers.iter().map(named).chain(channel_names).collect(),
+            meanings: meanings.cloned().collect(),
         };
-        let mut synapses = self.connect("synapse", &self.file.synapse, &row)?;
+        let mut synapses = rules.connect("synapse", &self.file.synapse)?;
         synapses.sort_by_key(|synapse| (synapse.to, synapse.rule, synapse.from));
         Ok(NetworkPlan {
-            forgetting: self.connect("forgetting", &self.file.forgetting, &row)?,
+            forgetting: rules.connect("forgetting", &self.file.forgetting)?,
             reasons: self.file.synapse.iter().map(|rule| rule.why.clone()).collect(),
             pools: self.file.synapse.iter().map(|rule| rule.pool).collect(),
             sites_per_population: *self.file.sites.per_population.get_ref(),
@@ -93,25 +92,34 @@ impl Wiring<'_> {
             layers.push(self.layer(index, kind, range)?);
             row.extend(own);
         }
-        for (index, entry) in self.file.layer.iter().enumerate() {
-            if !LayerKind::ALL.iter().any(|kind| kind.name() == entry.name.get_ref()) {
-                let names = LayerKind::ALL.map(|kind| format!("{:?}", kind.name())).join(", ");
-                let problem = format!("{:?} is no layer; expected one of {names}", entry.name.get_ref());
-                return Err(self.source.error(entry.name.span(), format!("layer[{index}].name"), problem));
-            }
-        }
-        let width = &self.file.sites.per_population;
-        let sites = row.len() * width.get_ref();
-        if *width.get_ref() < 6 || row.len() > MAX_POPULATIONS || sites > MAX_SITES {
-            let problem = format!(
-                "{} populations of {} sites; expected at least 6 sites each, at most {MAX_POPULATIONS} populations \
-                 and {MAX_SITES} sites in all",
-                row.len(),
-                width.get_ref()
-            );
-            return Err(self.source.error(width.span(), "sites.per_population", problem));
-        }
+        self.check_names()?;
+        self.check_size(row.len())?;
         Ok((layers, row))
+    }
+
+    /// Refuses layers that the architecture does not have.
+    fn check_names(&self) -> Result<(), TaskError> {
+        let is_known = |name: &str| LayerKind::ALL.iter().any(|kind| kind.name() == name);
+        let unknown = self.file.layer.iter().enumerate().find(|(_, entry)| !is_known(entry.name.get_ref()));
+        let Some((index, entry)) = unknown else { return Ok(()) };
+        let names = LayerKind::ALL.map(|kind| format!("{:?}", kind.name())).join(", ");
+        let problem = format!("{:?} is no layer; expected one of {names}", entry.name.get_ref());
+        Err(self.source.error(entry.name.span(), format!("layer[{index}].name"), problem))
+    }
+
+    /// Refuses a network that a field frame has no room for.
+    fn check_size(&self, populations: usize) -> Result<(), TaskError> {
+        let width = &self.file.sites.per_population;
+        let per_population = *width.get_ref();
+        let fits = populations <= MAX_POPULATIONS && populations * per_population <= MAX_SITES;
+        if per_population >= LEAST_SITES && fits {
+            return Ok(());
+        }
+        let problem = format!(
+            "{populations} populations of {per_population} sites; expected at least {LEAST_SITES} sites each, at most \
+             {MAX_POPULATIONS} populations and {MAX_SITES} sites in all"
+        );
+        Err(self.source.error(width.span(), "sites.per_population", problem))
     }
 
     fn layer(
@@ -139,9 +147,10 @@ impl Wiring<'_> {
         parameters
             .check()
             .map_err(|error| self.source.error(name.span(), key(error.name), error.to_string()))?;
-        if *tau < 20.0 {
-            let problem =
-                format!("tau is {tau}; expected at least 20 ms: Euler steps of 1 ms need dt/tau <= 0.05");
+        if *tau < LEAST_TAU {
+            let problem = format!(
+                "tau is {tau}; expected at least {LEAST_TAU} ms: Euler steps of 1 ms need dt/tau <= 0.05"
+            );
             return Err(self.source.error(name.span(), key("tau"), problem));
         }
         if *h.get_ref() >= 0.0 {
@@ -163,155 +172,4 @@ impl Wiring<'_> {
             populations,
         })
     }
-
-    fn connect(&self, table: &str, rules: &[RuleEntry], row: &Row) -> Result<Vec<Synapse>, TaskError> {
-        let mut synapses = Vec::new();
-        for (index, rule) in rules.iter().enumerate() {
-            let sources = self.select(&format!("{table}[{index}].from"), &rule.from, row, true)?;
-            let targets = self.select(&format!("{table}[{index}].to"), &rule.to, row, false)?;
-            for &to in &targets {
-                let related = |&&from: &&usize| self.related(rule, &row.meanings[from], &row.meanings[to]);
-                let found: Vec<usize> = sources.iter().filter(related).copied().collect();
-                let divisor =
-                    if rule.normalised { self.divisor(rule, found.len(), &row.meanings[to]) } else { 1.0 };
-                let weight = rule.weight / divisor;
-                synapses.extend(found.into_iter().map(|from| Synapse { from, to, weight, rule: index }));
-            }
-        }
-        Ok(synapses)
-    }
-
-    /// The divisor of a normalised weight: the number of sources or, where the plan relates them, the number of all
-    /// steps that come before, because a source that stands for one of them tells nothing of the others.
-    fn divisor(&self, rule: &RuleEntry, sources: usize, to: &Population) -> f64 {
-        let steps = match (rule.relation, to.subgoal) {
-            (Some(Relation::Before), Some(subgoal)) => self.task.subgoals[subgoal].after.len(),
-            _ => sources,
-        };
-        steps.max(1) as f64
-    }
-
-    fn select(
-        &self,
-        key: &str,
-        selector: &Selector,
-        row: &Row,
-        source: bool,
-    ) -> Result<Vec<usize>, TaskError> {
-        let Selector { layer, role, side, workspace, steadied, first } = selector;
-        let names = || row.names.iter().filter(|(_, range)| source || range.start < self.layer_end(row));
-        let range = names().find(|(name, _)| name == layer.get_ref()).map(|(_, range)| range.clone());
-        let range = range.ok_or_else(|| {
-            let known: Vec<_> = names().map(|(name, _)| format!("{name:?}")).collect();
-            let problem = format!("{:?} is unknown; expected one of {}", layer.get_ref(), known.join(", "));
-            self.source.error(layer.span(), format!("{key}.layer"), problem)
-        })?;
-        if let Some(role) = role {
-            self.known_role(key, role)?;
-        }
-        Ok(range
-            .filter(|&index| {
-                let meaning = &row.meanings[index];
-                role.as_ref().is_none_or(|role| meaning.role == role.get_ref())
-                    && side.is_none_or(|side| meaning.side == Some(side))
-                    && workspace.is_none_or(|workspace| meaning.workspace == Some(workspace))
-                    && steadied.is_none_or(|steadied| meaning.steadied == steadied)
-                    && first.is_none_or(|first| meaning.first == first)
-            })
-            .collect())
-    }
-
-    fn layer_end(&self, row: &Row) -> usize {
-        row.names[LayerKind::ALL.len() - 1].1.end
-    }
-
-    fn known_role(&self, key: &str, role: &crate::file::Name) -> Result<(), TaskError> {
-        const ROLES: [&str; 21] = [
-            "rest", "idle", "reach", "hidden", "word", "gesture", "grasp", "grip", "insert", "request",
-            "receive", "give", "steady", "point", "speak", "report", "subgoal", "goal", "done", "means",
-            "loss",
-        ];
-        if ROLES.contains(&role.get_ref().as_str()) {
-            return Ok(());
-        }
-        let problem = format!("{:?} is no role; expected one of {}", role.get_ref(), ROLES.join(", "));
-        Err(self.source.error(role.span(), format!("{key}.role"), problem))
-    }
-
-    fn related(&self, rule: &RuleEntry, from: &Population, to: &Population) -> bool {
-        let same = rule.same.iter().all(|&attribute| alike(attribute, from, to));
-        let unlike =
-            rule.unlike.is_empty() || rule.unlike.iter().any(|&attribute| !alike(attribute, from, to));
-        same && unlike
-            && match rule.relation {
-                None => true,
-                Some(Relation::Before) => self.comes_before(from, to),
-                Some(Relation::Answers) => {
-                    from.answer.is_some()
-                        && from.answer == to.rule
-                        && (to.subgoal.is_none() || from.subgoal == to.subgoal)
-                        && (to.role != "steady" || from.steadied)
-                }
-            }
-    }
-}
-
-impl Wiring<'_> {
-    /// Whether the plan puts the subgoal of `from` directly before that of `to`; of a population that stands for a kind
-    /// of part, before one of the subgoals that need it.
-    fn comes_before(&self, from: &Population, to: &Population) -> bool {
-        let Some(before) = from.subgoal else { return false };
-        let follows = |after: &usize| self.task.subgoals[*after].after.contains(&before);
-        match to.subgoal {
-            Some(after) => follows(&after),
-            None => (0..self.task.subgoals.len())
-                .filter(|&goal| Some(self.task.subgoals[goal].kind) == to.kind)
-                .any(|goal| follows(&goal)),
-        }
-    }
-}
-
-/// Whether both stand for the same thing, and both for one at all.
-fn alike(attribute: Attribute, from: &Population, to: &Population) -> bool {
-    fn equal<T: PartialEq>(from: &Option<T>, to: &Option<T>) -> bool {
-        from.is_some() && from == to
-    }
-    match attribute {
-        Attribute::Act => equal(&from.act, &to.act),
-        Attribute::Kind => equal(&from.kind, &to.kind),
-        Attribute::Grip => equal(&from.grip, &to.grip),
-        Attribute::Gesture => equal(&from.gesture, &to.gesture),
-        Attribute::Subgoal => equal(&from.subgoal, &to.subgoal),
-        Attribute::Side => equal(&from.side, &to.side),
-        Attribute::Workspace => equal(&from.workspace, &to.workspace),
-        Attribute::Chain => equal(&from.chain, &to.chain),
-    }
-}
-
-/// All channels of the percept, and their names with their places behind `first`.
-fn channels(task: &Task, first: usize) -> (Vec<ChannelPlan>, Vec<(String, Range<usize>)>) {
-    let mut channels = Vec::new();
-    let mut names = Vec::new();
-    let mut add = |name: &str, meanings: Vec<Population>, channel: &dyn Fn(usize) -> Channel| {
-        let start = first + channels.len();
-        let plan = |(index, meaning): (usize, Population)| ChannelPlan {
-            channel: channel(index),
-            meaning: Population { label: format!("{name}: {}", meaning.label), ..meaning },
-        };
-        channels.extend(meanings.into_iter().enumerate().map(plan));
-        names.push((name.to_string(), start..first + channels.len()));
-    };
-    add("always", vec![Population { role: "always", ..Population::default() }], &|_| Channel::Always);
-    add("acts", acts(task), &Channel::Act);
-    for (agent, name) in [(Agent::Robot, "robot"), (Agent::Person, "person")] {
-        let workspace = agent.index();
-        add(&format!("seen {name}"), objects(task, agent), &|kind| Channel::Seen { workspace, kind });
-        add(&format!("gone {name}"), objects(task, agent), &|kind| Channel::Gone { workspace, kind });
-    }
-    add("achieved", subgoals(task), &Channel::Achieved);
-    add("open", subgoals(task), &Channel::Open);
-    add("robot holds", objects(task, Agent::Robot), &Channel::RobotHolds);
-    add("person holds", objects(task, Agent::Person), &Channel::PersonHolds);
-    add("lost", objects(task, Agent::Robot), &Channel::Lost);
-    (channels, names)
 }

@@ -1,4 +1,4 @@
-use coact_joint_task::{Channel, NetworkPlan, Pool, Synapse};
+use coact_joint_task::{Channel, NetworkPlan, Pool, Role, Synapse};
 use coact_messages::LayerKind;
 use serde::Serialize;
 
@@ -72,7 +72,7 @@ fn await_the_deed(plan: &mut NetworkPlan) {
     let (acts, goals) = (rows(LayerKind::ActionObservation), rows(LayerKind::Intention));
     let subgoals = [rows(LayerKind::SubgoalsAchieved), rows(LayerKind::SubgoalsAvailable)];
     let hidden =
-        |synapse: &Synapse| acts.contains(&synapse.to) && plan.populations[synapse.to].role == "hidden";
+        |synapse: &Synapse| acts.contains(&synapse.to) && plan.populations[synapse.to].role == Role::Hidden;
     let predicted = |synapse: &Synapse| {
         goals.contains(&synapse.from) && subgoals.iter().any(|row| row.contains(&synapse.to))
     };
@@ -86,12 +86,12 @@ fn await_the_deed(plan: &mut NetworkPlan) {
         let strength = evidence(plan, act);
         let meaning = &plan.populations[act];
         match (meaning.role, meaning.kind) {
-            ("grasp", Some(kind)) => {
+            (Role::Grasp, Some(kind)) => {
                 gate(channel(plan, |own, _| own == Channel::Always), act, -strength);
                 gate(channel(plan, |own, _| own == Channel::PersonHolds(kind)), act, strength);
             }
-            ("gesture", _) => {
-                let reach = channel(plan, |own, role| matches!(own, Channel::Act(_)) && role == "reach");
+            (Role::Gesture, _) => {
+                let reach = channel(plan, |own, role| matches!(own, Channel::Act(_)) && role == Role::Reach);
                 gate(reach, act, -strength);
             }
             _ => {}
@@ -113,7 +113,7 @@ fn evidence(plan: &NetworkPlan, act: usize) -> f64 {
 }
 
 /// Place of a channel in the row of populations and channels.
-fn channel(plan: &NetworkPlan, is_it: impl Fn(Channel, &str) -> bool) -> Option<usize> {
+fn channel(plan: &NetworkPlan, is_it: impl Fn(Channel, Role) -> bool) -> Option<usize> {
     let index = plan.channels.iter().position(|own| is_it(own.channel, own.meaning.role))?;
     Some(plan.populations.len() + index)
 }

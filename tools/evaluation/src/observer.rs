@@ -1,7 +1,7 @@
 use crate::activity::Activity;
 use crate::fluency::FluencyAccount;
 use crate::trial::{Alarm, Detection, DoublePeak, ErrorKind, Inference, PartnerAction, Trial};
-use coact_joint_task::{Act, NetworkPlan, Population, Task};
+use coact_joint_task::{Act, NetworkPlan, Population, Role, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
 use coact_monitor::{Anticipation, Event, Intentions};
@@ -158,9 +158,9 @@ impl<'a> Observer<'a> {
         let told = |meaning: &Population| match error {
             None => false,
             // A gesture names no part: that something is wrong with it is all that can be told.
-            Some(ErrorKind::AtHand | ErrorKind::Asked) => meaning.role != "loss",
-            Some(ErrorKind::Early) => meaning.role == "goal" && meaning.subgoal == Some(subgoal),
-            Some(ErrorKind::Done) => meaning.role == "done" && meaning.subgoal == Some(subgoal),
+            Some(ErrorKind::AtHand | ErrorKind::Asked) => meaning.role != Role::Loss,
+            Some(ErrorKind::Early) => meaning.role == Role::Goal && meaning.subgoal == Some(subgoal),
+            Some(ErrorKind::Done) => meaning.role == Role::Done && meaning.subgoal == Some(subgoal),
         };
         let row = self.plan.layer(LayerKind::ErrorMonitoring).populations.clone();
         let errors = row.filter(|&index| told(&self.plan.populations[index])).collect();
@@ -197,7 +197,7 @@ impl<'a> Observer<'a> {
     /// A peak in EML that rises while the person does nothing wrong; a part that the robot lost is its own affair.
     fn look_for_alarms(&mut self, truth: &Truth, frame: &FieldFrame) {
         let row = self.plan.layer(LayerKind::ErrorMonitoring).populations.clone();
-        for index in row.filter(|&index| self.plan.populations[index].role != "loss") {
+        for index in row.filter(|&index| self.plan.populations[index].role != Role::Loss) {
             let stands = frame.since[index] != 0;
             let rises = stands && !std::mem::replace(&mut self.alarmed[index], stands);
             let action = self.open.as_ref().and(self.trial.actions.last());

@@ -1,7 +1,7 @@
 use crate::Connection;
 use crate::layer::Layer;
 use crate::success_detector::{Success, SuccessDetector};
-use coact_joint_task::{NetworkPlan, Task};
+use coact_joint_task::{NetworkPlan, Role, Task};
 use coact_messages::{FieldFrame, LayerKind, Percept};
 use coact_neural_field::ParameterError;
 use coact_period::cycles;
@@ -102,8 +102,8 @@ impl Mapping {
     fn connects(&self, act: usize, chain: usize) -> bool {
         let acts = self.plan.populations_of(LayerKind::ActionObservation);
         match acts[act].role {
-            "grasp" => acts[act].kind == Some(self.task.chains[chain].kind),
-            role => role == "gesture",
+            Role::Grasp => acts[act].kind == Some(self.task.chains[chain].kind),
+            role => role == Role::Gesture,
         }
     }
 
@@ -170,8 +170,8 @@ impl Mapping {
     fn same_act(&self, act: usize, kind: usize) -> Option<usize> {
         let acts = self.plan.populations_of(LayerKind::ActionObservation);
         match acts[act].role {
-            "grasp" => acts.iter().position(|other| {
-                (other.role, other.grip, other.kind) == ("grasp", acts[act].grip, Some(kind))
+            Role::Grasp => acts.iter().position(|other| {
+                (other.role, other.grip, other.kind) == (Role::Grasp, acts[act].grip, Some(kind))
             }),
             _ => Some(act),
         }

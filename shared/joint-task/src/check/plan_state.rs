@@ -1,4 +1,4 @@
-use super::subject::Subject;
+use super::examined_task::ExaminedTask;
 use crate::Agent;
 use std::collections::{BTreeSet, VecDeque};
 
@@ -16,13 +16,13 @@ pub(super) struct PlanState {
 
 impl PlanState {
     /// States that the plan allows, nearest to the start first, at most [`MOST_STATES`].
-    pub fn all(subject: &Subject) -> Vec<Self> {
+    pub fn all(examined: &ExaminedTask) -> Vec<Self> {
         let mut seen = BTreeSet::from([0_u64]);
         let mut ahead = VecDeque::from([0_u64]);
         let mut states = Vec::new();
         while let Some(achieved) = ahead.pop_front().filter(|_| states.len() < MOST_STATES) {
-            let state = Self::of(subject, achieved);
-            for goal in subject.subgoals().filter(|&goal| state.is_open(subject, goal)) {
+            let state = Self::of(examined, achieved);
+            for goal in examined.subgoals().filter(|&goal| state.is_open(examined, goal)) {
                 let next = achieved | 1 << goal;
                 if seen.insert(next) {
                     ahead.push_back(next);
@@ -34,12 +34,12 @@ impl PlanState {
     }
 
     /// Each achieved subgoal took a part that lay on its own side, if there was one.
-    fn of(subject: &Subject, achieved: u64) -> Self {
-        let kinds = 0..subject.task.kinds.len();
-        let lie = |owner: Agent| kinds.clone().map(|kind| subject.parts(kind, owner)).collect();
+    fn of(examined: &ExaminedTask, achieved: u64) -> Self {
+        let kinds = 0..examined.task.kinds.len();
+        let lie = |owner: Agent| kinds.clone().map(|kind| examined.parts(kind, owner)).collect();
         let mut parts: [Vec<usize>; 2] = [lie(Agent::Robot), lie(Agent::Person)];
-        for goal in subject.subgoals().filter(|goal| achieved & (1 << goal) != 0) {
-            let subgoal = &subject.task.subgoals[goal];
+        for goal in examined.subgoals().filter(|goal| achieved & (1 << goal) != 0) {
+            let subgoal = &examined.task.subgoals[goal];
             let own = subgoal.side.index();
             let from = if parts[own][subgoal.kind] > 0 { own } else { 1 - own };
             parts[from][subgoal.kind] = parts[from][subgoal.kind].saturating_sub(1);
@@ -51,9 +51,9 @@ impl PlanState {
         self.achieved & (1 << goal) != 0
     }
 
-    pub fn is_open(&self, subject: &Subject, goal: usize) -> bool {
+    pub fn is_open(&self, examined: &ExaminedTask, goal: usize) -> bool {
         !self.is_achieved(goal)
-            && subject.task.subgoals[goal].after.iter().all(|&before| self.is_achieved(before))
+            && examined.task.subgoals[goal].after.iter().all(|&before| self.is_achieved(before))
     }
 
     pub fn parts(&self, workspace: usize, kind: usize) -> usize {
@@ -67,9 +67,9 @@ impl PlanState {
     }
 
     /// In words: what was achieved last would do, but its names tell most.
-    pub fn describe(&self, subject: &Subject) -> String {
-        let goals = subject.subgoals().filter(|&goal| self.is_achieved(goal));
-        let names: Vec<_> = goals.map(|goal| subject.task.subgoals[goal].name.as_str()).collect();
+    pub fn describe(&self, examined: &ExaminedTask) -> String {
+        let goals = examined.subgoals().filter(|&goal| self.is_achieved(goal));
+        let names: Vec<_> = goals.map(|goal| examined.task.subgoals[goal].name.as_str()).collect();
         match names.len() {
             0 => "at the start".into(),
             1..=3 => format!("after {}", names.join(", ")),

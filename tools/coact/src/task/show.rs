@@ -45,7 +45,7 @@ fn populations(plan: &NetworkPlan) -> Table {
     let mut table = table(["layer", "population", "role"]);
     for layer in &plan.layers {
         for population in &plan.populations[layer.populations.clone()] {
-            table.add_row([layer.kind.name(), population.label.as_str(), population.role]);
+            table.add_row([layer.kind.name(), &population.label, &population.role.to_string()]);
         }
     }
     table

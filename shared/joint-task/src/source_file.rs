@@ -1,26 +1,13 @@
+use crate::TaskError;
 use std::{ops::Range, path::Path};
 
-/// Why a task or network file was refused: where it stands, what is wrong and what was expected.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{file}:{line}: {key}: {problem}")]
-pub struct TaskError {
-    /// The file, as it was named.
-    pub file: String,
-    /// Line, counted from 1; 0 when the whole file is meant.
-    pub line: usize,
-    /// The key or table, e.g. `subgoal[2].after`.
-    pub key: String,
-    /// What is wrong and what was expected.
-    pub problem: String,
-}
-
 /// A file's name and text: turns byte ranges into lines of a [`TaskError`].
-pub(crate) struct Source {
+pub(crate) struct SourceFile {
     file: String,
     text: String,
 }
 
-impl Source {
+impl SourceFile {
     pub(crate) fn read(path: &Path) -> Result<Self, TaskError> {
         let file = path.display().to_string();
         match std::fs::read_to_string(path) {

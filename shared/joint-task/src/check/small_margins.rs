@@ -1,13 +1,13 @@
+use super::examined_task::ExaminedTask;
 use super::finding::{Finding, FindingKind};
 use super::plan_state::PlanState;
-use super::steady::{Race, Steady};
-use super::subject::Subject;
+use super::steady_state::{Race, SteadyState};
 use crate::{Act, Channel};
 use coact_messages::{LayerKind, PERSON};
 use std::collections::BTreeMap;
 
-/// A loser with more than this share of the winner's input may win, or stand beside it: fields with noise decide
-/// cleanly below it.
+/// Largest fraction of the winner's input at which a loser is suppressed cleanly. In simulations of one decision layer,
+/// losers with up to 0.83 of it are, and from 0.93 on both peaks stand side by side; between them noise decides.
 const CLEAN: f64 = 0.85;
 /// Layers that decide something of their own; errors follow from them.
 const LAYERS: [LayerKind; 3] =
@@ -15,7 +15,7 @@ const LAYERS: [LayerKind; 3] =
 
 /// What the person does in a state of the plan.
 #[derive(Debug, Clone, Copy)]
-enum Person {
+enum PersonActivity {
     Rests,
     Idles,
     /// Shows a chain (index): the hand is on its way.
@@ -32,18 +32,18 @@ struct Worst {
 }
 
 /// Decisions in which the loser comes too near, over the states of the plan and what the person may do in each.
-pub(super) fn small(subject: &Subject) -> Vec<Finding> {
-    let steady = Steady::of(&subject.plan);
+pub(super) fn find(examined: &ExaminedTask) -> Vec<Finding> {
+    let steady = SteadyState::of(&examined.plan);
     let mut worst: BTreeMap<(usize, usize), Worst> = BTreeMap::new();
-    for state in PlanState::all(subject) {
-        for person in deeds(subject, &state) {
-            let inputs = steady.inputs(|channel| percept(subject, &state, person, channel));
+    for state in PlanState::all(examined) {
+        for person in activities(examined, &state) {
+            let inputs = steady.inputs(|channel| percept(examined, &state, person, channel));
             for race in LAYERS.into_iter().filter_map(|layer| steady.race(layer, &inputs)) {
                 if race.ratio <= CLEAN {
                     continue;
                 }
                 let pair = (race.winner.min(race.loser), race.winner.max(race.loser));
-                let situation = || format!("{}, {}", state.describe(subject), describe(subject, person));
+                let situation = || format!("{}, {}", state.describe(examined), describe(examined, person));
                 let known =
                     worst.entry(pair).or_insert_with(|| Worst { race, situation: situation(), count: 0 });
                 known.count += 1;
@@ -53,29 +53,29 @@ pub(super) fn small(subject: &Subject) -> Vec<Finding> {
             }
         }
     }
-    worst.values().map(|worst| finding(subject, worst)).collect()
+    worst.values().map(|worst| finding(examined, worst)).collect()
 }
 
 /// What the person may do: rest, or any chain whose part lies there and whose subgoal is open.
-fn deeds(subject: &Subject, state: &PlanState) -> Vec<Person> {
-    let mut deeds = vec![Person::Rests, Person::Idles];
-    for (index, chain) in subject.task.chains.iter().enumerate() {
+fn activities(examined: &ExaminedTask, state: &PlanState) -> Vec<PersonActivity> {
+    let mut activities = vec![PersonActivity::Rests, PersonActivity::Idles];
+    for (index, chain) in examined.task.chains.iter().enumerate() {
         let possible = state.parts(chain.from.index(), chain.kind) > 0;
-        if possible && subject.served(index).any(|goal| state.is_open(subject, goal)) {
-            deeds.push(Person::Shows(index));
+        if possible && examined.served(index).any(|goal| state.is_open(examined, goal)) {
+            activities.push(PersonActivity::Shows(index));
             if matches!(chain.act, Act::Grasp { .. }) {
-                deeds.push(Person::Carries(index));
+                activities.push(PersonActivity::Carries(index));
             }
         }
     }
-    deeds
+    activities
 }
 
 /// What perception says, full evidence each.
-fn percept(subject: &Subject, state: &PlanState, person: Person, channel: Channel) -> f64 {
-    let task = &subject.task;
+fn percept(examined: &ExaminedTask, state: &PlanState, person: PersonActivity, channel: Channel) -> f64 {
+    let task = &examined.task;
     let carried = match person {
-        Person::Carries(chain) => Some(task.chains[chain].kind),
+        PersonActivity::Carries(chain) => Some(task.chains[chain].kind),
         _ => None,
     };
     let lies = |workspace: usize, kind: usize| {
@@ -88,9 +88,12 @@ fn percept(subject: &Subject, state: &PlanState, person: Person, channel: Channe
     let yes = match channel {
         Channel::Always => true,
         Channel::Act(act) => match (task.acts[act], person) {
-            (Act::Rest, Person::Rests | Person::Idles) | (Act::Idle, Person::Idles) => true,
-            (Act::Reach, Person::Shows(chain)) => matches!(task.chains[chain].act, Act::Grasp { .. }),
-            (act, Person::Shows(chain) | Person::Carries(chain)) => act == task.chains[chain].act,
+            (Act::Rest, PersonActivity::Rests | PersonActivity::Idles)
+            | (Act::Idle, PersonActivity::Idles) => true,
+            (Act::Reach, PersonActivity::Shows(chain)) => matches!(task.chains[chain].act, Act::Grasp { .. }),
+            (act, PersonActivity::Shows(chain) | PersonActivity::Carries(chain)) => {
+                act == task.chains[chain].act
+            }
             _ => false,
         },
         Channel::Seen { workspace, kind } => lies(workspace, kind),
@@ -103,15 +106,15 @@ fn percept(subject: &Subject, state: &PlanState, person: Person, channel: Channe
     f64::from(u8::from(yes))
 }
 
-fn finding(subject: &Subject, worst: &Worst) -> Finding {
+fn finding(examined: &ExaminedTask, worst: &Worst) -> Finding {
     let Worst { race, situation, count } = worst;
-    let [winner, loser] = [race.winner, race.loser].map(|index| &subject.plan.populations[index]);
-    let layer = subject.plan.layers.iter().find(|layer| layer.populations.contains(&race.winner));
+    let [winner, loser] = [race.winner, race.loser].map(|index| &examined.plan.populations[index]);
+    let layer = examined.plan.layers.iter().find(|layer| layer.populations.contains(&race.winner));
     let layer = layer.map_or("a layer", |layer| layer.kind.name());
     let place = match (winner.subgoal, winner.chain_index) {
-        (Some(goal), _) => subject.place_of_subgoal(goal),
-        (None, Some(chain)) => subject.place_of_chain(chain),
-        (None, None) => subject.place(0..0),
+        (Some(goal), _) => examined.place_of_subgoal(goal),
+        (None, Some(chain)) => examined.place_of_chain(chain),
+        (None, None) => examined.place(0..0),
     };
     Finding {
         kind: FindingKind::SmallMargin,
@@ -130,15 +133,15 @@ fn finding(subject: &Subject, worst: &Worst) -> Finding {
     }
 }
 
-fn describe(subject: &Subject, person: Person) -> String {
+fn describe(examined: &ExaminedTask, person: PersonActivity) -> String {
     let named = |chain: usize| {
-        let chain = &subject.task.chains[chain];
-        format!("{}: {}", chain.name, subject.task.kinds[chain.kind].name)
+        let chain = &examined.task.chains[chain];
+        format!("{}: {}", chain.name, examined.task.kinds[chain.kind].name)
     };
     match person {
-        Person::Rests => "while the person's hand rests".into(),
-        Person::Idles => "while the person idles".into(),
-        Person::Shows(chain) => format!("while the person shows {:?}", named(chain)),
-        Person::Carries(chain) => format!("while the person carries out {:?}", named(chain)),
+        PersonActivity::Rests => "while the person's hand rests".into(),
+        PersonActivity::Idles => "while the person idles".into(),
+        PersonActivity::Shows(chain) => format!("while the person shows {:?}", named(chain)),
+        PersonActivity::Carries(chain) => format!("while the person carries out {:?}", named(chain)),
     }
 }

@@ -1,12 +1,12 @@
-use crate::error::Source;
-use crate::file::TaskFile;
+use crate::source_file::SourceFile;
+use crate::task_file::TaskFile;
 use crate::{Agent, NetworkPlan, Task, TaskError};
 use std::ops::Range;
 use std::path::Path;
 
 /// A task under examination: what it says, and where each thing stands in its file.
-pub(super) struct Subject {
-    source: Source,
+pub(super) struct ExaminedTask {
+    source: SourceFile,
     pub file: TaskFile,
     pub task: Task,
     pub plan: NetworkPlan,
@@ -14,10 +14,10 @@ pub(super) struct Subject {
     needs: Vec<bool>,
 }
 
-impl Subject {
+impl ExaminedTask {
     pub fn load(path: &Path) -> Result<Self, TaskError> {
         let (task, plan) = NetworkPlan::load(path)?;
-        let source = Source::read(path)?;
+        let source = SourceFile::read(path)?;
         let file = source.parse()?;
         let needs = needs(&task);
         Ok(Self { source, file, task, plan, needs })

@@ -2,7 +2,8 @@ use crate::{Channel, LayerPlan, NetworkPlan, Pool, Synapse};
 use coact_messages::LayerKind;
 use coact_neural_field::sigmoid;
 
-/// Passes over all layers until feedback has settled.
+/// Passes over all layers until feedback has settled: the longest way through the layers, from object memory over the
+/// subgoals, simulation, intention and errors to the action, has six steps; two more for what feeds back.
 const PASSES: usize = 8;
 /// Layers in which one peak stands.
 const DECIDE: [LayerKind; 4] = [
@@ -17,7 +18,7 @@ const DECIDE: [LayerKind; 4] = [
 ///
 /// Where several populations of a decision layer could ignite, the one with the strongest input stands; layers without
 /// interaction follow their input; all others hold a peak wherever the input ignites one.
-pub(super) struct Steady<'a> {
+pub(super) struct SteadyState<'a> {
     plan: &'a NetworkPlan,
     /// Synapses of each population, in the order of the plan: those of one rule side by side.
     incoming: Vec<Vec<Synapse>>,
@@ -32,7 +33,7 @@ pub(super) struct Race {
     pub ratio: f64,
 }
 
-impl<'a> Steady<'a> {
+impl<'a> SteadyState<'a> {
     pub fn of(plan: &'a NetworkPlan) -> Self {
         let mut incoming = vec![Vec::new(); plan.populations.len()];
         for synapse in &plan.synapses {

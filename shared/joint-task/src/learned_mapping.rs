@@ -1,8 +1,8 @@
 //! Learned connections from observed acts to simulated chains, from a file that `coact learn mapping` writes.
 
-use crate::error::Source;
-use crate::file::Name;
-use crate::{NetworkPlan, Pool, Population, Synapse, Task, TaskError};
+use crate::source_file::SourceFile;
+use crate::task_file::Name;
+use crate::{NetworkPlan, Pool, Population, Role, Synapse, Task, TaskError};
 use coact_messages::LayerKind;
 use serde::Deserialize;
 use std::hash::{DefaultHasher, Hasher};
@@ -37,7 +37,7 @@ impl NetworkPlan {
     /// # Errors
     /// A file that cannot be read, an act or chain that the task does not have, or a weight that is not in 0 to 1.
     pub fn learn(&mut self, task: &mut Task, path: &Path) -> Result<(), TaskError> {
-        let source = Source::read(path)?;
+        let source = SourceFile::read(path)?;
         let file: LearnedFile = source.parse()?;
         let rule = self.reasons.len();
         let mut learned = Vec::new();
@@ -76,7 +76,7 @@ impl NetworkPlan {
     pub fn shows_a_chain(&self, synapse: &Synapse) -> bool {
         let acts = &self.layer(LayerKind::ActionObservation).populations;
         let chains = &self.layer(LayerKind::ActionSimulation).populations;
-        let tells = |population: &Population| ["grasp", "gesture"].contains(&population.role);
+        let tells = |population: &Population| [Role::Grasp, Role::Gesture].contains(&population.role);
         synapse.weight > 0.0
             && acts.contains(&synapse.from)
             && chains.contains(&synapse.to)

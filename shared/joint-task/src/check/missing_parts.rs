@@ -1,18 +1,19 @@
+use super::examined_task::ExaminedTask;
 use super::finding::{Finding, FindingKind};
-use super::subject::Subject;
 use crate::Agent;
 
 /// Kinds of which the scene holds fewer parts than the plan needs.
-pub(super) fn missing(subject: &Subject) -> Vec<Finding> {
-    let task = &subject.task;
+pub(super) fn find(examined: &ExaminedTask) -> Vec<Finding> {
+    let task = &examined.task;
     let short = |kind: usize| {
-        let goals: Vec<usize> = subject.subgoals().filter(|&goal| task.subgoals[goal].kind == kind).collect();
-        let parts = subject.parts(kind, Agent::Robot) + subject.parts(kind, Agent::Person);
+        let goals: Vec<usize> =
+            examined.subgoals().filter(|&goal| task.subgoals[goal].kind == kind).collect();
+        let parts = examined.parts(kind, Agent::Robot) + examined.parts(kind, Agent::Person);
         let first_without = *goals.get(parts)?;
         let name = &task.kinds[kind].name;
         Some(Finding {
             kind: FindingKind::MissingParts,
-            place: subject.place_of_subgoal(first_without),
+            place: examined.place_of_subgoal(first_without),
             what: format!("{} subgoals need a {name:?}, and {parts} lie on the table", goals.len()),
             why: format!("{:?} can never come about", task.subgoals[first_without].name),
             advice: format!("add a [[part]] of kind {name:?}, or take the subgoal out of the plan"),
