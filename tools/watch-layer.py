@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Watches a layer of the neural-field network of a running set: live bars in the terminal, or a picture.
+"""Watches a layer of the neural-field network of a running process set: live bars in the terminal, or a picture.
 
     pip install iceoryx2==0.10.0            (and matplotlib, for --png)
     tools/launch                            (in another terminal)
@@ -22,7 +22,7 @@ It is also an example of a client in another language. What such a client needs 
     name ("coact::FieldFrame"), size and alignment, and refuses what differs; LAYOUT, the first number of every
     message, is raised when a field changes its meaning.
 
-  * A reader only looks: it never writes into a message, and it may be slow or die; the set does not wait for it.
+  * A reader only looks: it never writes into a message, and it may be slow or die; no process waits for it.
     A topic has room for 8 readers.
 """
 
@@ -38,6 +38,13 @@ LAYOUT = 6
 MAX_LAYERS, MAX_POPULATIONS, MAX_SITES = 16, 1024, 10240
 NONE = 0xFFFF_FFFF
 LAYERS = ["AOL", "OML-robot", "OML-person", "CSGL-achieved", "CSGL-available", "ASL", "IL", "EML", "AEL"]
+
+EXAMPLES = """Examples:
+  tools/watch-layer.py                    the layers, their sizes and their peaks
+  tools/watch-layer.py AEL                live bars, until Ctrl-C
+  tools/watch-layer.py AEL --png ael.png  a picture of the newest frame
+
+Needs: pip install iceoryx2==0.10.0 (and matplotlib, for --png)"""
 
 
 class Header(ctypes.Structure):
@@ -102,7 +109,7 @@ def find_run(name):
     pattern = f"coact_{name}/run.json" if name else "coact_*/run.json"
     found = [file for base in ("/dev/shm", tempfile.gettempdir()) for file in Path(base).glob(pattern)]
     if not found:
-        sys.exit("no such run; start one with tools/launch" if name else "no set is running; start tools/launch")
+        sys.exit(f"{f'there is no run {name}' if name else 'no process set is running'}; start one with tools/launch")
     return max(found, key=lambda file: file.stat().st_mtime).parent
 
 
@@ -193,9 +200,14 @@ def picture(frame, name, sites, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Watch a layer of the neural-field network of a running set.")
-    parser.add_argument("layer", nargs="?", choices=LAYERS, metavar="LAYER", help=", ".join(LAYERS))
-    parser.add_argument("--run", help="id or directory of the run; default: the newest")
+    parser = argparse.ArgumentParser(
+        description="Watch a layer of the neural-field network of a running process set.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    names = f"one of {', '.join(LAYERS)}; without it, list them"
+    parser.add_argument("layer", nargs="?", choices=LAYERS, metavar="LAYER", help=names)
+    parser.add_argument("--run", help="id or directory of the run [default: the newest]")
     parser.add_argument("--png", metavar="FILE", help="write a picture of the newest frame instead")
     arguments = parser.parse_args()
     if arguments.png and not arguments.layer:

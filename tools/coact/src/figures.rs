@@ -3,9 +3,11 @@
 use crate::installation::Installation;
 use anyhow::Result;
 use coact_figures::{Figure, Gallery, Step};
+use coact_period::{cycles, seconds};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Duration;
 
 /// Draws the chapter's figures from runs that are made now.
 ///
@@ -27,6 +29,9 @@ pub struct Args {
     seed: u64,
 }
 
+/// How often the progress of a run is shown. Chosen by hand.
+const SHOW_EVERY: u64 = cycles(Duration::from_millis(500));
+
 /// Makes the runs, draws the figures and names the files.
 ///
 /// # Errors
@@ -40,8 +45,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let index = gallery.draw(&mut |step| {
         bar.tick();
         match step {
-            Step::Run(scenario, ms) if ms.is_multiple_of(500) => {
-                bar.set_message(format!("{}: {:.1} s", scenario.file(), ms as f64 / 1000.0));
+            Step::Run(scenario, tick) if tick.is_multiple_of(SHOW_EVERY) => {
+                bar.set_message(format!("{}: {:.1} s", scenario.file(), seconds(tick)));
             }
             Step::Run(..) => {}
             Step::Figure(number) => bar.set_message(format!("figure {number}")),

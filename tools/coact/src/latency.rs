@@ -1,4 +1,4 @@
-//! `coact latency`: how regular and how fast a run was, or is.
+//! `coact latency`: how punctual and how fast a run was, or is.
 
 mod curves;
 mod live;

@@ -130,7 +130,8 @@ fn gave_up(error: LaunchError, settings: &RunSettings, json: bool) -> Result<Exi
     if settings.report.join(Album::FILE).is_file() {
         draw_snapshots(settings);
     }
-    run_report::show(&settings.report, json).with_context(|| error.to_string()).ok();
+    // It may have been given up before there was a summary: the error below says why.
+    run_report::show(&settings.report, json).ok();
     run_report::warn(&error.to_string());
     Ok(ExitCode::FAILURE)
 }

@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use coact_monitor::Monitor;
+use coact_period::{CYCLES_PER_SECOND, PERIOD_NS, seconds};
 use coact_supervisor::{Launch, Note, NoteKind, Progress, Terminal};
 use std::time::Duration;
 
@@ -14,8 +15,8 @@ pub fn run(launch: &Launch) -> Result<()> {
     Monitor::clear(&settings.report)?;
     let terminal = Terminal::open();
     let mut progress = Progress::new(task);
-    let outcome = coact_lockstep::run(settings, *duration, |stages, sentence| {
-        let at = Duration::from_millis(stages.ticks());
+    let finished = coact_lockstep::run(settings, *duration, |stages, sentence| {
+        let at = Duration::from_nanos(stages.ticks() * PERIOD_NS);
         progress.frame(&stages.frame);
         if let Some(sentence) = sentence {
             progress.says(&sentence.text);
@@ -23,11 +24,11 @@ pub fn run(launch: &Launch) -> Result<()> {
         for note in progress.take_notes() {
             terminal.note(note.at(at));
         }
-        if stages.ticks().is_multiple_of(1000) {
+        if stages.ticks().is_multiple_of(CYCLES_PER_SECOND) {
             terminal.status(progress.status(at));
         }
     })?;
-    let (run, taken) = (outcome.ticks as f64 / 1e3, outcome.elapsed.as_secs_f64());
+    let (run, taken) = (seconds(finished.ticks), finished.elapsed.as_secs_f64());
     let text = format!("{run:.1} s in {taken:.1} s: {:.1} times real time", run / taken);
     terminal.note(Note::new(NoteKind::Plain, text));
     Ok(())

@@ -9,14 +9,14 @@ use owo_colors::{OwoColorize, Stream};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Measures the planner on randomised movements: time of planning, success, smoothness.
+/// Measures the planner on randomised movements: planning time, success, smoothness.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   coact motion bench                                  all scenarios, 50 random cases each
   coact motion bench --only pick,insert --cases 500   these, for longer
   coact motion bench --robot arm.urdf --missing-meshes capsules
   coact motion bench --hand hand.urdf                 our arm with the hand of another URDF
-  coact motion bench --json > bench.json              every figure, for programs")]
+  coact motion bench --json > bench.json              every metric, for programs")]
 pub struct Args {
     #[command(flatten)]
     robot: RobotArgs,

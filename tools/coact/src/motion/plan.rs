@@ -8,18 +8,21 @@ use coact_motion_suite::{MovementPage, Quality, Setting};
 use coact_robot::{HandGoal, MotionState};
 use nalgebra::{Isometry3, Point3, Vector3};
 use serde::Serialize;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Plans one movement and writes movement.svg, movement.png and plan.json.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
-  coact motion plan --to=-0.4,0.55,0.83 --back 0.15 --task rt-config/tasks/toy-vehicle.toml --out motion
-  coact motion plan --to=-0.5,0.3,1.0 --approach=-1,0,0 --obstacle cylinder:-0.4,0.4,1.0,0.04,0.6 --out motion
-  coact motion plan --robot arm.urdf --missing-meshes capsules --from 0,0.5,0,0.8,0,0,0 --to 0.4,0.2,-0.6 --out motion
-  coact motion plan --hand hand.urdf --missing-meshes capsules --to=-0.4,0.55,0.9 --out motion
+  coact motion plan --to=-0.4,0.55,0.83 --task rt-config/tasks/toy-vehicle.toml --out motion
+  coact motion plan --to=-0.4,0.55,0.83 --approach-length 0.15 --out motion
+  coact motion plan --to=-0.5,0.3,1 --obstacle cylinder:-0.4,0.4,1,0.04,0.6 --out motion
+  coact motion plan --to 0.4,0.2,-0.6 --robot arm.urdf --missing-meshes capsules --out motion
+  coact motion plan --to=-0.4,0.55,0.9 --hand hand.urdf --missing-meshes capsules --out motion
 
-Places are in the world frame (z up). A number list that begins with a minus needs the equals sign: --to=-0.4,...")]
+Points are in the world frame (z up). A list of numbers that begins with a minus needs the equals
+sign: --to=-0.4,...")]
 pub struct Args {
     #[command(flatten)]
     robot: RobotArgs,
@@ -29,15 +32,15 @@ pub struct Args {
     /// Joint angles at the start, rad, with commas between [default: the park posture]
     #[arg(long, value_name = "ANGLES", value_delimiter = ',', allow_hyphen_values = true)]
     from: Vec<f64>,
-    /// Where the hand shall grasp: x,y,z in m
+    /// Point at which the hand grasps: x,y,z in m
     #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]
     to: Vec<f64>,
-    /// Direction in which the hand shall come
+    /// Direction in which the hand approaches
     #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true, default_values_t = [0.0, 0.0, -1.0])]
     approach: Vec<f64>,
-    /// How far before the goal the approach begins, m
+    /// Length of the straight approach before the goal, m
     #[arg(long, value_name = "M", default_value_t = 0.0)]
-    back: f64,
+    approach_length: f64,
     /// Something in the way: box:X,Y,Z,DX,DY,DZ or cylinder:X,Y,Z,RADIUS,HEIGHT (centre, then size, m)
     #[arg(long, value_name = "KIND:NUMBERS", allow_hyphen_values = true)]
     obstacle: Vec<String>,
@@ -46,7 +49,14 @@ pub struct Args {
     out: PathBuf,
 }
 
-/// What plan.json holds.
+/// Approaches that make sense, m: a longer one would be a movement of its own. Chosen by hand.
+const APPROACH_LENGTHS: RangeInclusive<f64> = 0.0..=0.5;
+/// A direction that is shorter is none: far above rounding, far below what anybody types.
+const ZERO_LENGTH: f64 = 1e-9;
+/// Samples of plan.json in a second: enough to draw a movement from.
+const SAMPLES_PER_SECOND: f64 = 100.0;
+
+/// The content of plan.json.
 #[derive(Serialize)]
 struct Record<'a> {
     robot: &'a str,
@@ -127,15 +137,19 @@ fn goal(args: &Args) -> Result<HandGoal> {
         Ok(Vector3::from_column_slice(values))
     };
     let approach = three("approach", &args.approach)?;
-    let approach = approach.try_normalize(1e-9).context("--approach is zero; expected a direction")?;
-    ensure!((0.0..=0.5).contains(&args.back), "--back {}: expected 0 to 0.5 m", args.back);
+    let approach = approach.try_normalize(ZERO_LENGTH).context("--approach is zero; expected a direction")?;
+    ensure!(
+        APPROACH_LENGTHS.contains(&args.approach_length),
+        "--approach-length {}: expected 0 to 0.5 m",
+        args.approach_length
+    );
     Ok(HandGoal {
         point: Point3::from(three("to", &args.to)?),
         approach,
         closing_axis: Vector3::y(),
         rolls: 0,
         along: approach,
-        back: args.back,
+        back: args.approach_length,
         floor: f64::NEG_INFINITY,
     })
 }
@@ -186,8 +200,8 @@ fn obstacle(text: &str) -> Result<(Solid, Isometry3<f64>)> {
 
 fn record<'a>(setting: &'a Setting, plan: &Plan, quality: Quality) -> Record<'a> {
     let joints = setting.mechanism.joints();
-    let samples = (0..=(plan.duration() * 100.0).ceil() as u32).map(|sample| {
-        let t = (f64::from(sample) / 100.0).min(plan.duration());
+    let samples = (0..=(plan.duration() * SAMPLES_PER_SECOND).ceil() as u32).map(|sample| {
+        let t = (f64::from(sample) / SAMPLES_PER_SECOND).min(plan.duration());
         let states = plan.at(t);
         let column = |of: fn(&MotionState) -> f64| states[..joints].iter().map(of).collect();
         (t, column(|state| state.position), column(|state| state.velocity))

@@ -30,11 +30,11 @@ enum MissingMeshes {
     Capsules,
 }
 
-/// Radius of the capsules that stand in for links, m.
+/// Radius of the capsules that stand in for links, m: about that of a light arm's links. Chosen by hand.
 const STAND_IN: f64 = 0.06;
 
 impl RobotArgs {
-    /// Reads the robot; a robot file's is set before the task, one of a URDF alone has no task.
+    /// Reads the robot. That of a robot file works on the task; that of a URDF alone has none.
     ///
     /// # Errors
     /// What is wrong with its files.

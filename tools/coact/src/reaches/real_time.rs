@@ -4,7 +4,7 @@ use crate::installation::Installation;
 use anyhow::{Context, Result, bail};
 use coact_joint_task::NetworkPlan;
 use coact_messages::{FieldFrame, Percept, topic};
-use coact_period::PERIOD_NS;
+use coact_period::PERIOD;
 use coact_pipeline::{Pipeline, Run, RunSettings, WorldMode};
 use coact_reaches::{Evaluation, InferenceTrace, ReachOutcome, Subject};
 use coact_realtime::{Bus, Input, PortError};
@@ -17,7 +17,7 @@ use std::time::Duration;
 /// How long the set goes on after the last reach: until its last messages have been read. Chosen by hand; not sensitive.
 const AFTER_LAST_REACH: Duration = Duration::from_millis(200);
 /// How often the topics are read: a reader of the chain's topics sees the newest message only, so twice a period.
-const LOOK_EVERY: Duration = Duration::from_nanos(PERIOD_NS / 2);
+const LOOK_EVERY: Duration = Duration::from_micros(500);
 
 /// How the process set fared with one subject.
 #[derive(Debug, Clone, Serialize)]
@@ -86,7 +86,7 @@ impl RealTime<'_> {
             settings,
             task: self.evaluation.task.clone(),
             programs: self.installation.programs.clone(),
-            duration: Some(Duration::from_millis(last) + AFTER_LAST_REACH),
+            duration: Some(PERIOD * last as u32 + AFTER_LAST_REACH),
             injections: Vec::new(),
         })
     }
