@@ -1,7 +1,7 @@
 use crate::installation::Installation;
 use crate::report_folder::unused_report_folder;
 use crate::{closed_pipe, lockstep, partner, run_report, snapshots};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use coact_joint_task::NetworkPlan;
 use coact_monitor::Album;
 use coact_perception::PreshapeModel;
