@@ -1,5 +1,5 @@
-use coact_supervisor::{Event, EventKind};
-use serde_json::Value;
+use coact_run_records::{Event, Record, RunLog, Summary, SupervisorEvent, SupervisorEventKind};
+use std::path::Path;
 
 /// What a run left to read.
 #[derive(Debug)]
@@ -10,38 +10,42 @@ pub struct Finished {
     pub stdout: String,
     /// Standard error.
     pub stderr: String,
-    /// `summary.json`; null when there is none.
-    pub summary: Value,
-    /// `events.jsonl`.
-    pub journal: String,
-    /// `supervisor.jsonl`.
-    pub supervisor: String,
+    /// The event log; empty when there is none.
+    pub events: Vec<Event>,
+    /// The supervisor log; empty when there is none.
+    pub supervisor: Vec<SupervisorEvent>,
+    summary: Option<Summary>,
 }
 
 impl Finished {
+    /// Reads a report directory.
+    pub(crate) fn read(report: &Path, code: Option<i32>, stdout: String, stderr: String) -> Self {
+        let summary = report.join(Summary::FILE).exists().then(|| Summary::read(report).unwrap());
+        Self { code, stdout, stderr, events: log(report), supervisor: log(report), summary }
+    }
+
+    /// `summary.json`.
+    ///
+    /// # Panics
+    /// There is none.
+    pub fn summary(&self) -> &Summary {
+        self.summary.as_ref().unwrap_or_else(|| panic!("the run left no summary: {}", self.stderr))
+    }
+
     /// How often this happened to this process.
-    pub fn count(&self, kind: EventKind, process: &str) -> usize {
-        self.events().iter().filter(|event| event.event == kind && event.process == process).count()
-    }
-
-    /// All that the supervisor wrote down.
-    pub fn events(&self) -> Vec<Event> {
-        self.supervisor.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
-    }
-
-    /// How many lines of the monitor's journal are of this kind.
-    pub fn journalled(&self, event: &str) -> usize {
-        let lines = self.journal.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
-        lines.filter(|line| line["event"] == event).count()
+    pub fn count(&self, kind: SupervisorEventKind, process: &str) -> usize {
+        self.supervisor.iter().filter(|event| event.event == kind && event.process == process).count()
     }
 
     /// Cycles of a process.
     pub fn cycles(&self, process: &str) -> u64 {
-        self.summary["processes"][process]["cycles"].as_u64().unwrap_or(0)
+        self.summary().processes.get(process).map_or(0, |report| report.cycles)
     }
+}
 
-    /// Subgoals achieved in the assembly that came furthest.
-    pub fn achieved(&self) -> u64 {
-        self.summary["task"]["achieved"].as_u64().unwrap_or(0)
+fn log<R: Record>(report: &Path) -> Vec<R> {
+    match report.join(R::FILE).exists() {
+        true => RunLog::read(report).unwrap(),
+        false => Vec::new(),
     }
 }

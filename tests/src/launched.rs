@@ -54,14 +54,7 @@ impl Launched {
     pub fn finish(mut self) -> Finished {
         let status = wait_for("the end of the run", || self.child.try_wait().unwrap());
         let read = |name: &str| std::fs::read_to_string(self.folder.path().join(name)).unwrap_or_default();
-        Finished {
-            code: status.code(),
-            stdout: read("stdout"),
-            stderr: read("stderr"),
-            summary: serde_json::from_str(&read("report/summary.json")).unwrap_or_default(),
-            journal: read("report/events.jsonl"),
-            supervisor: read("report/supervisor.jsonl"),
-        }
+        Finished::read(&self.report(), status.code(), read("stdout"), read("stderr"))
     }
 
     fn report(&self) -> PathBuf {

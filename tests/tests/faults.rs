@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_pipeline::Pipeline;
-use coact_supervisor::EventKind;
+use coact_run_records::{Event, SupervisorEventKind};
 use coact_tests::{Launched, checkout, coact, left_behind, wait_for};
 use std::process::{Command, Output};
 
@@ -18,21 +18,18 @@ fn each_process_is_killed_once_and_the_assembly_is_finished() {
     let run = launched.when_started();
     let finished = launched.finish();
     assert_eq!(left_behind(&run), Vec::<String>::new());
-    assert_eq!(
-        finished.summary["task"]["achieved"], finished.summary["task"]["subgoals"],
-        "{}",
-        finished.stderr
-    );
-    assert_eq!(finished.journalled("forgotten"), 0, "{}", finished.journal);
-    let faults = finished.summary["faults"].as_array().unwrap();
+    let summary = finished.summary();
+    assert_eq!(summary.task.achieved, summary.task.subgoals, "{}", finished.stderr);
+    let forgotten = finished.events.iter().filter(|event| matches!(event, Event::Forgotten { .. })).count();
+    assert_eq!(forgotten, 0, "{:?}", finished.events);
     for name in &names {
-        assert_eq!(finished.count(EventKind::Died, name), 1, "{name}\n{}", finished.supervisor);
-        assert_eq!(finished.count(EventKind::Ready, name), 2, "{name}\n{}", finished.supervisor);
-        let fault = faults.iter().find(|fault| fault["process"] == name.as_str()).unwrap();
-        assert_eq!(fault["fault"], "kill");
-        assert!(fault["detected_ms"].is_f64() && fault["recovered_ms"].is_f64(), "{fault}");
+        assert_eq!(finished.count(SupervisorEventKind::Died, name), 1, "{name}\n{:?}", finished.supervisor);
+        assert_eq!(finished.count(SupervisorEventKind::Ready, name), 2, "{name}\n{:?}", finished.supervisor);
+        let fault = summary.faults.iter().find(|fault| fault.process == *name).unwrap();
+        assert_eq!(fault.fault, "kill");
+        assert!(fault.detected_ms.is_some() && fault.recovered_ms.is_some(), "{fault:?}");
     }
-    assert_eq!(faults.len(), names.len());
+    assert_eq!(summary.faults.len(), names.len());
 }
 
 #[test]
@@ -54,10 +51,10 @@ fn faults_are_injected_into_a_running_set_from_the_command_line() {
     }
     let finished = launched.finish();
     assert!(finished.cycles("fields") > 6000, "{}", finished.stderr);
-    let resumed = finished.events().iter().any(|event| {
+    let resumed = finished.supervisor.iter().any(|event| {
         event.process == "control" && event.reason.as_deref().is_some_and(|reason| reason.starts_with("hung"))
     });
-    assert!(resumed, "{}", finished.supervisor);
+    assert!(resumed, "{:?}", finished.supervisor);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Recorded reaches through real processes: what is decided is what lockstep decides.
 #![allow(clippy::unwrap_used)]
 
+use coact_run_records::Summary;
 use coact_tests::{checkout, coact, shared_memory};
 use serde_json::Value;
 use std::fmt::Write;
@@ -74,9 +75,8 @@ fn in_real_time_it_decides_as_in_lockstep() {
     let fared = &realtime["real_time"][0];
     assert!(fared["cycles"].as_u64().unwrap() > 10_000, "four reaches take some ten seconds: {fared}");
     assert!(fared["frames_seen"].as_u64().unwrap() > 1_000, "{fared}");
-    let summary: Value =
-        serde_json::from_slice(&std::fs::read(reports.join("two-objects/p7/summary.json")).unwrap()).unwrap();
-    assert_eq!(summary["anticipation"]["actions"], 4, "the monitor knows the labels");
+    let summary = Summary::read(&reports.join("two-objects/p7")).unwrap();
+    assert_eq!(summary.anticipation.actions, 4, "the monitor knows the labels");
     let left = std::fs::read_dir(shared_memory()).unwrap().map(|entry| entry.unwrap().path());
     let of_ours = |path: &Path| {
         let text = std::fs::read_to_string(path.join("run.json")).unwrap_or_default();

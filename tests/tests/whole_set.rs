@@ -1,7 +1,7 @@
 //! Real processes build together, and leave nothing behind.
 #![allow(clippy::unwrap_used)]
 
-use coact_supervisor::EventKind;
+use coact_run_records::{Summary, SupervisorEventKind, Verdict};
 use coact_tests::{Launched, left_behind, wait_for};
 use rustix::process::{Pid, Signal, test_kill_process};
 
@@ -13,9 +13,9 @@ fn a_set_builds_at_its_rate_and_reports() {
     let run = launched.when_started();
     let finished = launched.finish();
     assert_eq!(left_behind(&run), Vec::<String>::new());
-    let verdict = if finished.code == Some(0) { "pass" } else { "fail" };
-    assert_eq!(finished.summary["verdict"], verdict, "{}", finished.stderr);
-    assert!(finished.achieved() >= 1, "{}", finished.stderr);
+    let verdict = if finished.code == Some(0) { Verdict::Pass } else { Verdict::Fail };
+    assert_eq!(finished.summary().verdict, verdict, "{}", finished.stderr);
+    assert!(finished.summary().task.achieved >= 1, "{}", finished.stderr);
     for shown in ["decides: ", "says: ", "achieved: "] {
         assert!(finished.stderr.contains(shown), "{shown} is not in {}", finished.stderr);
     }
@@ -23,9 +23,9 @@ fn a_set_builds_at_its_rate_and_reports() {
         let cycles = finished.cycles(process);
         assert!((22_500..=25_100).contains(&cycles), "{process}: {cycles} cycles in 25 s");
     }
-    let printed: serde_json::Value = serde_json::from_str(&finished.stdout).unwrap();
-    assert_eq!(printed, finished.summary, "--json prints the summary and nothing else");
-    assert!(finished.events().iter().all(|event| event.event != EventKind::Died));
+    let printed: Summary = serde_json::from_str(&finished.stdout).unwrap();
+    assert_eq!(&printed, finished.summary(), "--json prints the summary and nothing else");
+    assert!(finished.supervisor.iter().all(|event| event.event != SupervisorEventKind::Died));
 }
 
 #[test]
@@ -36,8 +36,8 @@ fn two_runs_beside_each_other_both_build() {
     assert_ne!(first.prefix(), second.prefix());
     for (run, finished) in [(first, one.finish()), (second, other.finish())] {
         assert_eq!(left_behind(&run), Vec::<String>::new());
-        assert!(finished.achieved() >= 1, "{}", finished.stderr);
-        assert!(finished.summary["faults"].as_array().unwrap().is_empty());
+        assert!(finished.summary().task.achieved >= 1, "{}", finished.stderr);
+        assert!(finished.summary().faults.is_empty());
     }
 }
 
@@ -48,8 +48,12 @@ fn an_interrupted_run_is_stopped_in_order_and_reported() {
     launched.signal(Signal::TERM);
     let finished = launched.finish();
     assert!(matches!(finished.code, Some(0 | 1)), "{}", finished.stderr);
-    assert!(finished.summary["verdict"].is_string(), "the monitor had the time to write its summary");
-    let stopped: Vec<_> = finished.events().into_iter().filter(|e| e.event == EventKind::Stopped).collect();
+    assert!(
+        !finished.summary().environment.kernel.is_empty(),
+        "the monitor had the time to write its summary"
+    );
+    let stopped: Vec<_> =
+        finished.supervisor.iter().filter(|event| event.event == SupervisorEventKind::Stopped).collect();
     assert_eq!(stopped.len(), CHAIN.len() + 2);
     assert_eq!(stopped.last().unwrap().process, "monitor");
     assert_eq!(left_behind(&run), Vec::<String>::new());

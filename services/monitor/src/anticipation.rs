@@ -1,7 +1,8 @@
+use crate::Intentions;
 use crate::expectation::Expectation;
-use crate::{ActionEvent, Event, Intentions};
 use coact_joint_task::{ActionType, Agent, Task};
 use coact_messages::{FieldFrame, PartnerPhase, Truth};
+use coact_run_records::{ActionEvent, Event};
 
 /// Finds for each of the partner's actions whether the robot had decided on the right answer before the grasp
 /// was complete, and by how much.

@@ -1,13 +1,17 @@
-use crate::{Event, FaultEvent, Lapse, SupervisorEvent, SupervisorEventKind};
+use crate::CycleMisses;
 use coact_messages::Pulse;
+use coact_run_records::{Event, FaultEvent, SupervisorEvent, SupervisorEventKind};
 use std::collections::{BTreeMap, VecDeque};
+use std::time::Duration;
 
-/// How long after a recovery the accounts are closed: by then every process's pulses have come, ns.
-const SETTLING_NS: u64 = 200_000_000;
-/// For how long misses are kept in mind, ns: no recovery takes longer.
-const MEMORY_NS: u64 = 120_000_000_000;
+/// How long after a recovery the fault is written down, ns. By then the pulses of all processes have been read, which
+/// happens every few milliseconds, even if the monitor itself was held up.
+const SETTLING_NS: u64 = Duration::from_millis(200).as_nanos() as u64;
+/// For how long misses are remembered, ns. No recovery takes longer: a process that is not ready again within that time
+/// has been given up.
+const REMEMBERED_NS: u64 = Duration::from_secs(120).as_nanos() as u64;
 
-/// Accounts for faults: who failed, when that was noticed, when it was over, and what it cost the others.
+/// Finds for each fault who failed, when that was noticed, when it was over, and what it cost the others.
 ///
 /// A process that died has recovered with the first output of its replacement. One that was only disturbed
 /// (stopped for a while, slowed down) has recovered with its first timely cycle after the last late one. A
@@ -17,7 +21,7 @@ pub struct Faults {
     /// Processes that send pulses.
     pulsing: Vec<String>,
     open: Vec<OpenFault>,
-    /// Deadline misses of late: release of the cycle, process, how many.
+    /// Deadline misses of the last two minutes: release of the cycle, process, how many.
     misses: VecDeque<(u64, String, u64)>,
     /// Up to which instant each process's faults are in the report already.
     settled: BTreeMap<String, u64>,
@@ -70,19 +74,19 @@ impl Faults {
         }
     }
 
-    /// One cycle of a process, and the lapses that it brought.
-    pub fn pulse(&mut self, process: &str, pulse: &Pulse, lapse: Lapse) {
-        if lapse.missed > 0 {
-            self.misses.push_back((pulse.released_ns, process.to_owned(), lapse.missed));
+    /// One cycle of a process, and what it missed.
+    pub fn pulse(&mut self, process: &str, pulse: &Pulse, missed: CycleMisses) {
+        if missed.missed > 0 {
+            self.misses.push_back((pulse.released_ns, process.to_owned(), missed.missed));
         }
         for open in self.open.iter_mut().filter(|open| open.process == process) {
-            open.pulse(pulse, lapse);
+            open.pulse(pulse, missed);
         }
     }
 
     /// Appends to `events` the faults that are over, once all pulses from that time have come.
     pub fn settle(&mut self, now_ns: u64, events: &mut Vec<Event>) {
-        self.misses.retain(|&(at, ..)| now_ns.saturating_sub(at) < MEMORY_NS);
+        self.misses.retain(|&(at, ..)| now_ns.saturating_sub(at) < REMEMBERED_NS);
         let over = |open: &OpenFault| {
             open.given_up || open.recovered_ns.is_some_and(|at| now_ns > at.saturating_add(SETTLING_NS))
         };
@@ -119,13 +123,13 @@ impl OpenFault {
         self.recovered_ns = None;
     }
 
-    fn pulse(&mut self, pulse: &Pulse, lapse: Lapse) {
+    fn pulse(&mut self, pulse: &Pulse, missed: CycleMisses) {
         let published = pulse.header.published_ns;
         let replaced = pulse.header.generation > self.generation;
         if published <= self.at_ns || (self.detected_ns.is_some() && !replaced) {
             return;
         }
-        let disturbed = !replaced && (lapse.missed > 0 || lapse.skipped > 0);
+        let disturbed = !replaced && (missed.missed > 0 || missed.skipped > 0);
         self.recovered_ns = if disturbed { None } else { self.recovered_ns.or(Some(published)) };
     }
 

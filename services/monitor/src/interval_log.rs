@@ -1,4 +1,4 @@
-use crate::recorder::{INTERVAL_NS, histogram};
+use crate::duration_recorder::{INTERVAL_NS, histogram};
 use base64::Engine;
 use hdrhistogram::Histogram;
 use hdrhistogram::serialization::interval_log::{

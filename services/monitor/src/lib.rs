@@ -1,67 +1,51 @@
-//! Latency histograms, deadline accounts, and the proof that decisions came in time.
+//! Latency histograms, deadline misses, and the proof that decisions came in time.
 //!
-//! Pure parts see messages and give [`Event`]s: [`Anticipation`] (did the right decision stand before the grasp
-//! was complete?), [`TaskWatch`] (subgoals, decisions, utterances), [`Faults`] (detection, recovery, survivors'
-//! misses). [`Latencies`] keeps histograms and accounts, a [`Journal`] keeps events, [`Album`] the moments in which
-//! parts changed hands; all are on disk within a second, and a restarted monitor goes on from there. [`Summary`] draws
-//! the conclusions; [`plots`] shows them.
+//! Pure parts read messages and give [`Event`](coact_run_records::Event)s: [`Anticipation`] (did the right decision
+//! stand before the grasp was complete?), [`TaskWatch`] (subgoals, decisions, utterances), [`Faults`] (detection,
+//! recovery, survivors' misses). [`Latencies`] writes histograms and counters, [`SnapshotLog`] what the scene looked like
+//! when a part changed hands. All are on disk within a second, and a restarted monitor goes on from there. [`Findings`]
+//! draw the conclusions; [`plots`] show them.
 //!
-//! The report directory then holds `summary.json`, `events.jsonl`, `album.jsonl`, `latency/*.hlog` with `latency/accounts.json`,
-//! and `plots/*.svg`. What a run must reach is in `rt-config/verdict.toml` ([`Rules`]).
+//! The report directory then holds `summary.json`, `events.jsonl` and `snapshots.jsonl` (see [`coact_run_records`]),
+//! `latency/*.hlog` with `latency/counters.json`, and `plots/*.svg`. What a run must reach is in
+//! `rt-config/verdict.toml` ([`Rules`]).
 
-mod account;
-mod action_event;
-mod album;
 mod anticipation;
-mod environment;
-mod event;
+mod duration_recorder;
+pub mod environment;
 mod expectation;
-mod fault_event;
 mod faults;
-pub mod figures;
-mod holdings;
+mod findings;
 mod intentions;
 mod interval_log;
-mod journal;
 mod latencies;
-mod links;
-mod moment;
+pub mod metrics;
 mod monitor;
+mod part_locations;
+mod pipeline_node;
 pub mod plots;
+mod process_counters;
 mod reaction;
-mod recorder;
+mod recognised_parts;
 mod rules;
-mod sightings;
-mod summary;
-mod supervisor_log;
-mod task_report;
+mod snapshot_log;
 mod task_watch;
 mod tracking;
 mod verdict;
 
-pub use account::{Account, Lapse};
-pub use action_event::ActionEvent;
-pub use album::Album;
 pub use anticipation::Anticipation;
-pub use environment::{Environment, MachineReport};
-pub use event::Event;
-pub use fault_event::FaultEvent;
+pub use duration_recorder::{DurationRecorder, INTERVAL_NS, histogram, percentiles};
 pub use faults::Faults;
-pub use figures::{Figures, Link};
+pub use findings::Findings;
 pub use intentions::Intentions;
 pub use interval_log::{IntervalLog, IntervalLogError, LogContents};
-pub use journal::{Journal, JournalError};
 pub use latencies::{Latencies, LatencyError};
-pub use links::links;
-pub use moment::{Moment, SeenPart};
-pub use monitor::{Monitor, MonitorError, Watched, write_summary};
-pub use reaction::{Reaction, ReactionReport};
-pub use recorder::{INTERVAL_NS, Recorder, histogram};
+pub use metrics::Metrics;
+pub use monitor::{Monitor, MonitorError, Watched};
+pub use pipeline_node::PipelineNode;
+pub use process_counters::{CycleMisses, ProcessCounters};
+pub use reaction::Reaction;
 pub use rules::{Rules, RulesError};
-pub use summary::{
-    AnticipationReport, FaultReport, Findings, LeadPercentiles, Percentiles, ProcessReport, Summary,
-};
-pub use supervisor_log::{SupervisorEvent, SupervisorEventKind, SupervisorLog};
-pub use task_report::{Decided, Said, TaskReport};
+pub use snapshot_log::SnapshotLog;
 pub use task_watch::TaskWatch;
-pub use tracking::{Tracking, TrackingReport};
+pub use tracking::Tracking;

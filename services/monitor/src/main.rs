@@ -1,21 +1,22 @@
-//! The monitor as a process: drains all topics that tell how the run goes, and keeps its report.
+//! The monitor as a process: drains all topics that tell how the run goes, and writes its report.
 
 use anyhow::Context;
 use coact_joint_task::NetworkPlan;
 use coact_messages::{Command, FieldFrame, Pulse, SensorSample, Speech, Truth, topic};
-use coact_monitor::{Environment, Intentions, Monitor, MonitorError, Rules, Watched, links};
+use coact_monitor::{Intentions, Monitor, MonitorError, PipelineNode, Rules, Watched, environment};
 use coact_realtime::{Bus, Input, LatencyProbe, PortError, Process, Schedule, now};
+use coact_run_records::Environment;
 use std::time::{Duration, Instant, SystemTime};
 
-/// How often the topics are drained. Much shorter than a peak lasts and than the readers' buffers last.
+/// How often the topics are drained: long before a reader's buffer is full, and seldom enough to cost little of a core.
 const LOOK_EVERY: Duration = Duration::from_millis(5);
-/// How often histograms go to disk: a kill loses no more.
+/// How often histograms go to disk: a kill loses no more than that.
 const WRITE_EVERY: Duration = Duration::from_secs(1);
 
 fn main() -> anyhow::Result<()> {
     let process = Process::from_arguments("monitor")?;
     let watched = watched(&process)?;
-    let names = watched.links.iter().map(|link| link.process.clone()).collect();
+    let names = watched.nodes.iter().map(|node| node.process.clone()).collect();
     if process.generation() == 0 {
         Monitor::clear(&watched.report)?;
     }
@@ -35,8 +36,8 @@ fn main() -> anyhow::Result<()> {
         }
     }
     topics.drain(&mut monitor, &mut refused)?;
-    let machine = probe.map(|probe| probe.lateness().into());
-    let environment = Environment { machine, ..Environment::of_run(process.run(), process.pipeline()) };
+    let machine = probe.map(|probe| environment::of_probe(&probe.lateness()));
+    let environment = Environment { machine, ..environment::of_run(process.run(), process.pipeline()) };
     monitor.finish(environment, now())?;
     Ok(())
 }
@@ -49,7 +50,7 @@ fn watched(process: &Process) -> anyhow::Result<Watched> {
         report: settings.report.clone(),
         task,
         intentions: Intentions::from(&plan),
-        links: links(process.pipeline()),
+        nodes: PipelineNode::all(process.pipeline()),
         rules: Rules::load(&folder.join(Rules::FILE))?,
         start_ns: 0,
         started: SystemTime::UNIX_EPOCH,
@@ -109,7 +110,7 @@ impl Topics {
         fields.each(|frame| monitor.frame(frame, &mut events))?;
         command.each(|command| monitor.command(command))?;
         speech.each(|speech| monitor.speech(speech, &mut events))?;
-        warn_once(monitor.keep(now(), events), refused);
+        warn_once(monitor.record(now(), events), refused);
         Ok(())
     }
 }

@@ -1,22 +1,25 @@
 use crate::plots::{PlotError, anticipation_timeline, percentile_curve};
 use crate::{
-    Album, Anticipation, Environment, Event, Faults, Findings, Intentions, Journal, JournalError, Latencies,
-    LatencyError, Link, Reaction, Rules, Summary, SupervisorLog, TaskWatch, Tracking,
+    Anticipation, Faults, Findings, Intentions, Latencies, LatencyError, PipelineNode, Reaction, Rules,
+    SnapshotLog, TaskWatch, Tracking,
 };
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, NONE, Pulse, SensorSample, Speech, Truth};
+use coact_period::cycles;
+use coact_run_records::{
+    Environment, Event, LogFollower, Record, RecordError, RunLog, Snapshot, Summary, SupervisorEvent,
+};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
-/// Name of the journal of events in the report directory.
-const EVENTS: &str = "events.jsonl";
-/// After as many cycles a frame is no longer waited for: the fields are dead or far behind.
-const OVERDUE: u64 = 1000;
+/// After so many cycles a frame is no longer waited for: the fields are dead or far behind. Twice as long as the
+/// watchdog lets a silent process live, so that a stall alone changes no judgement.
+const OVERDUE: u64 = cycles(Duration::from_secs(1));
 
-/// Everything that a run's report is made of, kept in the report directory while the run goes on.
+/// Makes the report of a run, in its directory, while the run goes on.
 ///
-/// A second after anything was seen it is on disk; opening the same directory again goes on from there.
+/// What was seen is on disk within a second. A monitor that opens the same directory again goes on from there.
 #[derive(Debug)]
 pub struct Monitor {
     report: PathBuf,
@@ -24,14 +27,14 @@ pub struct Monitor {
     rules: Rules,
     start_ns: u64,
     latencies: Latencies,
-    journal: Journal<Event>,
+    events: RunLog<Event>,
     anticipation: Anticipation,
     watch: TaskWatch,
     faults: Faults,
     tracking: Tracking,
     reaction: Reaction,
-    album: Album,
-    supervisor: SupervisorLog,
+    snapshots: SnapshotLog,
+    supervisor: LogFollower<SupervisorEvent>,
     /// Truths that are younger than the newest frame.
     waiting: VecDeque<Truth>,
     truth: Truth,
@@ -46,8 +49,8 @@ pub struct Watched {
     pub task: Task,
     /// The goals that its intention layer can infer.
     pub intentions: Intentions,
-    /// How the processes stand in the chain.
-    pub links: Vec<Link>,
+    /// The processes that send pulses.
+    pub nodes: Vec<PipelineNode>,
     /// What the run must reach.
     pub rules: Rules,
     /// Start of the run, ns of `CLOCK_MONOTONIC`.
@@ -56,15 +59,15 @@ pub struct Watched {
     pub started: SystemTime,
 }
 
-/// Why a report could not be kept.
+/// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum MonitorError {
-    /// Histograms and accounts.
+    /// Histograms and counters.
     #[error(transparent)]
     Latency(#[from] LatencyError),
-    /// Events and moments.
+    /// A log, or the summary.
     #[error(transparent)]
-    Journal(#[from] JournalError),
+    Record(#[from] RecordError),
     /// Pictures.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -84,17 +87,17 @@ impl Monitor {
     /// # Errors
     /// A file of the report cannot be read or written.
     pub fn open(watched: Watched) -> Result<Self, MonitorError> {
-        let Watched { report, task, intentions, links, rules, start_ns, started } = watched;
-        let pulsing = links.iter().map(|link| link.process.clone()).collect();
-        let latencies = Latencies::open(&report.join("latency"), links, started)?;
-        let journal = Journal::open(&report.join(EVENTS))?;
+        let Watched { report, task, intentions, nodes, rules, start_ns, started } = watched;
+        let pulsing = nodes.iter().map(|node| node.process.clone()).collect();
+        let latencies = Latencies::open(&report.join("latency"), nodes, started)?;
+        let events = RunLog::<Event>::open(&report)?;
         let (mut anticipation, mut watch, mut faults) =
             (Anticipation::new(&task, intentions), TaskWatch::new(&task), Faults::new(pulsing));
-        let actions = journal.entries().iter().filter_map(Event::as_action);
+        let actions = events.records().iter().filter_map(Event::as_action);
         anticipation.resume(actions.map(|action| action.action).max().unwrap_or(0));
-        watch.resume(journal.entries());
-        faults.resume(journal.entries());
-        let (supervisor, album) = (SupervisorLog::new(&report), Album::open(&report, &task)?);
+        watch.resume(events.records());
+        faults.resume(events.records());
+        let (supervisor, snapshots) = (LogFollower::new(&report), SnapshotLog::open(&report, &task)?);
         let (waiting, truth) = (VecDeque::new(), nothing_true_yet());
         Ok(Self {
             report,
@@ -102,13 +105,13 @@ impl Monitor {
             rules,
             start_ns,
             latencies,
-            journal,
+            events,
             anticipation,
             watch,
             faults,
             tracking: Tracking::new(),
             reaction: Reaction::new(),
-            album,
+            snapshots,
             supervisor,
             waiting,
             truth,
@@ -120,7 +123,7 @@ impl Monitor {
     /// # Errors
     /// A file cannot be removed.
     pub fn clear(report: &Path) -> Result<(), MonitorError> {
-        let files = [EVENTS, Album::FILE, "summary.json"].map(|name| report.join(name)).into_iter();
+        let files = [Event::FILE, Snapshot::FILE, Summary::FILE].map(|name| report.join(name)).into_iter();
         let folders = [("latency", "hlog"), ("latency", "json"), ("plots", "svg"), ("plots", "png")];
         let inside = folders.into_iter().flat_map(|(folder, extension)| {
             let entries = std::fs::read_dir(report.join(folder)).into_iter().flatten();
@@ -140,13 +143,13 @@ impl Monitor {
 
     /// One cycle of a process.
     pub fn pulse(&mut self, process: &str, pulse: &Pulse) {
-        let lapse = self.latencies.pulse(process, pulse);
-        self.faults.pulse(process, pulse, lapse);
+        let missed = self.latencies.pulse(process, pulse);
+        self.faults.pulse(process, pulse, missed);
     }
 
     /// What really happens; it is judged once the fields' frame of the same cycle has come, or is overdue.
     pub fn truth(&mut self, truth: &Truth, events: &mut Vec<Event>) {
-        self.album.truth(truth);
+        self.snapshots.truth(truth);
         self.waiting.push_back(*truth);
         self.catch_up(truth.header.cycle.saturating_sub(OVERDUE), events);
     }
@@ -162,12 +165,12 @@ impl Monitor {
 
     /// What the sensors said.
     pub fn sample(&mut self, sample: &SensorSample) {
-        self.album.sample(sample);
+        self.snapshots.sample(sample);
     }
 
     /// What the arm was told to do.
     pub fn command(&mut self, command: &Command) {
-        self.album.command(command);
+        self.snapshots.command(command);
         self.tracking.command(command);
         self.reaction.command(command);
     }
@@ -177,23 +180,23 @@ impl Monitor {
         self.watch.speech(speech, events);
     }
 
-    /// Reads what the supervisor wrote, settles faults, and keeps events and moments; after each look at the topics.
+    /// Reads what the supervisor wrote, settles faults, and writes events and snapshots; after each look at the topics.
     ///
     /// # Errors
     /// A file of the report cannot be read or written.
-    pub fn keep(&mut self, now_ns: u64, mut events: Vec<Event>) -> Result<(), MonitorError> {
-        for event in self.supervisor.news().map_err(|cause| self.error("supervisor.jsonl", cause))? {
+    pub fn record(&mut self, now_ns: u64, mut events: Vec<Event>) -> Result<(), MonitorError> {
+        for event in self.supervisor.news()? {
             self.faults.supervisor(&event);
         }
         self.faults.settle(now_ns, &mut events);
-        self.album.look().map_err(|cause| self.error(Album::FILE, cause))?;
-        if events.is_empty() {
-            return Ok(());
+        self.snapshots.look()?;
+        if !events.is_empty() {
+            self.events.append(events)?;
         }
-        self.journal.append(events).map_err(|cause| self.error(EVENTS, cause))
+        Ok(())
     }
 
-    /// Writes intervals and accounts; once a second.
+    /// Writes intervals and counters; once a second.
     ///
     /// # Errors
     /// A file of the report cannot be written.
@@ -201,7 +204,7 @@ impl Monitor {
         Ok(self.latencies.write()?)
     }
 
-    /// Ends the run: writes logs, pictures and `summary.json`.
+    /// Ends the run: writes logs, plots and `summary.json`.
     ///
     /// # Errors
     /// A file of the report cannot be written.
@@ -209,24 +212,25 @@ impl Monitor {
         let mut events = Vec::new();
         self.catch_up(u64::MAX, &mut events);
         self.anticipation.finish(&mut events);
-        self.keep(now_ns, events)?;
+        self.record(now_ns, events)?;
         let mut open_faults = Vec::new();
         self.faults.finish(&mut open_faults);
-        self.keep(now_ns, open_faults)?;
-        self.album.finish().map_err(|cause| self.error(Album::FILE, cause))?;
+        self.record(now_ns, open_faults)?;
+        self.snapshots.finish()?;
         self.write()?;
-        let summary = Summary::new(Findings {
+        let summary = Findings {
             task: &self.task,
             environment,
-            events: self.journal.entries(),
-            figures: Some(self.latencies.figures()),
+            events: self.events.records(),
+            metrics: Some(self.latencies.metrics()),
             tracking: self.tracking.report(),
             reaction: self.reaction.report(),
             start_ns: self.start_ns,
             duration_s: now_ns.saturating_sub(self.start_ns) as f64 / 1e9,
             rules: &self.rules,
-        });
-        write_summary(&self.report, &summary)?;
+        }
+        .summary();
+        summary.write(&self.report)?;
         self.draw(&summary)?;
         Ok(summary)
     }
@@ -245,7 +249,7 @@ impl Monitor {
     fn draw(&self, summary: &Summary) -> Result<(), MonitorError> {
         let folder = self.report.join("plots");
         std::fs::create_dir_all(&folder).map_err(|cause| self.error("plots", cause))?;
-        for (name, recorder) in self.latencies.figures().histograms() {
+        for (name, recorder) in self.latencies.metrics().histograms() {
             percentile_curve(&name.replace('.', " "), recorder, &folder.join(format!("{name}.svg")))?;
         }
         Ok(anticipation_timeline(&summary.anticipation.events, &folder.join("anticipation.svg"))?)
@@ -254,18 +258,6 @@ impl Monitor {
     fn error(&self, file: &str, cause: std::io::Error) -> MonitorError {
         MonitorError::File { path: self.report.join(file), cause }
     }
-}
-
-/// Writes `summary.json` into a report directory.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write_summary(report: &Path, summary: &Summary) -> Result<(), MonitorError> {
-    let path = report.join("summary.json");
-    serde_json::to_string_pretty(summary)
-        .map_err(std::io::Error::from)
-        .and_then(|text| std::fs::write(&path, text + "\n"))
-        .map_err(|cause| MonitorError::File { path, cause })
 }
 
 fn nothing_true_yet() -> Truth {

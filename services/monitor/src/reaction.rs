@@ -1,26 +1,14 @@
 use coact_messages::Command;
+use coact_run_records::ReactionReport;
 use hdrhistogram::Histogram;
-use serde::Serialize;
 
 /// How long after a decision the movement for it begins: the first command that it changes.
 #[derive(Debug)]
 pub struct Reaction {
-    /// Cycles of 1 ms.
+    /// Cycles from a decision to its first command.
     times: Histogram<u64>,
     /// Movements that decisions had begun at the last command seen.
     begun: u32,
-}
-
-/// The same in figures, ms.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-#[allow(missing_docs, reason = "the names are the percentiles")]
-pub struct ReactionReport {
-    /// Movements that a decision began.
-    pub count: u64,
-    pub p50: u64,
-    pub p99: u64,
-    /// The longest one.
-    pub max: u64,
 }
 
 impl Reaction {
@@ -29,7 +17,7 @@ impl Reaction {
         Self { times: crate::histogram(), begun: 0 }
     }
 
-    /// Takes down the movement that began with this command, if one did.
+    /// Adds the movement that began with this command, if one did.
     pub fn command(&mut self, command: &Command) {
         if command.begun != self.begun {
             self.begun = command.begun;
@@ -37,9 +25,9 @@ impl Reaction {
         }
     }
 
-    /// The figures so far.
+    /// The times so far in short.
     pub fn report(&self) -> ReactionReport {
-        let at = |share| self.times.value_at_quantile(share);
+        let at = |quantile| self.times.value_at_quantile(quantile);
         ReactionReport { count: self.times.len(), p50: at(0.5), p99: at(0.99), max: self.times.max() }
     }
 }

@@ -1,18 +1,18 @@
 use std::path::{Path, PathBuf};
 
-/// What a run must reach to pass: `rt-config/verdict.toml`. Shares are of 1.
+/// What a run must reach to pass: `rt-config/verdict.toml`.
 #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rules {
-    /// Least share of the partner's actions that must be anticipated.
-    pub anticipated_share: f64,
-    /// Greatest share of the partner's actions that may be answered wrongly.
-    pub wrong_share: f64,
-    /// Greatest share of cycles that a process under SCHED_FIFO may publish late, beyond what the machine itself was
-    /// late by ([`MachineReport`](crate::MachineReport)).
-    pub missed_share: f64,
+    /// Least fraction of the partner's actions that must be anticipated.
+    pub anticipated_fraction: f64,
+    /// Greatest fraction of the partner's actions that may be answered wrongly.
+    pub wrong_fraction: f64,
+    /// Greatest fraction of cycles that a process under SCHED_FIFO may publish late, beyond what the machine itself was
+    /// late by ([`MachineReport`](coact_run_records::MachineReport)).
+    pub missed_fraction: f64,
     /// The same for a process that did not obtain SCHED_FIFO.
-    pub missed_share_unprivileged: f64,
+    pub missed_fraction_unprivileged: f64,
     /// A run that lasted as long must have achieved every subgoal, s.
     pub assembly_within_s: f64,
     /// Longest recovery from a fault, ms.

@@ -1,14 +1,14 @@
-use crate::Event;
 use coact_joint_task::Task;
 use coact_messages::{Decision, FieldFrame, LayerKind, NONE, Speech, Truth};
+use coact_run_records::Event;
 
-/// Sees the task advance: subgoals, assemblies, decisions, utterances, and memories that got lost.
+/// Follows the task: subgoals, assemblies, decisions, utterances, and achieved subgoals that the fields lost.
 #[derive(Debug)]
 pub struct TaskWatch {
     task: Task,
     /// Subgoals of the present assembly that are in their place (truth), bit for bit.
     achieved: u64,
-    /// Subgoals that the fields remember as achieved, bit for bit.
+    /// Subgoals with a peak in the layer of achieved subgoals, bit for bit.
     remembered: u64,
     /// Assemblies completed.
     completed: u64,
@@ -43,7 +43,7 @@ impl TaskWatch {
         }
     }
 
-    /// What has really come about; events are appended to `events`.
+    /// What was really achieved; events are appended to `events`.
     pub fn truth(&mut self, truth: &Truth, events: &mut Vec<Event>) {
         let at_ms = truth.header.cycle;
         if truth.assemblies > self.completed {
@@ -65,7 +65,7 @@ impl TaskWatch {
         }
     }
 
-    /// What the robot makes of it; `truth` tells a lost memory from one that is rightly given up.
+    /// What the fields show; `truth` tells a peak that was lost from one that ended because its subgoal is open again.
     pub fn frame(&mut self, frame: &FieldFrame, truth: &Truth, events: &mut Vec<Event>) {
         if frame.decision != self.decision {
             self.decision = frame.decision;
@@ -86,7 +86,7 @@ impl TaskWatch {
         }
     }
 
-    /// What the robot said; a reader that joins gets the last sentence once more, which is not news.
+    /// What the robot said; a reader that connects gets the last sentence once more, which is not news.
     pub fn speech(&mut self, speech: &Speech, events: &mut Vec<Event>) {
         if speech.header.cycle <= self.spoken {
             return;

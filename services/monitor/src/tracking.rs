@@ -1,27 +1,15 @@
 use coact_messages::{ARM_JOINTS, Command};
+use coact_run_records::TrackingReport;
 use hdrhistogram::Histogram;
-use serde::Serialize;
 
-/// Resolution of the histogram, rad.
+/// Resolution of the histogram, rad: far finer than the errors that matter, some mrad.
 const UNIT: f64 = 1e-6;
 
-/// How far the arm's joints were from where they had been commanded to be.
+/// How far the arm's joints were from their setpoints.
 #[derive(Debug)]
 pub struct Tracking {
     /// Largest error of a joint at each command that was seen, in [`UNIT`]s.
     largest: Histogram<u64>,
-}
-
-/// The same in figures, rad: of each command the joint that was furthest off.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-#[allow(missing_docs, reason = "the names are the percentiles")]
-pub struct TrackingReport {
-    /// How many commands were looked at.
-    pub count: u64,
-    pub p50: f64,
-    pub p99: f64,
-    /// The largest one.
-    pub max: f64,
 }
 
 impl Tracking {
@@ -30,16 +18,16 @@ impl Tracking {
         Self { largest: crate::histogram() }
     }
 
-    /// Takes down one command's errors.
+    /// Adds one command's errors.
     pub fn command(&mut self, command: &Command) {
         let errors = command.tracking_error[..ARM_JOINTS].iter();
         let largest = errors.fold(0.0_f64, |largest, error| largest.max(error.abs()));
         self.largest.saturating_record((largest / UNIT).round() as u64);
     }
 
-    /// The figures so far.
+    /// The errors so far in short.
     pub fn report(&self) -> TrackingReport {
-        let at = |share| self.largest.value_at_quantile(share) as f64 * UNIT;
+        let at = |quantile| self.largest.value_at_quantile(quantile) as f64 * UNIT;
         TrackingReport {
             count: self.largest.len(),
             p50: at(0.5),

@@ -1,8 +1,9 @@
 //! The rules of `verdict.toml`, applied to a summary.
 
-use crate::{Event, Rules, Summary};
+use crate::Rules;
+use coact_run_records::{Event, Summary};
 
-/// One sentence for each rule that was not kept.
+/// One sentence for each rule that was broken.
 pub(crate) fn reasons(summary: &Summary, events: &[Event], run_s: f64, rules: &Rules) -> Vec<String> {
     let mut reasons = Vec::new();
     task(summary, events, run_s, rules, &mut reasons);
@@ -31,23 +32,23 @@ fn anticipation(summary: &Summary, events: &[Event], rules: &Rules, reasons: &mu
     if report.actions == 0 {
         return;
     }
-    let share = |count: usize| count as f64 / report.actions as f64;
-    if share(report.correct) < rules.anticipated_share {
+    let fraction = |count: usize| count as f64 / report.actions as f64;
+    if fraction(report.correct) < rules.anticipated_fraction {
         reasons.push(format!(
             "{} of {} partner actions were anticipated ({:.0} %); at least {:.0} % must be",
             report.correct,
             report.actions,
-            100.0 * share(report.correct),
-            100.0 * rules.anticipated_share
+            100.0 * fraction(report.correct),
+            100.0 * rules.anticipated_fraction
         ));
     }
     let wrong = events.iter().filter_map(Event::as_action).filter(|action| action.wrong()).count();
-    if share(wrong) > rules.wrong_share {
+    if fraction(wrong) > rules.wrong_fraction {
         reasons.push(format!(
             "{wrong} of {} partner actions were answered wrongly ({:.0} %); at most {:.0} % may be",
             report.actions,
-            100.0 * share(wrong),
-            100.0 * rules.wrong_share
+            100.0 * fraction(wrong),
+            100.0 * rules.wrong_fraction
         ));
     }
 }
@@ -58,9 +59,9 @@ fn deadlines(summary: &Summary, rules: &Rules, reasons: &mut Vec<String>) {
     for (name, process) in &summary.processes {
         let scheduler = summary.environment.schedulers.get(name);
         let privileged = scheduler.is_some_and(|class| class.starts_with("SCHED_FIFO"));
-        let limit = if privileged { rules.missed_share } else { rules.missed_share_unprivileged };
-        let share = process.missed.saturating_sub(machine) as f64 / process.cycles.max(1) as f64;
-        if share > limit {
+        let limit = if privileged { rules.missed_fraction } else { rules.missed_fraction_unprivileged };
+        let fraction = process.missed.saturating_sub(machine) as f64 / process.cycles.max(1) as f64;
+        if fraction > limit {
             reasons.push(format!(
                 "{name} missed {} of {} deadlines, the machine itself was late {machine} times; at most {:.2} % may be \
                  missed beyond that",

@@ -4,7 +4,8 @@
 mod support;
 
 use coact_messages::{FieldFrame, LayerKind, PartnerError, Truth};
-use coact_monitor::{ActionEvent, Anticipation, AnticipationReport, Event};
+use coact_monitor::Anticipation;
+use coact_run_records::{ActionEvent, AnticipationReport, Event};
 use support::*;
 
 /// Plays truth and frames of the same ticks, and gives the actions that were settled.

@@ -3,8 +3,8 @@
 
 mod support;
 
-use coact_monitor::{Event, FaultEvent, Faults, Lapse, SupervisorEvent, SupervisorEventKind, SupervisorLog};
-use std::io::Write;
+use coact_monitor::{CycleMisses, Faults};
+use coact_run_records::{Event, FaultEvent, SupervisorEvent, SupervisorEventKind};
 use support::pulse;
 
 const MS: u64 = 1_000_000;
@@ -12,7 +12,7 @@ const MS: u64 = 1_000_000;
 fn seen(event: SupervisorEventKind, process: &str, generation: u32, at_ms: u64) -> SupervisorEvent {
     let fault = (event == SupervisorEventKind::Injected).then(|| "kill".into());
     let reason = (event == SupervisorEventKind::Died).then(|| "signal 9".into());
-    SupervisorEvent { at_ns: at_ms * MS, event, process: process.into(), generation, fault, reason }
+    SupervisorEvent { at_ns: at_ms * MS, event, process: process.into(), generation, pid: 7, fault, reason }
 }
 
 fn set() -> Faults {
@@ -23,7 +23,7 @@ fn set() -> Faults {
 fn beat(faults: &mut Faults, process: &str, generation: u32, at_ms: u64, missed: u64) {
     let mut pulse = pulse(at_ms - 1, 0);
     pulse.header.generation = generation;
-    faults.pulse(process, &pulse, Lapse { missed, skipped: 0 });
+    faults.pulse(process, &pulse, CycleMisses { missed, skipped: 0 });
 }
 
 fn settled(faults: &mut Faults, at_ms: u64) -> Vec<FaultEvent> {
@@ -129,24 +129,4 @@ fn a_restarted_monitor_does_not_report_a_fault_twice() {
     restarted.supervisor(&seen(SupervisorEventKind::Died, "fields", 1, 3000));
     beat(&mut restarted, "fields", 2, 3020, 0);
     assert_eq!(settled(&mut restarted, 9000).len(), 1);
-}
-
-#[test]
-fn the_supervisors_lines_are_followed_while_they_are_written() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut log = SupervisorLog::new(folder.path());
-    assert_eq!(log.news().unwrap(), []);
-    let mut file = std::fs::File::create(folder.path().join("supervisor.jsonl")).unwrap();
-    let line = r#"{"at_ns":5,"event":"injected","process":"fields","generation":0,"pid":7,"fault":"kill"}"#;
-    write!(file, "{line}\n{}", &line[..20]).unwrap();
-    let news = log.news().unwrap();
-    assert_eq!(
-        (news.len(), news[0].event, news[0].fault.as_deref()),
-        (1, SupervisorEventKind::Injected, Some("kill"))
-    );
-    writeln!(file, "{}", &line[20..]).unwrap();
-    writeln!(file, "{}", line.replace("injected", "something-new")).unwrap();
-    let news = log.news().unwrap();
-    assert_eq!(news[0].at_ns, 5);
-    assert_eq!(news[1].event, SupervisorEventKind::Other);
 }

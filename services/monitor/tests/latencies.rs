@@ -3,24 +3,24 @@
 
 mod support;
 
-use coact_monitor::figures::{END_TO_END, execution_name, hop_name, wakeup_name};
-use coact_monitor::{Figures, IntervalLog, Latencies, Link};
+use coact_monitor::metrics::{END_TO_END, execution_name, hop_name, wakeup_name};
+use coact_monitor::{IntervalLog, Latencies, Metrics, PipelineNode};
 use std::path::Path;
 use std::time::SystemTime;
 use support::pulse;
 
 fn open(folder: &Path) -> Latencies {
-    let link = |process: &str, from: &str, last| Link {
+    let link = |process: &str, from: &str, last| PipelineNode {
         process: process.into(),
         input_from: Some(from.into()),
         last,
     };
-    let links = vec![link("fields", "perception", false), link("control", "fields", true)];
-    Latencies::open(folder, links, SystemTime::now()).unwrap()
+    let nodes = vec![link("fields", "perception", false), link("control", "fields", true)];
+    Latencies::open(folder, nodes, SystemTime::now()).unwrap()
 }
 
 fn count(latencies: &Latencies, name: &str) -> u64 {
-    latencies.figures().histograms().get(name).map_or(0, |recorder| recorder.total().len())
+    latencies.metrics().histograms().get(name).map_or(0, |recorder| recorder.total().len())
 }
 
 #[test]
@@ -28,7 +28,7 @@ fn each_figure_is_recorded_as_it_is_defined() {
     let folder = tempfile::tempdir().unwrap();
     let mut latencies = open(folder.path());
     latencies.pulse("control", &pulse(0, 20_000));
-    let value = |name: &str| latencies.figures().histograms()[name].total().max();
+    let value = |name: &str| latencies.metrics().histograms()[name].total().max();
     let close = |found: u64, wanted: u64| found.abs_diff(wanted) * 1000 <= wanted;
     assert!(close(value(&wakeup_name("control")), 20_000));
     assert!(close(value(&execution_name("control")), 100_000));
@@ -59,7 +59,7 @@ fn logs_hold_what_was_recorded_raw_and_corrected() {
             latencies.write().unwrap();
         }
     }
-    let recorder = &latencies.figures().histograms()[&wakeup_name("fields")];
+    let recorder = &latencies.metrics().histograms()[&wakeup_name("fields")];
     let log = IntervalLog::read(&folder.path().join("wakeup.fields.hlog")).unwrap();
     assert_eq!(&log.raw, recorder.total());
     assert_eq!(log.corrected, recorder.corrected());
@@ -83,7 +83,7 @@ fn a_restarted_monitor_goes_on_counting() {
         restarted.pulse("fields", &pulse(cycle, 10_000));
     });
     assert_eq!(count(&restarted, &wakeup_name("fields")), 199);
-    assert_eq!(restarted.figures().accounts()["fields"].cycles, 200);
+    assert_eq!(restarted.metrics().counters()["fields"].cycles, 200);
     restarted.write().unwrap();
     let log = IntervalLog::read(&folder.path().join("wakeup.fields.hlog")).unwrap();
     assert_eq!(log.raw.len(), 199);
@@ -124,8 +124,8 @@ fn logs_are_found_by_their_names() {
     let mut latencies = open(folder.path());
     latencies.pulse("control", &pulse(0, 0));
     latencies.write().unwrap();
-    let figures = Figures::load(folder.path()).unwrap();
-    let names: Vec<_> = figures.histograms().keys().collect();
+    let metrics = Metrics::load(folder.path()).unwrap();
+    let names: Vec<_> = metrics.histograms().keys().collect();
     assert_eq!(names, ["end-to-end", "execution.control", "hop.fields.control", "wakeup.control"]);
-    assert_eq!(figures.accounts(), latencies.figures().accounts());
+    assert_eq!(metrics.counters(), latencies.metrics().counters());
 }

@@ -3,10 +3,15 @@
 
 mod support;
 
-use coact_messages::{LayerKind, Speech};
-use coact_monitor::{Environment, Event, Link, MachineReport, Monitor, Rules, Summary, Watched};
+use coact_messages::{LayerKind, SensorSample, Speech};
+use coact_monitor::{Monitor, PipelineNode, Rules, Watched};
+use coact_run_records::{
+    Environment, Event, MachineReport, Record, Snapshot, Summary, SupervisorEvent, Verdict,
+};
+use serde_json::Value;
 use std::path::Path;
 use std::time::SystemTime;
+use support::schema::misfit;
 use support::*;
 
 fn rules() -> Rules {
@@ -14,12 +19,17 @@ fn rules() -> Rules {
     Rules::load(Path::new(path)).unwrap()
 }
 
-fn open(report: &Path) -> Monitor {
-    let links = vec![Link { process: "control".into(), input_from: Some("fields".into()), last: true }];
+fn watched(report: &Path) -> Watched {
+    let nodes =
+        vec![PipelineNode { process: "control".into(), input_from: Some("fields".into()), last: true }];
     let (task, intentions) = (task(), intentions());
     let started = SystemTime::now();
     let report = report.to_owned();
-    Monitor::open(Watched { report, task, intentions, links, rules: rules(), start_ns: 0, started }).unwrap()
+    Watched { report, task, intentions, nodes, rules: rules(), start_ns: 0, started }
+}
+
+fn open(report: &Path) -> Monitor {
+    Monitor::open(watched(report)).unwrap()
 }
 
 fn speech(cycle: u64, text: &str) -> Speech {
@@ -45,7 +55,7 @@ fn play(monitor: &mut Monitor, cycles: std::ops::Range<u64>) {
         if cycle == 650 {
             monitor.speech(&speech(cycle, "I will hold it."), &mut events);
         }
-        monitor.keep(pulse(cycle, 0).released_ns, std::mem::take(&mut events)).unwrap();
+        monitor.record(pulse(cycle, 0).released_ns, std::mem::take(&mut events)).unwrap();
     }
 }
 
@@ -66,13 +76,44 @@ const INJECTED: &str =
     r#"{"at_ns":700000000,"event":"injected","process":"control","generation":0,"pid":7,"fault":"slow"}"#;
 
 #[test]
-fn summary_has_the_documented_keys_and_figures() {
+fn summary_has_the_documented_keys_and_metrics() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("supervisor.jsonl"), format!("{INJECTED}\n")).unwrap();
+    std::fs::write(folder.path().join(SupervisorEvent::FILE), format!("{INJECTED}\n")).unwrap();
     let mut monitor = open(folder.path());
     play(&mut monitor, 0..2000);
     finish(monitor);
-    insta::assert_snapshot!(std::fs::read_to_string(folder.path().join("summary.json")).unwrap());
+    insta::assert_snapshot!(std::fs::read_to_string(folder.path().join(Summary::FILE)).unwrap());
+}
+
+/// The lines of a log, or the one value of another file, fit the schema that is published for them.
+fn assert_published(report: &Path, file: &str) {
+    let (name, _) = file.split_once('.').unwrap();
+    let schema = format!("{}/../../docs/schemas/{name}.schema.json", env!("CARGO_MANIFEST_DIR"));
+    let schema: Value = serde_json::from_str(&std::fs::read_to_string(schema).unwrap()).unwrap();
+    let text = std::fs::read_to_string(report.join(file)).unwrap();
+    let values: Vec<Value> =
+        serde_json::Deserializer::from_str(&text).into_iter().map(Result::unwrap).collect();
+    assert!(!values.is_empty(), "{file} is empty");
+    for value in &values {
+        assert_eq!(misfit(value, &schema, &schema), None, "{file}: {value}");
+    }
+    let mut spoilt = values[0].clone();
+    spoilt["at_noon"] = true.into();
+    assert!(misfit(&spoilt, &schema, &schema).is_some(), "the schema of {file} allows anything");
+}
+
+#[test]
+fn what_a_run_leaves_fits_the_published_schemas() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join(SupervisorEvent::FILE), format!("{INJECTED}\n")).unwrap();
+    let mut monitor = open(folder.path());
+    let sample: Box<SensorSample> = bytemuck::zeroed_box();
+    monitor.sample(&sample);
+    play(&mut monitor, 0..2000);
+    finish(monitor);
+    for file in [Summary::FILE, Event::FILE, SupervisorEvent::FILE, Snapshot::FILE] {
+        assert_published(folder.path(), file);
+    }
 }
 
 #[test]
@@ -109,11 +150,11 @@ fn a_killed_monitor_goes_on_and_tells_the_same_story() {
     assert_eq!(found.task, expected.task);
     assert_eq!(found.anticipation, expected.anticipation);
     assert_eq!(found.processes, expected.processes);
-    assert_eq!((found.verdict, found.reasons), ("pass", vec![]));
+    assert_eq!((found.verdict, found.reasons), (Verdict::Pass, vec![]));
 }
 
 #[test]
-fn a_memory_that_is_lost_while_the_subgoal_is_achieved_fails_the_run() {
+fn an_achieved_subgoal_that_the_fields_lose_fails_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let mut monitor = open(folder.path());
     play(&mut monitor, 0..1100);
@@ -121,11 +162,11 @@ fn a_memory_that_is_lost_while_the_subgoal_is_achieved_fails_the_run() {
     let mut truth = acting(1100, 1, MOUNT, LID, 100, 800);
     truth.achieved = 1;
     monitor.truth(&truth, &mut events);
-    monitor.frame(&frame(1100), &mut events); // no peak of the memory any more
+    monitor.frame(&frame(1100), &mut events); // no peak for the achieved subgoal any more
     assert_eq!(events, [Event::Forgotten { at_ms: 1100, name: "lid".into() }]);
-    monitor.keep(1, events).unwrap();
+    monitor.record(1, events).unwrap();
     let summary = finish(monitor);
-    assert_eq!(summary.verdict, "fail");
+    assert_eq!(summary.verdict, Verdict::Fail);
     assert_eq!(summary.reasons, ["at 1.1 s the fields lost the achieved subgoal \"lid\""]);
 }
 
@@ -134,7 +175,7 @@ fn each_rule_that_is_broken_is_one_reason() {
     let folder = tempfile::tempdir().unwrap();
     let supervisor = INJECTED.replace("injected", "died").replace("slow", "kill");
     let given_up = supervisor.replace("died", "gave_up");
-    std::fs::write(folder.path().join("supervisor.jsonl"), format!("{supervisor}\n{given_up}\n")).unwrap();
+    std::fs::write(folder.path().join(SupervisorEvent::FILE), format!("{supervisor}\n{given_up}\n")).unwrap();
     let mut monitor = open(folder.path());
     let mut events = Vec::new();
     for cycle in 0..1000 {
@@ -146,7 +187,7 @@ fn each_rule_that_is_broken_is_one_reason() {
         late.missed = cycle.div_ceil(2);
         monitor.pulse("control", &late);
     }
-    monitor.keep(1, events).unwrap();
+    monitor.record(1, events).unwrap();
     let summary = monitor.finish(Environment::default(), 200_000_000_000).unwrap();
     insta::assert_snapshot!(summary.reasons.join("\n"));
 }
@@ -180,18 +221,25 @@ fn frames_of_another_task_are_not_judged() {
 }
 
 #[test]
-fn a_foreign_journal_is_refused_with_its_place() {
+fn a_foreign_event_log_is_refused_with_its_place() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("events.jsonl"), "{\"event\":\"dance\"}\n").unwrap();
-    let error =
-        coact_monitor::Journal::<Event>::open(&folder.path().join("events.jsonl")).unwrap_err().to_string();
-    assert!(error.contains("events.jsonl:1: not an entry"), "{error}");
+    std::fs::write(folder.path().join(Event::FILE), "{\"event\":\"dance\"}\n").unwrap();
+    let error = Monitor::open(watched(folder.path())).unwrap_err().to_string();
+    assert!(error.contains("events.jsonl:1: not a line of this log"), "{error}");
+}
+
+#[test]
+fn a_damaged_supervisor_log_is_named_with_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join(SupervisorEvent::FILE), format!("{INJECTED}\n{{}}\n")).unwrap();
+    let error = open(folder.path()).record(1, Vec::new()).unwrap_err().to_string();
+    assert!(error.contains("supervisor.jsonl:2: not a line of this log: missing field"), "{error}");
 }
 
 #[test]
 fn an_earlier_runs_report_is_cleared_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("supervisor.jsonl"), "").unwrap();
+    std::fs::write(folder.path().join(SupervisorEvent::FILE), "").unwrap();
     let mut monitor = open(folder.path());
     play(&mut monitor, 0..2000);
     finish(monitor);

@@ -1,11 +1,12 @@
 use crate::ending::EndCondition;
 use crate::run_loop::{RunLoop, RunParts};
 use crate::{
-    Ending, EventLog, Injection, LaunchError, Note, NoteKind, Notes, ProcessSet, ProcessSpec, Progress,
+    Ending, Injection, LaunchError, Note, NoteKind, Notes, ProcessSet, ProcessSpec, Progress, SupervisorLog,
     Terminal,
 };
 use coact_joint_task::Task;
 use coact_pipeline::{Pipeline, ProcessEntry, Run, RunSettings, Trigger};
+use coact_run_records::Summary;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -107,17 +108,15 @@ impl Launch {
     }
 
     /// Makes the report directory with an empty log, and without a summary of an earlier run.
-    fn open_report(&self) -> Result<EventLog, LaunchError> {
+    fn open_report(&self) -> Result<SupervisorLog, LaunchError> {
         let report = &self.settings.report;
         let file_error = |path: &Path, cause| LaunchError::File { path: path.to_owned(), cause };
         std::fs::create_dir_all(report).map_err(|error| file_error(report, error))?;
-        match std::fs::remove_file(report.join("summary.json")) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(file_error(report, error)),
-            _ => EventLog::create(report).map_err(|error| file_error(&report.join(EventLog::FILE), error)),
-        }
+        Summary::remove(report).map_err(LaunchError::Record)?;
+        SupervisorLog::create(report).map_err(LaunchError::Record)
     }
 
-    fn process_set(&self, run: &Run, log: EventLog, notes: Notes) -> ProcessSet {
+    fn process_set(&self, run: &Run, log: SupervisorLog, notes: Notes) -> ProcessSet {
         let spec = |entry: &ProcessEntry| ProcessSpec {
             name: entry.name.clone(),
             order: entry.order,

@@ -1,6 +1,7 @@
 use crate::GaveUp;
 use coact_pipeline::{PipelineError, RunError};
 use coact_realtime::PortError;
+use coact_run_records::RecordError;
 use std::io;
 use std::path::PathBuf;
 
@@ -32,6 +33,9 @@ pub enum LaunchError {
         /// Why.
         cause: io::Error,
     },
+    /// A log or the summary. The message contains the cause.
+    #[error("{0}; expected a place that can be written")]
+    Record(RecordError),
     /// Signals cannot be handled. The message contains the cause.
     #[error("signals cannot be handled: {0}")]
     Signals(io::Error),

@@ -4,15 +4,13 @@
 //! order, and supervises the set until its end. [`ProcessSet`] is the supervision alone; it knows no topics.
 //!
 //! A process that dies is noticed by its pidfd at once. Its checkpoint is published, and it is started again, as often as
-//! the process table's restart policy allows. Everything that happens to a process is a line of [`EventLog`], from which
-//! the monitor makes the report's fault lines.
+//! the process table's restart policy allows. Everything that happens to a process is a line of the
+//! [supervisor log](SupervisorLog), from which the monitor makes the report's fault lines.
 
 mod checkpoints;
 mod child;
 mod control_socket;
 mod ending;
-mod event;
-mod event_log;
 mod fault;
 mod gave_up;
 mod injection;
@@ -30,6 +28,7 @@ mod run_loop;
 mod run_topics;
 mod stderr_tail;
 mod supervised;
+mod supervisor_log;
 mod terminal;
 mod topic_reader;
 
@@ -37,8 +36,6 @@ pub use checkpoints::Checkpoints;
 pub use child::RunningChild;
 pub use control_socket::{FaultRequestError, request_fault};
 pub use ending::Ending;
-pub use event::{Event, EventKind};
-pub use event_log::EventLog;
 pub use fault::{Fault, UnknownFault};
 pub use gave_up::GaveUp;
 pub use injection::{Injection, InjectionError};
@@ -52,4 +49,5 @@ pub use process_spec::ProcessSpec;
 pub use progress::Progress;
 pub use restart_history::RestartHistory;
 pub use stderr_tail::StderrTail;
+pub use supervisor_log::SupervisorLog;
 pub use terminal::{Notes, Terminal};

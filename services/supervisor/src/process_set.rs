@@ -1,9 +1,8 @@
 use crate::supervised::{Death, Lifecycle, Supervised};
-use crate::{
-    Checkpoints, Event, EventKind, EventLog, Fault, GaveUp, InjectionRefusal, ProcessSpec, RunningChild,
-};
+use crate::{Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSpec, RunningChild, SupervisorLog};
 use coact_pipeline::RestartPolicy;
 use coact_realtime::monotonic_time;
+use coact_run_records::{SupervisorEvent, SupervisorEventKind};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::process::Signal;
 use std::collections::BTreeSet;
@@ -16,8 +15,8 @@ use std::time::Duration;
 pub struct ProcessSet {
     processes: Vec<Supervised>,
     policy: RestartPolicy,
-    log: EventLog,
-    new_events: Vec<Event>,
+    log: SupervisorLog,
+    new_events: Vec<SupervisorEvent>,
     /// From when on pulses are expected; none while the run's clock does not run yet.
     pulses_from: Option<Duration>,
     /// Called with process name and line for each line that a process writes to standard error.
@@ -32,7 +31,12 @@ impl ProcessSet {
     const STOP_POLL: Duration = Duration::from_millis(3);
 
     /// A set of which nothing runs yet.
-    pub fn new(specs: Vec<ProcessSpec>, policy: RestartPolicy, log: EventLog, on_line: LineSink) -> Self {
+    pub fn new(
+        specs: Vec<ProcessSpec>,
+        policy: RestartPolicy,
+        log: SupervisorLog,
+        on_line: LineSink,
+    ) -> Self {
         let mut processes: Vec<_> = specs.into_iter().map(Supervised::new).collect();
         processes.sort_by_key(|process| process.spec.order);
         Self { processes, policy, log, new_events: Vec::new(), pulses_from: None, on_line }
@@ -105,7 +109,7 @@ impl ProcessSet {
             return Err(InjectionRefusal::NotRunning(process.into()));
         }
         self.processes[index].fault = Some(fault);
-        self.record(index, EventKind::Injected, None, None);
+        self.record(index, SupervisorEventKind::Injected, None, None);
         let target = &mut self.processes[index];
         target.crash_next = fault == Fault::CrashOnStart;
         let Some(running) = target.running_mut() else { return Ok(()) };
@@ -144,7 +148,7 @@ impl ProcessSet {
     }
 
     /// What happened since the last call.
-    pub fn take_events(&mut self) -> Vec<Event> {
+    pub fn take_events(&mut self) -> Vec<SupervisorEvent> {
         std::mem::take(&mut self.new_events)
     }
 
@@ -167,7 +171,7 @@ impl ProcessSet {
         while group.iter().any(|&index| self.processes[index].running().is_some()) {
             for &index in group {
                 if let Some(death) = self.processes[index].died(monotonic_time()) {
-                    self.record(index, EventKind::Stopped, Some(death.pid), Some(death.reason));
+                    self.record(index, SupervisorEventKind::Stopped, Some(death.pid), Some(death.reason));
                 }
                 self.processes[index].kill_after_grace(monotonic_time().saturating_sub(begin));
             }
@@ -182,7 +186,7 @@ impl ProcessSet {
     /// Logs a death. A first start that failed gives the set up; otherwise the restart policy decides.
     fn on_exit(&mut self, index: usize, death: Death) -> Result<(), GaveUp> {
         let Death { pid, reason, was_ready, not_ready_in_time, exited, child } = death;
-        self.record(index, EventKind::Died, Some(pid), Some(reason.clone()));
+        self.record(index, SupervisorEventKind::Died, Some(pid), Some(reason.clone()));
         let first_start = self.processes[index].generation == 0 && !was_ready;
         if first_start && (exited || not_ready_in_time) {
             return Err(self.give_up(index, pid, reason, child.stderr_tail(), true));
@@ -216,12 +220,12 @@ impl ProcessSet {
         stderr_tail: Vec<String>,
         configuration: bool,
     ) -> GaveUp {
-        self.record(index, EventKind::GaveUp, Some(pid), Some(reason.clone()));
+        self.record(index, SupervisorEventKind::GaveUp, Some(pid), Some(reason.clone()));
         GaveUp { process: self.processes[index].spec.name.clone(), reason, stderr_tail, configuration }
     }
 
     fn on_ready(&mut self, index: usize, checkpoints: &mut dyn Checkpoints) {
-        self.record(index, EventKind::Ready, None, None);
+        self.record(index, SupervisorEventKind::Ready, None, None);
         let process = &mut self.processes[index];
         if process.generation > 0 {
             process.fault = None;
@@ -233,11 +237,11 @@ impl ProcessSet {
     fn start_if_due(&mut self, index: usize, checkpoints: &mut dyn Checkpoints) -> Result<(), GaveUp> {
         let process = &self.processes[index];
         let kind = match process.lifecycle {
-            Lifecycle::Waiting if self.is_turn_of(process.spec.order) => EventKind::Started,
-            Lifecycle::RestartDue(due) if monotonic_time() >= due => EventKind::Restarted,
+            Lifecycle::Waiting if self.is_turn_of(process.spec.order) => SupervisorEventKind::Started,
+            Lifecycle::RestartDue(due) if monotonic_time() >= due => SupervisorEventKind::Restarted,
             _ => return Ok(()),
         };
-        if kind == EventKind::Restarted {
+        if kind == SupervisorEventKind::Restarted {
             checkpoints.publish(&process.spec.name);
             self.processes[index].generation += 1;
         }
@@ -249,7 +253,7 @@ impl ProcessSet {
         self.processes.iter().filter(|process| process.spec.order < order).all(Supervised::is_ready)
     }
 
-    fn spawn(&mut self, index: usize, kind: EventKind) -> Result<(), GaveUp> {
+    fn spawn(&mut self, index: usize, kind: SupervisorEventKind) -> Result<(), GaveUp> {
         let Self { processes, on_line, .. } = self;
         let process = &mut processes[index];
         let (sink, name) = (on_line.clone(), process.spec.name.clone());
@@ -261,17 +265,17 @@ impl ProcessSet {
             }
             Err(error) => {
                 let reason = format!("cannot start {}: {error}", process.spec.program.display());
-                self.record(index, EventKind::Died, Some(0), Some(reason.clone()));
+                self.record(index, SupervisorEventKind::Died, Some(0), Some(reason.clone()));
                 self.schedule_restart(index, 0, &reason, Vec::new)
             }
         }
     }
 
     /// Logs an event, and keeps it for [`ProcessSet::take_events`]. Without `pid`: that of the running child.
-    fn record(&mut self, index: usize, event: EventKind, pid: Option<u32>, reason: Option<String>) {
+    fn record(&mut self, index: usize, event: SupervisorEventKind, pid: Option<u32>, reason: Option<String>) {
         let process = &self.processes[index];
         let pid = pid.or_else(|| process.running().map(|running| running.child.pid())).unwrap_or(0);
-        let event = Event {
+        let event = SupervisorEvent {
             at_ns: monotonic_time().as_nanos() as u64,
             event,
             process: process.spec.name.clone(),
@@ -280,7 +284,7 @@ impl ProcessSet {
             fault: process.fault.map(|fault| fault.name().to_owned()),
             reason,
         };
-        self.log.write(&event);
+        self.log.write(event.clone());
         self.new_events.push(event);
     }
 }

@@ -1,6 +1,7 @@
-use crate::{Event, EventKind, Note, NoteKind};
+use crate::{Note, NoteKind};
 use coact_joint_task::Task;
 use coact_messages::{FieldFrame, LayerKind, Pulse, Speech};
+use coact_run_records::{SupervisorEvent, SupervisorEventKind};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -90,18 +91,24 @@ impl Progress {
     }
 
     /// Something that happened to a process.
-    pub fn event(&mut self, event: &Event) {
-        let Event { process, pid, generation, .. } = event;
+    pub fn event(&mut self, event: &SupervisorEvent) {
+        let SupervisorEvent { process, pid, generation, .. } = event;
         let fault = event.fault.as_deref().unwrap_or("fault");
         let reason = event.reason.as_deref().unwrap_or("no reason known");
         let (kind, text) = match event.event {
-            EventKind::Started | EventKind::Stopped => return,
-            EventKind::Ready if *generation == 0 => return,
-            EventKind::Ready => (NoteKind::Achieved, format!("{process} is back (restart {generation})")),
-            EventKind::Died => (NoteKind::Disturbance, format!("{process} died: {reason} (pid {pid})")),
-            EventKind::Injected => (NoteKind::Disturbance, format!("injecting {fault} into {process}")),
-            EventKind::GaveUp => (NoteKind::Alarm, format!("{process} is given up: {reason}")),
-            EventKind::Restarted => {
+            SupervisorEventKind::Started | SupervisorEventKind::Stopped => return,
+            SupervisorEventKind::Ready if *generation == 0 => return,
+            SupervisorEventKind::Ready => {
+                (NoteKind::Achieved, format!("{process} is back (restart {generation})"))
+            }
+            SupervisorEventKind::Died => {
+                (NoteKind::Disturbance, format!("{process} died: {reason} (pid {pid})"))
+            }
+            SupervisorEventKind::Injected => {
+                (NoteKind::Disturbance, format!("injecting {fault} into {process}"))
+            }
+            SupervisorEventKind::GaveUp => (NoteKind::Alarm, format!("{process} is given up: {reason}")),
+            SupervisorEventKind::Restarted => {
                 self.restarts += 1;
                 return;
             }

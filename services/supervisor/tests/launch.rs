@@ -3,7 +3,8 @@
 
 use coact_joint_task::Task;
 use coact_pipeline::{Pipeline, Run, RunSettings, WorldMode};
-use coact_supervisor::{Ending, Event, EventKind, EventLog, Launch, LaunchError, request_fault};
+use coact_run_records::{RunLog, Summary, SupervisorEvent, SupervisorEventKind};
+use coact_supervisor::{Ending, Launch, LaunchError, request_fault};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
@@ -59,10 +60,9 @@ impl Place {
         }
     }
 
-    fn events(&self) -> Vec<Event> {
-        let text =
-            std::fs::read_to_string(self.0.path().join("report").join(EventLog::FILE)).unwrap_or_default();
-        text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    fn events(&self) -> Vec<SupervisorEvent> {
+        // While the run is being made, there is none.
+        RunLog::read(&self.0.path().join("report")).unwrap_or_default()
     }
 
     /// The run that reports here, once it has been made.
@@ -71,7 +71,7 @@ impl Place {
         wait_for(|| Run::all().into_iter().find(|run| run.settings().report == report))
     }
 
-    fn count(&self, kind: EventKind, process: &str) -> usize {
+    fn count(&self, kind: SupervisorEventKind, process: &str) -> usize {
         self.events().iter().filter(|event| event.event == kind && event.process == process).count()
     }
 }
@@ -110,7 +110,11 @@ fn a_run_lasts_its_duration_and_leaves_nothing_but_its_report() {
     assert_eq!(running.join().unwrap().unwrap(), Ending::DurationOver);
     assert!(!run.directory().exists());
     assert_eq!(shared_memory_of(&run), 0);
-    for (kind, process) in [(EventKind::Ready, "a"), (EventKind::Stopped, "a"), (EventKind::Stopped, "b")] {
+    for (kind, process) in [
+        (SupervisorEventKind::Ready, "a"),
+        (SupervisorEventKind::Stopped, "a"),
+        (SupervisorEventKind::Stopped, "b"),
+    ] {
         assert_eq!(place.count(kind, process), 1, "{kind:?} {process}");
     }
 }
@@ -120,15 +124,21 @@ fn faults_are_injected_at_their_time_and_on_request() {
     let place = Place::new(&[("a", SERVICE), ("b", SERVICE)]);
     let running = in_background(place.launch(&["a", "b"], LONG, &["a:kill@100ms"]));
     let run = place.run();
-    wait_for(|| (place.count(EventKind::Ready, "a") == 2).then_some(()));
+    wait_for(|| (place.count(SupervisorEventKind::Ready, "a") == 2).then_some(()));
     request_fault(&run, "b", "crash-on-start").unwrap();
     let unknown = request_fault(&run, "c", "kill").unwrap_err().to_string();
     assert!(unknown.contains("this set has: a, b"), "{unknown}");
     let unknown = request_fault(&run, "b", "melt").unwrap_err().to_string();
     assert!(unknown.contains("expected one of: kill, stop, slow, crash-on-start"), "{unknown}");
     running.join().unwrap().unwrap();
-    assert_eq!((place.count(EventKind::Injected, "a"), place.count(EventKind::Restarted, "a")), (1, 1));
-    assert_eq!((place.count(EventKind::Injected, "b"), place.count(EventKind::Restarted, "b")), (1, 2));
+    assert_eq!(
+        (place.count(SupervisorEventKind::Injected, "a"), place.count(SupervisorEventKind::Restarted, "a")),
+        (1, 1)
+    );
+    assert_eq!(
+        (place.count(SupervisorEventKind::Injected, "b"), place.count(SupervisorEventKind::Restarted, "b")),
+        (1, 2)
+    );
 }
 
 #[test]
@@ -139,8 +149,8 @@ fn two_runs_beside_each_other_do_not_touch_each_other() {
     short.launch(&["a"], Duration::from_millis(200), &["a:kill@0s"]).run().unwrap();
     assert!(run.directory().exists() && shared_memory_of(&run) > 0);
     longer.join().unwrap().unwrap();
-    assert_eq!(short.count(EventKind::Died, "a"), 1);
-    assert_eq!(long.count(EventKind::Died, "a"), 0);
+    assert_eq!(short.count(SupervisorEventKind::Died, "a"), 1);
+    assert_eq!(long.count(SupervisorEventKind::Died, "a"), 0);
 }
 
 #[test]
@@ -165,7 +175,7 @@ fn a_set_that_is_given_up_is_stopped_and_leaves_nothing() {
     let error = running.join().unwrap().unwrap_err();
     assert!(error.is_configuration());
     assert!(error.to_string().contains("no arm found"), "{error}");
-    assert_eq!(place.count(EventKind::Stopped, "a"), 1);
+    assert_eq!(place.count(SupervisorEventKind::Stopped, "a"), 1);
     assert!(!run.directory().exists());
     assert_eq!(shared_memory_of(&run), 0);
 }
@@ -174,7 +184,7 @@ fn a_set_that_is_given_up_is_stopped_and_leaves_nothing() {
 fn an_earlier_summary_in_the_report_folder_is_not_taken_for_this_runs() {
     let place = Place::new(&[("a", SERVICE)]);
     let launch = place.launch(&["a"], Duration::from_millis(10), &[]);
-    let summary = launch.settings.report.join("summary.json");
+    let summary = launch.settings.report.join(Summary::FILE);
     std::fs::create_dir_all(&launch.settings.report).unwrap();
     std::fs::write(&summary, "{}").unwrap();
     launch.run().unwrap();

@@ -2,8 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_pipeline::RestartPolicy;
+use coact_run_records::{RunLog, SupervisorEvent, SupervisorEventKind};
 use coact_supervisor::{
-    Checkpoints, Event, EventKind, EventLog, Fault, GaveUp, InjectionRefusal, ProcessSet, ProcessSpec,
+    Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSet, ProcessSpec, SupervisorLog,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -15,7 +16,7 @@ const READY_AND_RUN: &str = "touch \"$READY\"; exec sleep 600";
 struct Trial {
     folder: tempfile::TempDir,
     set: ProcessSet,
-    events: Vec<Event>,
+    events: Vec<SupervisorEvent>,
 }
 
 /// The calls that it got, in order.
@@ -64,7 +65,7 @@ impl Trial {
             backoff_max: Duration::from_millis(4),
             hung_after: Duration::from_millis(300),
         };
-        let log = EventLog::create(folder.path()).unwrap();
+        let log = SupervisorLog::create(folder.path()).unwrap();
         let set = ProcessSet::new(specs, policy, log, Arc::new(|_, _| {}));
         Self { folder, set, events: Vec::new() }
     }
@@ -104,11 +105,11 @@ impl Trial {
         self.set.pids().find(|(other, _)| *other == name).unwrap().1
     }
 
-    fn count(&self, kind: EventKind, process: &str) -> usize {
+    fn count(&self, kind: SupervisorEventKind, process: &str) -> usize {
         self.events.iter().filter(|event| event.event == kind && event.process == process).count()
     }
 
-    fn sequence(&self) -> Vec<(EventKind, &str)> {
+    fn sequence(&self) -> Vec<(SupervisorEventKind, &str)> {
         self.events.iter().map(|event| (event.event, event.process.as_str())).collect()
     }
 }
@@ -119,7 +120,7 @@ fn exists(pid: u32) -> bool {
 
 #[test]
 fn each_process_starts_when_those_before_it_are_ready() {
-    use EventKind::{Ready, Started};
+    use SupervisorEventKind::{Ready, Started};
     let slowly = "sleep 0.2; touch \"$READY\"; exec sleep 600";
     let mut trial =
         Trial::in_steps(&[("first", slowly), ("second", READY_AND_RUN), ("third", READY_AND_RUN)]);
@@ -142,14 +143,14 @@ fn a_killed_process_is_replaced_after_its_checkpoint_was_published_and_the_other
     let (a, b) = (trial.pid("a"), trial.pid("b"));
     trial.set.inject("a", Fault::Kill).unwrap();
     let mut calls = RecordedCalls::default();
-    trial.until(&mut calls, |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
+    trial.until(&mut calls, |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
     assert_eq!(calls.0, ["publish a", "recovered a"]);
     assert_eq!(trial.pid("b"), b);
     assert_ne!(trial.pid("a"), a);
-    let died = trial.events.iter().find(|event| event.event == EventKind::Died).unwrap();
+    let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
     assert_eq!((died.pid, died.reason.as_deref()), (a, Some("killed by SIGKILL")));
     assert_eq!(died.fault.as_deref(), Some("kill"));
-    let restarted = trial.events.iter().find(|event| event.event == EventKind::Restarted).unwrap();
+    let restarted = trial.events.iter().find(|event| event.event == SupervisorEventKind::Restarted).unwrap();
     assert_eq!((restarted.generation, restarted.pid), (1, trial.pid("a")));
 }
 
@@ -158,10 +159,10 @@ fn crash_on_start_kills_the_replacement_before_it_is_ready_and_the_next_one_live
     let mut trial = Trial::of(&[("a", READY_AND_RUN)]);
     trial.run_until_ready();
     trial.set.inject("a", Fault::CrashOnStart).unwrap();
-    trial.until(&mut (), |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
-    let ready = trial.events.iter().rfind(|event| event.event == EventKind::Ready).unwrap();
+    trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
+    let ready = trial.events.iter().rfind(|event| event.event == SupervisorEventKind::Ready).unwrap();
     assert_eq!(ready.generation, 2);
-    assert_eq!(trial.count(EventKind::Died, "a"), 2);
+    assert_eq!(trial.count(SupervisorEventKind::Died, "a"), 2);
 }
 
 #[test]
@@ -170,9 +171,9 @@ fn a_process_killed_while_it_starts_is_started_again() {
         "if mkdir \"$DIR/once\" 2>/dev/null; then kill -9 $$; fi; touch \"$READY\"; exec sleep 600";
     let mut trial = Trial::of(&[("a", dies_once), ("b", READY_AND_RUN)]);
     trial.run_until_ready();
-    assert_eq!(trial.count(EventKind::Died, "a"), 1);
-    assert_eq!(trial.count(EventKind::Restarted, "a"), 1);
-    assert_eq!(trial.count(EventKind::Started, "b"), 1);
+    assert_eq!(trial.count(SupervisorEventKind::Died, "a"), 1);
+    assert_eq!(trial.count(SupervisorEventKind::Restarted, "a"), 1);
+    assert_eq!(trial.count(SupervisorEventKind::Started, "b"), 1);
 }
 
 #[test]
@@ -184,7 +185,7 @@ fn a_stopped_process_goes_on_after_its_pause_when_silence_is_allowed() {
     trial.set.inject("a", Fault::Stop).unwrap();
     trial.until(&mut (), state).unwrap();
     trial.until(&mut (), |trial| !state(trial)).unwrap();
-    assert_eq!(trial.count(EventKind::Died, "a"), 0);
+    assert_eq!(trial.count(SupervisorEventKind::Died, "a"), 0);
 }
 
 #[test]
@@ -195,8 +196,8 @@ fn a_stopped_process_that_stays_silent_for_too_long_is_killed_as_hung_and_replac
     trial.run_until_ready();
     trial.set.expect_pulses(coact_realtime::monotonic_time());
     trial.set.inject("a", Fault::Stop).unwrap();
-    trial.until(&mut (), |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
-    let died = trial.events.iter().find(|event| event.event == EventKind::Died).unwrap();
+    trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
+    let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
     assert_eq!(died.reason.as_deref(), Some("hung: no pulse for more than 300 ms"));
     assert_eq!(died.fault.as_deref(), Some("stop"));
 }
@@ -207,7 +208,7 @@ fn a_process_that_refuses_to_start_is_not_started_again() {
     let gave_up = trial.gives_up();
     assert!(gave_up.configuration);
     assert_eq!(gave_up.stderr_tail, ["task.toml:3: no such kind"]);
-    assert_eq!(trial.count(EventKind::Restarted, "a"), 0);
+    assert_eq!(trial.count(SupervisorEventKind::Restarted, "a"), 0);
 }
 
 #[test]
@@ -215,8 +216,8 @@ fn a_process_that_dies_over_and_over_is_given_up_with_the_tail_of_its_stderr() {
     let mut trial = Trial::of(&[("a", "touch \"$READY\"; sleep 0.1; echo 'the arm is on fire' >&2; exit 1")]);
     let gave_up = trial.gives_up();
     assert!(!gave_up.configuration);
-    assert_eq!(trial.count(EventKind::Restarted, "a"), 3);
-    assert_eq!(trial.count(EventKind::GaveUp, "a"), 1);
+    assert_eq!(trial.count(SupervisorEventKind::Restarted, "a"), 3);
+    assert_eq!(trial.count(SupervisorEventKind::GaveUp, "a"), 1);
     let text = gave_up.to_string();
     for part in ["exit status 1", "3 restarts within 600 s are allowed", "the arm is on fire"] {
         assert!(text.contains(part), "{text}");
@@ -256,7 +257,7 @@ fn all_are_stopped_in_descending_order_and_one_that_ignores_the_signal_is_killed
     trial.events.extend(trial.set.take_events());
     let order: Vec<&str> = trial.sequence().iter().map(|(_, name)| *name).collect();
     assert_eq!(order, ["z", "ignores-signal", "a", "first"]);
-    assert!(trial.events.iter().all(|event| event.event == EventKind::Stopped));
+    assert!(trial.events.iter().all(|event| event.event == SupervisorEventKind::Stopped));
     assert!(
         trial.events[1].reason.as_deref().unwrap().starts_with("killed: it did not"),
         "{:?}",
@@ -299,9 +300,8 @@ fn the_log_on_disk_holds_every_event() {
     let mut trial = Trial::of(&[("a", READY_AND_RUN)]);
     trial.run_until_ready();
     trial.set.inject("a", Fault::Kill).unwrap();
-    trial.until(&mut (), |trial| trial.count(EventKind::Ready, "a") == 2).unwrap();
-    let text = std::fs::read_to_string(trial.folder.path().join(EventLog::FILE)).unwrap();
-    let logged: Vec<Event> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
+    let logged = RunLog::<SupervisorEvent>::read(trial.folder.path()).unwrap();
     assert_eq!(logged, trial.events);
     assert!(logged.is_sorted_by_key(|event| event.at_ns));
 }

@@ -5,7 +5,8 @@ mod live;
 mod tables;
 
 use anyhow::{Context, bail};
-use coact_monitor::{Account, Figures, Percentiles};
+use coact_monitor::{Metrics, ProcessCounters, percentiles};
+use coact_run_records::Percentiles;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -60,9 +61,9 @@ struct Curve {
     corrected: Percentiles,
 }
 
-impl From<&Account> for Deadlines {
-    fn from(account: &Account) -> Self {
-        let &Account { cycles, missed, longest_miss_run, skipped, stale, restarts, .. } = account;
+impl From<&ProcessCounters> for Deadlines {
+    fn from(counters: &ProcessCounters) -> Self {
+        let &ProcessCounters { cycles, missed, longest_miss_run, skipped, stale, restarts, .. } = counters;
         Self { cycles, missed, longest_miss_run, skipped, stale, restarts }
     }
 }
@@ -76,8 +77,8 @@ pub fn run(args: Args) -> anyhow::Result<ExitCode> {
         live::run(args.run.as_deref(), args.json)?;
         return Ok(ExitCode::SUCCESS);
     };
-    let figures = load(&directory)?;
-    let text = if args.json { serde_json::to_string_pretty(&report(&figures))? } else { show(&figures) };
+    let metrics = load(&directory)?;
+    let text = if args.json { serde_json::to_string_pretty(&report(&metrics))? } else { show(&metrics) };
     write(&text)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -92,34 +93,34 @@ fn write(text: &str) -> anyhow::Result<bool> {
     }
 }
 
-fn load(directory: &Path) -> anyhow::Result<Figures> {
+fn load(directory: &Path) -> anyhow::Result<Metrics> {
     let shown = directory.display();
     if !directory.is_dir() {
         bail!("{shown}: no such directory; expected a report directory of tools/launch");
     }
     let inner = directory.join("latency");
     let folder = if inner.is_dir() { inner.as_path() } else { directory };
-    let figures = Figures::load(folder).with_context(|| format!("{shown} cannot be read"))?;
-    if figures.histograms().is_empty() {
+    let metrics = Metrics::load(folder).with_context(|| format!("{shown} cannot be read"))?;
+    if metrics.histograms().is_empty() {
         bail!("{shown}: holds no latency logs (*.hlog); expected a report directory of tools/launch");
     }
-    Ok(figures)
+    Ok(metrics)
 }
 
-fn report(figures: &Figures) -> Report<'_> {
-    let histograms = figures.histograms().iter().map(|(name, recorder)| {
-        let raw = Percentiles::of(recorder.total());
-        (name.as_str(), Curve { raw, corrected: Percentiles::of(&recorder.corrected()) })
+fn report(metrics: &Metrics) -> Report<'_> {
+    let histograms = metrics.histograms().iter().map(|(name, recorder)| {
+        let raw = percentiles(recorder.total());
+        (name.as_str(), Curve { raw, corrected: percentiles(&recorder.corrected()) })
     });
-    let processes = figures.accounts().iter().map(|(name, account)| (name.as_str(), account.into()));
+    let processes = metrics.counters().iter().map(|(name, counters)| (name.as_str(), counters.into()));
     Report { processes: processes.collect(), histograms: histograms.collect() }
 }
 
 /// Tables and curves as text.
-fn show(figures: &Figures) -> String {
-    let mut text = format!("{}\n\n{}\n", tables::deadlines(figures), tables::durations(figures));
+fn show(metrics: &Metrics) -> String {
+    let mut text = format!("{}\n\n{}\n", tables::deadlines(metrics), tables::durations(metrics));
     for group in [Group::EndToEnd, Group::Hop, Group::WakeUp, Group::Execution] {
-        if let Some(curves) = curves::draw(figures, group) {
+        if let Some(curves) = curves::draw(metrics, group) {
             text.push_str(&format!("\n{curves}"));
         }
     }
@@ -164,15 +165,16 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use coact_messages::Pulse;
-    use coact_monitor::{Latencies, Link};
+    use coact_monitor::{Latencies, PipelineNode};
     use std::time::SystemTime;
 
     /// A report of one process, `control`, that is last in the chain and woke up 1 to 100 µs late.
     fn written() -> tempfile::TempDir {
         let report = tempfile::tempdir().unwrap();
-        let links = vec![Link { process: "control".into(), input_from: Some("fields".into()), last: true }];
+        let nodes =
+            vec![PipelineNode { process: "control".into(), input_from: Some("fields".into()), last: true }];
         let mut latencies =
-            Latencies::open(&report.path().join("latency"), links, SystemTime::now()).unwrap();
+            Latencies::open(&report.path().join("latency"), nodes, SystemTime::now()).unwrap();
         for cycle in 0..100 {
             let mut pulse = Pulse { scheduled_ns: 5_000_000, input_published_ns: 1, ..Pulse::default() };
             pulse.started_ns = pulse.scheduled_ns + (cycle + 1) * 1000;
@@ -193,15 +195,15 @@ mod tests {
     fn report_is_found_by_its_directory_and_by_its_logs() {
         let report = written();
         for directory in [report.path().to_owned(), report.path().join("latency")] {
-            let figures = load(&directory).unwrap();
-            assert_eq!(figures.accounts()["control"].cycles, 100);
+            let metrics = load(&directory).unwrap();
+            assert_eq!(metrics.counters()["control"].cycles, 100);
         }
     }
 
     #[test]
     fn every_histogram_has_its_row_and_every_sort_its_curves() {
-        let figures = load(written().path()).unwrap();
-        let text = show(&figures);
+        let metrics = load(written().path()).unwrap();
+        let text = show(&metrics);
         for shown in ["hop fields → control", "wake-up lateness control", "execution control", "300.0"] {
             assert!(text.contains(shown), "{shown} is missing in\n{text}");
         }
@@ -211,8 +213,8 @@ mod tests {
 
     #[test]
     fn json_has_percentiles_raw_and_corrected() {
-        let figures = load(written().path()).unwrap();
-        let json = serde_json::to_value(report(&figures)).unwrap();
+        let metrics = load(written().path()).unwrap();
+        let json = serde_json::to_value(report(&metrics)).unwrap();
         assert_eq!(json["processes"]["control"]["cycles"], 100);
         assert_eq!(json["histograms"]["end-to-end"]["raw"]["count"], 100);
         assert_eq!(json["histograms"]["wakeup.control"]["corrected"]["count"], 100);

@@ -3,10 +3,10 @@ use crate::report_folder::unused_report_folder;
 use crate::{closed_pipe, lockstep, partner, run_report, snapshots};
 use anyhow::Result;
 use coact_joint_task::NetworkPlan;
-use coact_monitor::Album;
 use coact_perception::PreshapeModel;
 use coact_pipeline::{Pipeline, RunSettings, WorldMode};
 use coact_robot::Robot;
+use coact_run_records::{Record, Snapshot};
 use coact_safety::SafetyLimits;
 use coact_supervisor::{Injection, Launch, LaunchError};
 use coact_world::Partner;
@@ -127,7 +127,7 @@ fn gave_up(error: LaunchError, settings: &RunSettings, json: bool) -> Result<Exi
     if error.is_configuration() {
         return Err(error.into());
     }
-    if settings.report.join(Album::FILE).is_file() {
+    if settings.report.join(Snapshot::FILE).is_file() {
         draw_snapshots(settings);
     }
     // It may have been given up before there was a summary: the error below says why.

@@ -4,15 +4,15 @@ use crate::installation::Installation;
 use anyhow::{Context, Result};
 use coact_figures::Lettering;
 use coact_joint_task::Task;
-use coact_monitor::Album;
 use coact_pictures::ContactSheet;
 use coact_robot::Robot;
+use coact_run_records::{RunLog, Snapshot};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Draws a run's snapshots once more: who took which part and what came into its place, in up to 24 pictures.
 ///
-/// `coact launch` draws them after every run, from album.jsonl in the report, into plots/assembly.png.
+/// `coact launch` draws them after every run, from snapshots.jsonl in the report, into plots/assembly.png.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   coact snapshots reports/2026-11-22T13-16-12Z
@@ -52,11 +52,11 @@ pub fn sheet(report: &Path) -> PathBuf {
 /// As [`run`].
 pub fn draw(report: &Path, task: &Path, robot: &Path) -> Result<PathBuf> {
     let (task, robot) = (Task::load(task)?, Robot::load(robot)?);
-    let snapshots = Album::read(report)
+    let snapshots = RunLog::<Snapshot>::read(report)
         .with_context(|| format!("{}: expected the report directory of a run", report.display()))?;
     let letters = Lettering::new()?;
     let picture =
-        ContactSheet { moments: &snapshots, task: &task, robot: &robot }.draw(&letters)?.png(&letters)?;
+        ContactSheet { snapshots: &snapshots, task: &task, robot: &robot }.draw(&letters)?.png(&letters)?;
     let file = sheet(report);
     std::fs::create_dir_all(report.join("plots"))
         .and_then(|()| std::fs::write(&file, picture))

@@ -4,7 +4,8 @@ use crate::trial::{Alarm, Detection, DoublePeak, ErrorKind, Inference, PartnerAc
 use coact_joint_task::{Act, NetworkPlan, Population, Role, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
-use coact_monitor::{Anticipation, Event, Intentions};
+use coact_monitor::{Anticipation, Intentions};
+use coact_run_records::Event;
 
 /// Layers in which at most one peak may stand.
 const DECISIONS: [LayerKind; 4] = [

@@ -1,4 +1,5 @@
 use crate::LearnError;
+use coact_run_records::{Event, Record, RunLog};
 use serde::Deserialize;
 use std::collections::HashSet;
 use std::path::Path;
@@ -41,19 +42,6 @@ struct Entry {
     subgoal: String,
 }
 
-/// The events of a report that matter here: `services/monitor` writes more.
-#[derive(Deserialize)]
-#[serde(tag = "event", rename_all = "snake_case")]
-enum Event {
-    Subgoal {
-        at_ms: u64,
-        assembly: u64,
-        name: String,
-    },
-    #[serde(other)]
-    Other,
-}
-
 impl Demonstration {
     /// Reads what `path` holds, for subgoals of the names `known`, by their index: a `.toml` file with a table
     /// `[[achieved]]` (keys `seconds`, `subgoal`) or a `.csv` file with columns of these names holds one demonstration;
@@ -62,14 +50,14 @@ impl Demonstration {
     /// # Errors
     /// A file that cannot be read as such, an unknown subgoal, one that is achieved twice or never.
     pub fn read(path: &Path, known: &[String]) -> Result<Vec<Self>, LearnError> {
-        let path = if path.is_dir() { path.join("events.jsonl") } else { path.to_owned() };
-        let text =
-            std::fs::read_to_string(&path).map_err(|cause| LearnError::File { path: path.clone(), cause })?;
+        let path = if path.is_dir() { path.join(Event::FILE) } else { path.to_owned() };
         let name = path.display().to_string();
+        let text =
+            || std::fs::read_to_string(&path).map_err(|cause| LearnError::File { path: path.clone(), cause });
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("toml") => Ok(vec![Self::new(&name, entries_of_toml(&name, &text)?, known)?]),
-            Some("csv") => Ok(vec![Self::new(&name, entries_of_csv(&name, &text)?, known)?]),
-            Some("jsonl") => Self::of_report(&name, &text, known),
+            Some("toml") => Ok(vec![Self::new(&name, entries_of_toml(&name, &text()?)?, known)?]),
+            Some("csv") => Ok(vec![Self::new(&name, entries_of_csv(&name, &text()?)?, known)?]),
+            Some("jsonl") => Self::of_report(&name, RunLog::read_file(&path)?, known),
             _ => Err(LearnError::content(
                 name,
                 "expected a demonstration: a .toml or .csv file, a report folder or its events.jsonl",
@@ -102,13 +90,11 @@ impl Demonstration {
     }
 
     /// One demonstration for each assembly that was completed; one that was broken off is left out.
-    fn of_report(name: &str, text: &str, known: &[String]) -> Result<Vec<Self>, LearnError> {
+    fn of_report(name: &str, events: Vec<Event>, known: &[String]) -> Result<Vec<Self>, LearnError> {
         let mut assemblies: Vec<(u64, Vec<NamedStep>)> = Vec::new();
-        for (line, text) in text.lines().enumerate() {
-            let place = format!("{name}:{}", line + 1);
-            let event = serde_json::from_str(text)
-                .map_err(|error| LearnError::content(&place, format!("not an event of a report: {error}")))?;
-            let Event::Subgoal { at_ms, assembly, name } = event else { continue };
+        for (line, event) in (1..).zip(events) {
+            let place = format!("{name}:{line}");
+            let Event::Subgoal { at_ms, assembly, name, .. } = event else { continue };
             if assemblies.last().is_none_or(|(last, _)| *last != assembly) {
                 assemblies.push((assembly, Vec::new()));
             }

@@ -19,6 +19,9 @@ pub enum LearnError {
         /// What is wrong, and what was expected.
         problem: String,
     },
+    /// It is an event log that cannot be read.
+    #[error(transparent)]
+    Record(#[from] coact_run_records::RecordError),
     /// The network file's constants make no field.
     #[error(transparent)]
     Field(#[from] coact_neural_field::ParameterError),

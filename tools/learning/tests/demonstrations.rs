@@ -59,7 +59,7 @@ fn what_is_no_demonstration_is_refused_with_its_place() {
     );
     assert!(refused("a.csv", "seconds,subgoal\nsoon,cup\n").contains("a.csv:2: "));
     assert!(refused("a.csv", "seconds,subgoal\n-1,cup\n").contains("expected a time from the start"));
-    assert!(refused("events.jsonl", "{\"event\":\n").contains("events.jsonl:1: not an event"));
+    assert!(refused("events.jsonl", "{\"event\":\n").contains("events.jsonl:1: not a line of this log"));
     assert!(refused("a.txt", "").contains("expected a demonstration"));
     assert!(read("empty.jsonl", "").unwrap_err().to_string().contains("no subgoal was achieved"));
 }

@@ -1,8 +1,9 @@
 use crate::{Lockstep, LockstepError};
 use coact_messages::{Header, Speech};
-use coact_monitor::{Environment, Intentions, Monitor, MonitorError, Rules, RulesError, Summary, Watched};
+use coact_monitor::{Intentions, Monitor, MonitorError, Rules, RulesError, Watched, environment};
 use coact_period::{PERIOD_NS, cycles};
 use coact_pipeline::RunSettings;
+use coact_run_records::Summary;
 use coact_voice::{Meanings, Sentence, Voice};
 use std::time::{Duration, Instant, SystemTime};
 
@@ -68,14 +69,14 @@ pub fn run(
         if let Some(sentence) = &sentence {
             monitor.speech(&speech(sentence), &mut events);
         }
-        monitor.keep(0, events)?;
+        monitor.record(0, events)?;
         progress(&stages, sentence.as_ref());
         if duration.is_none() && end == most && stages.complete() {
             end = most.min(stages.ticks() + AFTER_COMPLETION);
         }
     }
     let elapsed = started.elapsed();
-    let summary = monitor.finish(Environment::of_machine(), stages.ticks() * PERIOD_NS)?;
+    let summary = monitor.finish(environment::of_machine(), stages.ticks() * PERIOD_NS)?;
     Ok(FinishedRun { summary, ticks: stages.ticks(), elapsed })
 }
 
@@ -85,7 +86,7 @@ fn monitor(settings: &RunSettings, stages: &Lockstep) -> Result<Monitor, RunErro
         report: settings.report.clone(),
         task: stages.task().clone(),
         intentions: Intentions::from(stages.plan()),
-        links: Vec::new(),
+        nodes: Vec::new(),
         rules: Rules::load(&folder.join(Rules::FILE))?,
         start_ns: 0,
         started: SystemTime::now(),

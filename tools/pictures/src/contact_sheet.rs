@@ -3,30 +3,32 @@ use crate::view::{ARM, HAND, Stroke, THINGS, View, paint};
 use coact_figures::{Anchor, Lettering, Mark, Place, Sheet, TELLING};
 use coact_joint_task::{Fixture, Kind, Task};
 use coact_messages::ARM_JOINTS;
-use coact_monitor::{Moment, SeenPart};
 use coact_motion::{Capsule, CollisionModel, Mechanism};
 use coact_robot::{HAND_JOINTS, Robot, RobotError};
+use coact_run_records::{SeenPart, Snapshot};
 use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion, Vector3};
 use plotters::prelude::RGBColor;
 
-/// A run's album on one sheet: a picture of each moment, with what had happened.
+/// The snapshots of a run on one sheet: a picture of each, with what had happened.
 pub struct ContactSheet<'a> {
-    /// The moments, in order of time.
-    pub moments: &'a [Moment],
+    /// The snapshots, in order of time.
+    pub snapshots: &'a [Snapshot],
     /// The task that was worked at.
     pub task: &'a Task,
     /// The robot that worked.
     pub robot: &'a Robot,
 }
 
-/// Why an album could not be drawn.
+/// Why snapshots could not be drawn.
 #[derive(Debug, thiserror::Error)]
-pub enum AlbumError {
+pub enum ContactSheetError {
     /// It holds nothing.
-    #[error("the album holds no moment: the run was too short")]
+    #[error("there is no snapshot: the run was too short")]
     Empty,
     /// It is of another task.
-    #[error("the album shows a part \"{0}\", which the task \"{1}\" does not have; name the task of the run")]
+    #[error(
+        "the snapshots show a part \"{0}\", which the task \"{1}\" does not have; name the task of the run"
+    )]
     Part(String, String),
     /// What is wrong with the robot's forms.
     #[error(transparent)]
@@ -47,24 +49,24 @@ const TABLE: RGBColor = RGBColor(232, 224, 210);
 const PERSON: RGBColor = RGBColor(225, 165, 130);
 const FRAME: RGBColor = RGBColor(200, 200, 200);
 
-/// A moment, and the robot as it stood then.
+/// A snapshot, and the robot as it stood then.
 struct Picture<'a> {
-    moment: &'a Moment,
+    snapshot: &'a Snapshot,
     body: CollisionModel,
     hulls: Vec<Capsule>,
 }
 
 impl ContactSheet<'_> {
-    /// Draws the sheet: all moments, or 24 of them, evenly chosen.
+    /// Draws the sheet: all snapshots, or 24 of them, evenly chosen.
     ///
     /// # Errors
-    /// [`AlbumError`].
-    pub fn draw(&self, letters: &Lettering) -> Result<Sheet, AlbumError> {
+    /// [`ContactSheetError`].
+    pub fn draw(&self, letters: &Lettering) -> Result<Sheet, ContactSheetError> {
         let mechanism = Mechanism::of(self.robot)?;
-        let chosen = evenly(self.moments).map(|moment| self.picture(moment, &mechanism));
+        let chosen = evenly(self.snapshots).map(|snapshot| self.picture(snapshot, &mechanism));
         let pictures = chosen.collect::<Result<Vec<_>, _>>()?;
         if pictures.is_empty() {
-            return Err(AlbumError::Empty);
+            return Err(ContactSheetError::Empty);
         }
         let columns = COLUMNS.min(pictures.len()) as i32;
         let mut sheet = Sheet::new((GAP + columns.max(3) * (PICTURE[0] + GAP)) as u32);
@@ -76,25 +78,25 @@ impl ContactSheet<'_> {
             let middle = [corner[0] + PICTURE[0] / 2, corner[1] + PICTURE[1] / 2];
             self.paint(&mut sheet, picture, &view.moved_to(middle))?;
             sheet.frame(corner, [corner[0] + PICTURE[0], corner[1] + PICTURE[1]], FRAME);
-            caption(&mut sheet, picture.moment, [corner[0] + 4, corner[1] + PICTURE[1]], letters);
+            caption(&mut sheet, picture.snapshot, [corner[0] + 4, corner[1] + PICTURE[1]], letters);
         }
         let rows = pictures.len().div_ceil(COLUMNS) as i32;
         sheet.height = (HEAD + rows * (PICTURE[1] + CAPTION)) as u32;
         Ok(sheet)
     }
 
-    fn picture<'a>(&self, moment: &'a Moment, mechanism: &Mechanism) -> Result<Picture<'a>, RobotError> {
-        let (arm, hand) = moment.joints.split_at(ARM_JOINTS);
+    fn picture<'a>(&self, snapshot: &'a Snapshot, mechanism: &Mechanism) -> Result<Picture<'a>, RobotError> {
+        let (arm, hand) = snapshot.joints.split_at(ARM_JOINTS);
         let fingers: [f64; HAND_JOINTS] = std::array::from_fn(|joint| hand[joint]);
         let body = mechanism.with_fingers(&self.robot.hand, &fingers)?;
         let hulls = body.bounding_capsules(mechanism, &std::array::from_fn(|joint| arm[joint]));
-        Ok(Picture { moment, body, hulls })
+        Ok(Picture { snapshot, body, hulls })
     }
 
     /// What is shown, and the colour of each kind of part.
     fn head(&self, sheet: &mut Sheet, shown: usize, letters: &Lettering) {
-        let all = self.moments.len();
-        let title = format!("{}: {shown} of {all} moments of the run", self.task.name);
+        let all = self.snapshots.len();
+        let title = format!("{}: {shown} of {all} snapshots of the run", self.task.name);
         sheet.text(title, [GAP, 26], 22, Anchor::Start);
         let mut x = GAP;
         for (index, kind) in self.task.kinds.iter().enumerate() {
@@ -112,13 +114,13 @@ impl ContactSheet<'_> {
             let ([depth, width], [x, y]) = (scene.table_size, scene.table_centre);
             point([x + across * depth, y + along * width, scene.table_height])
         });
-        let people = pictures.iter().flat_map(|picture| arm_and_hand(&picture.moment.keypoints));
+        let people = pictures.iter().flat_map(|picture| arm_and_hand(&picture.snapshot.keypoints));
         let hulls = pictures.iter().flat_map(|picture| picture.hulls.iter().copied());
         let all: Vec<Capsule> = corners.into_iter().chain(hulls).chain(people).collect();
         View::of(&all, TOWARDS, PICTURE)
     }
 
-    fn paint(&self, sheet: &mut Sheet, picture: &Picture, view: &View) -> Result<(), AlbumError> {
+    fn paint(&self, sheet: &mut Sheet, picture: &Picture, view: &View) -> Result<(), ContactSheetError> {
         // What stands still is below all that moves; foot and axles are below the base.
         let (tables, others): (Vec<_>, Vec<_>) = coact_workplace::fixtures(self.task)
             .into_iter()
@@ -128,8 +130,8 @@ impl ContactSheet<'_> {
         let bones = picture.body.links().iter().zip(&picture.hulls);
         let mut strokes: Vec<Stroke> =
             bones.map(|(bone, hull)| view.capsule(hull, if bone.hand { HAND } else { ARM })).collect();
-        strokes.extend(arm_and_hand(&picture.moment.keypoints).map(|bone| view.capsule(&bone, PERSON)));
-        for part in &picture.moment.parts {
+        strokes.extend(arm_and_hand(&picture.snapshot.keypoints).map(|bone| view.capsule(&bone, PERSON)));
+        for part in &picture.snapshot.parts {
             let (index, kind) = self.kind(part)?;
             let thing = coact_workplace::upright(&kind.name, kind.shape, &frame(part));
             strokes.extend(view.solid(&thing, colour(index)));
@@ -138,29 +140,29 @@ impl ContactSheet<'_> {
         Ok(())
     }
 
-    fn kind(&self, part: &SeenPart) -> Result<(usize, &Kind), AlbumError> {
+    fn kind(&self, part: &SeenPart) -> Result<(usize, &Kind), ContactSheetError> {
         let mut kinds = self.task.kinds.iter().enumerate();
         kinds
             .find(|(_, kind)| kind.name == part.kind)
-            .ok_or_else(|| AlbumError::Part(part.kind.clone(), self.task.name.clone()))
+            .ok_or_else(|| ContactSheetError::Part(part.kind.clone(), self.task.name.clone()))
     }
 }
 
 /// All of them, or as many as fit on a sheet: the first, the last, and as evenly as may be between.
-fn evenly(moments: &[Moment]) -> impl Iterator<Item = &Moment> {
-    let (all, shown) = (moments.len(), moments.len().min(MOST));
+fn evenly(snapshots: &[Snapshot]) -> impl Iterator<Item = &Snapshot> {
+    let (all, shown) = (snapshots.len(), snapshots.len().min(MOST));
     let steps = shown.saturating_sub(1).max(1);
-    (0..shown).map(move |index| &moments[(index * (all - 1) + steps / 2) / steps])
+    (0..shown).map(move |index| &snapshots[(index * (all - 1) + steps / 2) / steps])
 }
 
 /// When, what had happened, and what the two were at.
-fn caption(sheet: &mut Sheet, moment: &Moment, [x, y]: Place, letters: &Lettering) {
-    let at_s = moment.at_ms as f64 / 1e3;
+fn caption(sheet: &mut Sheet, snapshot: &Snapshot, [x, y]: Place, letters: &Lettering) {
+    let at_s = snapshot.at_ms as f64 / 1e3;
     let nothing = || "\u{2013}".to_owned();
     let lines = [
-        (format!("{at_s:.1} s   {}", moment.what), 17, 15),
-        (format!("robot   {}", moment.robot_does.clone().unwrap_or_else(nothing)), 14, 35),
-        (format!("person  {}", moment.person_does.clone().unwrap_or_else(nothing)), 14, 53),
+        (format!("{at_s:.1} s   {}", snapshot.what), 17, 15),
+        (format!("robot   {}", snapshot.robot_does.clone().unwrap_or_else(nothing)), 14, 35),
+        (format!("person  {}", snapshot.person_does.clone().unwrap_or_else(nothing)), 14, 53),
     ];
     for (line, size, below) in lines {
         sheet.text(fitting(line, size, letters), [x, y + below], size, Anchor::Start);

@@ -1,11 +1,11 @@
-//! Sheets of albums that are made up here.
+//! Sheets of snapshots that are made up here.
 #![allow(clippy::unwrap_used)]
 
 use coact_figures::{Lettering, Mark, Sheet};
 use coact_joint_task::Task;
-use coact_monitor::{Moment, SeenPart};
-use coact_pictures::{AlbumError, ContactSheet};
+use coact_pictures::{ContactSheet, ContactSheetError};
 use coact_robot::Robot;
+use coact_run_records::{SeenPart, Snapshot};
 use plotters::prelude::RGBColor;
 use std::path::{Path, PathBuf};
 
@@ -13,10 +13,10 @@ fn configuration(file: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config")).join(file)
 }
 
-fn moment(at_ms: u64, what: &str) -> Moment {
+fn snapshot(at_ms: u64, what: &str) -> Snapshot {
     let wheel =
         SeenPart { kind: "wheel".into(), position: [-0.98, 0.02, 0.8], orientation: [0.0, 0.0, 0.0, 1.0] };
-    Moment {
+    Snapshot {
         at_ms,
         what: what.into(),
         robot_does: Some("steady the base".into()),
@@ -32,10 +32,10 @@ fn moment(at_ms: u64, what: &str) -> Moment {
     }
 }
 
-fn draw(moments: &[Moment]) -> Result<Sheet, AlbumError> {
+fn draw(snapshots: &[Snapshot]) -> Result<Sheet, ContactSheetError> {
     let task = Task::load(&configuration("tasks/toy-vehicle.toml")).unwrap();
     let robot = Robot::load(&configuration("robots/aros.toml")).unwrap();
-    ContactSheet { moments, task: &task, robot: &robot }.draw(&Lettering::new().unwrap())
+    ContactSheet { snapshots, task: &task, robot: &robot }.draw(&Lettering::new().unwrap())
 }
 
 fn texts(sheet: &Sheet) -> Vec<&str> {
@@ -55,9 +55,9 @@ fn areas(sheet: &Sheet) -> impl Iterator<Item = (&[[i32; 2]], RGBColor)> {
 
 #[test]
 fn captions_tell_when_what_happened_and_who_was_at_what() {
-    let sheet = draw(&[moment(204, "the beginning"), moment(2089, "person takes wheel")]).unwrap();
+    let sheet = draw(&[snapshot(204, "the beginning"), snapshot(2089, "person takes wheel")]).unwrap();
     let found = texts(&sheet);
-    assert!(found.contains(&"toy vehicle: 2 of 2 moments of the run"), "{found:?}");
+    assert!(found.contains(&"toy vehicle: 2 of 2 snapshots of the run"), "{found:?}");
     for kind in ["wheel", "nut", "top floor"] {
         assert!(found.contains(&kind), "{kind} is not in {found:?}");
     }
@@ -66,12 +66,12 @@ fn captions_tell_when_what_happened_and_who_was_at_what() {
 }
 
 #[test]
-fn parts_are_filled_and_move_with_what_the_album_says() {
-    let (mut here, mut there) = (moment(0, "here"), moment(1, "there"));
+fn parts_are_filled_and_move_with_what_the_snapshots_say() {
+    let (mut here, mut there) = (snapshot(0, "here"), snapshot(1, "there"));
     there.parts[0].position[0] += 0.5;
     let blue = |RGBColor(red, green, blue): RGBColor| red == 0 && blue > green && blue > 100;
-    let places = |moments: &[Moment]| -> Vec<Vec<[i32; 2]>> {
-        let sheet = draw(moments).unwrap();
+    let places = |snapshots: &[Snapshot]| -> Vec<Vec<[i32; 2]>> {
+        let sheet = draw(snapshots).unwrap();
         areas(&sheet).filter(|(_, colour)| blue(*colour)).map(|(places, _)| places.to_vec()).collect()
     };
     let drawn = places(&[here.clone(), there]);
@@ -84,7 +84,7 @@ fn parts_are_filled_and_move_with_what_the_album_says() {
 
 #[test]
 fn the_picture_shows_something_in_every_frame() {
-    let sheet = draw(&[moment(0, "one"), moment(1, "two"), moment(2, "three")]).unwrap();
+    let sheet = draw(&[snapshot(0, "one"), snapshot(1, "two"), snapshot(2, "three")]).unwrap();
     let file = sheet.png(&Lettering::new().unwrap()).unwrap();
     let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
@@ -101,9 +101,9 @@ fn the_picture_shows_something_in_every_frame() {
 }
 
 #[test]
-fn of_a_long_album_two_dozen_moments_are_shown_from_the_first_to_the_last() {
-    let moments: Vec<_> = (0..70).map(|index| moment(1000 * index, "something")).collect();
-    let sheet = draw(&moments).unwrap();
+fn of_a_long_log_two_dozen_snapshots_are_shown_from_the_first_to_the_last() {
+    let snapshots: Vec<_> = (0..70).map(|index| snapshot(1000 * index, "something")).collect();
+    let sheet = draw(&snapshots).unwrap();
     let shown: Vec<_> = texts(&sheet).into_iter().filter(|text| text.ends_with("something")).collect();
     assert_eq!(shown.len(), 24);
     assert_eq!(
@@ -114,16 +114,16 @@ fn of_a_long_album_two_dozen_moments_are_shown_from_the_first_to_the_last() {
 
 #[test]
 fn a_caption_that_is_too_long_is_cut() {
-    let sheet = draw(&[moment(0, &"robot takes wheel; ".repeat(9))]).unwrap();
+    let sheet = draw(&[snapshot(0, &"robot takes wheel; ".repeat(9))]).unwrap();
     let letters = Lettering::new().unwrap();
     let cut = texts(&sheet).into_iter().find(|text| text.starts_with("0.0 s")).unwrap();
     assert!(cut.ends_with('\u{2026}') && (300..=420).contains(&letters.width(cut, 17)), "{cut}");
 }
 
 #[test]
-fn an_album_of_nothing_or_of_another_task_is_refused() {
-    assert!(matches!(draw(&[]), Err(AlbumError::Empty)));
-    let mut foreign = moment(0, "one");
+fn a_log_of_nothing_or_of_another_task_is_refused() {
+    assert!(matches!(draw(&[]), Err(ContactSheetError::Empty)));
+    let mut foreign = snapshot(0, "one");
     foreign.parts[0].kind = "saucer".into();
     let error = draw(&[foreign]).unwrap_err().to_string();
     assert!(error.contains("\"saucer\"") && error.contains("toy vehicle"), "{error}");

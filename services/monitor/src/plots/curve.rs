@@ -1,5 +1,5 @@
 use super::PlotError;
-use crate::{INTERVAL_NS, Recorder};
+use crate::{DurationRecorder, INTERVAL_NS};
 use hdrhistogram::Histogram;
 use plotters::prelude::*;
 use std::error::Error;
@@ -11,15 +11,15 @@ const CORRECTED: RGBColor = RGBColor(0xd0, 0x6a, 0x1c);
 
 /// Draws the percentile curve of a histogram, raw and corrected for coordinated omission, to `path`.
 ///
-/// The axis of percentiles is logarithmic in the share of values beyond: 90 %, 99 %, 99.9 % are equally far apart.
+/// The axis of percentiles is logarithmic in the fraction of values beyond: 90 %, 99 %, 99.9 % are equally far apart.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn percentile_curve(title: &str, recorder: &Recorder, path: &Path) -> Result<(), PlotError> {
+pub fn percentile_curve(title: &str, recorder: &DurationRecorder, path: &Path) -> Result<(), PlotError> {
     draw(title, recorder.total(), &recorder.corrected(), path).map_err(|cause| PlotError::new(path, cause))
 }
 
-/// Points (1 / share beyond, duration in µs) of a histogram's curve.
+/// Points (1 / fraction beyond, duration in µs) of a histogram's curve.
 fn points(histogram: &Histogram<u64>) -> Vec<(f64, f64)> {
     let beyond_one = histogram.len() as f64;
     let point =
@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn curve_rises_to_the_longest_duration_and_ends_at_the_last_value() {
-        let mut recorder = Recorder::default();
+        let mut recorder = DurationRecorder::default();
         (1..=1000).for_each(|value| recorder.record(value * 1000));
         let points = points(recorder.total());
         assert!(points.is_sorted_by(|a, b| a.0 <= b.0 && a.1 <= b.1), "{points:?}");

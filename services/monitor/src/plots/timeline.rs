@@ -1,5 +1,5 @@
 use super::PlotError;
-use crate::ActionEvent;
+use coact_run_records::ActionEvent;
 use plotters::prelude::*;
 use std::error::Error;
 use std::path::Path;

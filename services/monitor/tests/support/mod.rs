@@ -1,6 +1,8 @@
 //! A small task of its own, and hand-made messages for it.
 #![allow(dead_code, reason = "each test file uses some of it")]
 
+pub mod schema;
+
 use coact_joint_task::{
     Act, Action, ActionType, Agent, Chain, Grip, Kind, Part, Scene, Shape, Subgoal, Task,
 };

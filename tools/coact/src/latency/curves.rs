@@ -1,7 +1,7 @@
 //! Percentile curves in the terminal.
 
 use super::Group;
-use coact_monitor::Figures;
+use coact_monitor::Metrics;
 use owo_colors::{AnsiColors, OwoColorize, Stream};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Rect};
@@ -25,9 +25,9 @@ const COLOURS: [(Color, AnsiColors); 6] = [
 /// All histograms of one sort in one chart; none when there are no values.
 ///
 /// Both axes are logarithmic: to the right each further nine of the percentile, upwards powers of ten.
-pub(super) fn draw(figures: &Figures, group: Group) -> Option<String> {
+pub(super) fn draw(metrics: &Metrics, group: Group) -> Option<String> {
     let mut curves = Vec::new();
-    for (name, recorder) in figures.histograms() {
+    for (name, recorder) in metrics.histograms() {
         match Group::of(name) {
             Some((own, whose)) if own == group && !recorder.total().is_empty() => {
                 curves.push((whose, points(recorder.total())));

@@ -3,7 +3,7 @@
 use super::{report, show, write};
 use anyhow::{Context, bail};
 use coact_messages::{Pulse, topic};
-use coact_monitor::{Figures, links};
+use coact_monitor::{Metrics, PipelineNode};
 use coact_pipeline::{Pipeline, Run};
 use coact_realtime::{Bus, Input};
 use std::io::IsTerminal;
@@ -23,12 +23,12 @@ pub(super) fn run(id: Option<&str>, json: bool) -> anyhow::Result<()> {
     let run = find(id)?;
     let pipeline = Pipeline::load(&run.settings().pipeline)?;
     let bus = Bus::open(&run, "latency", 0)?;
-    let links = links(&pipeline);
+    let nodes = PipelineNode::all(&pipeline);
     let mut inputs: Vec<(String, Input<Pulse>)> = Vec::new();
-    for link in &links {
-        inputs.push((link.process.clone(), bus.input(&topic::pulse(&link.process))?));
+    for node in &nodes {
+        inputs.push((node.process.clone(), bus.input(&topic::pulse(&node.process))?));
     }
-    let mut figures = Figures::new(links);
+    let mut metrics = Metrics::new(nodes);
     let stop = Arc::new(AtomicBool::new(false));
     signal_hook::flag::register(signal_hook::consts::SIGINT, Arc::clone(&stop))
         .context("Ctrl-C cannot be caught")?;
@@ -37,12 +37,12 @@ pub(super) fn run(id: Option<&str>, json: bool) -> anyhow::Result<()> {
         std::thread::sleep(DRAIN_EVERY);
         for (process, input) in &mut inputs {
             input.each(|pulse| {
-                figures.pulse(process, pulse);
+                metrics.pulse(process, pulse);
             })?;
         }
         if shown.elapsed() >= SHOW_EVERY {
             shown = Instant::now();
-            if !print(&run, &figures, json)? {
+            if !print(&run, &metrics, json)? {
                 break;
             }
         }
@@ -51,12 +51,12 @@ pub(super) fn run(id: Option<&str>, json: bool) -> anyhow::Result<()> {
 }
 
 /// False when nobody reads any more.
-fn print(run: &Run, figures: &Figures, json: bool) -> anyhow::Result<bool> {
+fn print(run: &Run, metrics: &Metrics, json: bool) -> anyhow::Result<bool> {
     if json {
-        return write(&serde_json::to_string(&report(figures))?);
+        return write(&serde_json::to_string(&report(metrics))?);
     }
     let clear = if std::io::stdout().is_terminal() { CLEAR } else { "" };
-    write(&format!("{clear}run {} since it was attached to (Ctrl-C ends)\n{}", run.id(), show(figures)))
+    write(&format!("{clear}run {} since it was attached to (Ctrl-C ends)\n{}", run.id(), show(metrics)))
 }
 
 /// The run of that name, or the newest one that still has its supervisor.

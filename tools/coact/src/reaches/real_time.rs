@@ -8,6 +8,7 @@ use coact_period::PERIOD;
 use coact_pipeline::{Pipeline, Run, RunSettings, WorldMode};
 use coact_reaches::{Evaluation, InferenceTrace, ReachOutcome, Subject};
 use coact_realtime::{Bus, Input, PortError};
+use coact_run_records::Summary;
 use coact_supervisor::{Ending, Launch};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -119,17 +120,13 @@ impl Observer {
 
 /// Reads them from the run's own report.
 fn metrics(participant: u32, frames_seen: u64, report: PathBuf) -> Result<RealTimeMetrics> {
-    let path = report.join("summary.json");
-    let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
-    let summary: serde_json::Value =
-        serde_json::from_str(&text).with_context(|| path.display().to_string())?;
-    let processes = summary["processes"].as_object().into_iter().flatten();
+    let summary = Summary::read(&report)?;
     Ok(RealTimeMetrics {
         participant,
-        cycles: summary["processes"]["fields"]["cycles"].as_u64().unwrap_or(0),
+        cycles: summary.processes.get("fields").map_or(0, |fields| fields.cycles),
         frames_seen,
-        missed: processes.filter_map(|(_, process)| process["missed"].as_u64()).sum(),
-        end_to_end_p99_ns: summary["end_to_end_ns"]["p99"].as_u64().unwrap_or(0),
+        missed: summary.processes.values().map(|process| process.missed).sum(),
+        end_to_end_p99_ns: summary.end_to_end_ns.p99,
         report,
     })
 }

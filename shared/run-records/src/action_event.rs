@@ -1,11 +1,14 @@
+use serde::{Deserialize, Serialize};
+
 /// One of the partner's actions, and how the robot answered it.
 ///
 /// Times are ms from the start of the run.
-#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ActionEvent {
     /// Number of the action in the run, from 1.
     pub action: u32,
-    /// Name of the action chain that the partner carried out.
+    /// Name of the chain that the partner carried out.
     pub chain: String,
     /// Name of the kind of part.
     pub kind: String,
@@ -13,9 +16,9 @@ pub struct ActionEvent {
     pub subgoal: String,
     /// Reach onset.
     pub onset_ms: u64,
-    /// Grasp completion: truth's label.
+    /// Grasp completion, as the simulation says.
     pub grasp_ms: u64,
-    /// When the peak that counts crossed threshold: the right one's, or at grasp completion a wrong one's.
+    /// When the peak that counts crossed threshold: the right one, or a wrong one that stood at grasp completion.
     pub decided_ms: Option<u64>,
     /// Decision lead: `grasp_ms` minus `decided_ms`; negative when the decision came too late.
     pub lead_ms: Option<i64>,

@@ -1,7 +1,7 @@
-//! Latency histograms by name, and the deadline accounts beside them.
+//! Latency histograms by name, and the counters of each process.
 
-use crate::latencies::{logs, read_accounts};
-use crate::{Account, IntervalLog, Lapse, LatencyError, Recorder};
+use crate::latencies::{logs, read_counters};
+use crate::{CycleMisses, DurationRecorder, IntervalLog, LatencyError, PipelineNode, ProcessCounters};
 use coact_messages::Pulse;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -9,29 +9,18 @@ use std::path::Path;
 /// Name of the histogram from sensor stamp to command.
 pub const END_TO_END: &str = "end-to-end";
 
-/// Where a process stands in the chain: what must be known to name its figures.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Link {
-    /// Name of the process.
-    pub process: String,
-    /// Name of the process whose message starts its cycle, if one does.
-    pub input_from: Option<String>,
-    /// It publishes the command: the chain's end.
-    pub last: bool,
-}
-
-/// Latency histograms and deadline accounts of all processes.
+/// Latency histograms and counters of all processes.
 #[derive(Debug, Default)]
-pub struct Figures {
-    links: Vec<Link>,
-    recorders: BTreeMap<String, Recorder>,
-    accounts: BTreeMap<String, Account>,
+pub struct Metrics {
+    nodes: Vec<PipelineNode>,
+    recorders: BTreeMap<String, DurationRecorder>,
+    counters: BTreeMap<String, ProcessCounters>,
 }
 
-impl Figures {
-    /// Of processes that stand in the chain in this way; nothing is recorded yet.
-    pub fn new(links: Vec<Link>) -> Self {
-        Self { links, ..Self::default() }
+impl Metrics {
+    /// Of these processes; nothing is recorded yet.
+    pub fn new(nodes: Vec<PipelineNode>) -> Self {
+        Self { nodes, ..Self::default() }
     }
 
     /// Reads what a monitor has written into a folder of interval logs.
@@ -43,24 +32,24 @@ impl Figures {
         let mut recorders = BTreeMap::new();
         for path in logs(folder).map_err(error)? {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            recorders.insert(name, Recorder::resume(IntervalLog::read(&path)?.raw));
+            recorders.insert(name, DurationRecorder::resume(IntervalLog::read(&path)?.raw));
         }
-        Ok(Self { links: Vec::new(), recorders, accounts: read_accounts(folder)? })
+        Ok(Self { nodes: Vec::new(), recorders, counters: read_counters(folder)? })
     }
 
-    /// The same, for processes that stand in the chain in this way.
-    pub fn with_links(self, links: Vec<Link>) -> Self {
-        Self { links, ..self }
+    /// The same, to be continued with these processes.
+    pub fn with_nodes(self, nodes: Vec<PipelineNode>) -> Self {
+        Self { nodes, ..self }
     }
 
-    /// Adds one cycle of a process and gives the lapses that it brought; none for one that was added before.
-    pub fn pulse(&mut self, process: &str, pulse: &Pulse) -> Lapse {
-        if self.accounts.get(process).is_some_and(|account| !account.is_new(pulse)) {
-            return Lapse::default();
+    /// Adds one cycle of a process and gives what it missed; nothing for one that was added before.
+    pub fn pulse(&mut self, process: &str, pulse: &Pulse) -> CycleMisses {
+        if self.counters.get(process).is_some_and(|counters| !counters.is_new(pulse)) {
+            return CycleMisses::default();
         }
-        let link = self.links.iter().find(|link| link.process == process);
-        let from = link.and_then(|link| link.input_from.clone());
-        let last = link.is_some_and(|link| link.last);
+        let node = self.nodes.iter().find(|node| node.process == process);
+        let from = node.and_then(|node| node.input_from.clone());
+        let last = node.is_some_and(|node| node.last);
         let published = pulse.header.published_ns;
         self.record(&wakeup_name(process), pulse.started_ns.saturating_sub(pulse.scheduled_ns));
         self.record(&execution_name(process), published.saturating_sub(pulse.started_ns));
@@ -71,25 +60,25 @@ impl Figures {
         if last && pulse.header.sensor_ns != 0 {
             self.record(END_TO_END, published.saturating_sub(pulse.header.sensor_ns));
         }
-        self.accounts.entry(process.to_owned()).or_default().add(pulse)
+        self.counters.entry(process.to_owned()).or_default().add(pulse)
     }
 
     /// Histograms by name: [`END_TO_END`], and what [`wakeup_name`], [`execution_name`] and [`hop_name`] give.
-    pub fn histograms(&self) -> &BTreeMap<String, Recorder> {
+    pub fn histograms(&self) -> &BTreeMap<String, DurationRecorder> {
         &self.recorders
     }
 
-    /// Deadline accounts by process.
-    pub fn accounts(&self) -> &BTreeMap<String, Account> {
-        &self.accounts
+    /// Counters by process.
+    pub fn counters(&self) -> &BTreeMap<String, ProcessCounters> {
+        &self.counters
     }
 
-    /// How the processes stand in the chain.
-    pub fn links(&self) -> &[Link] {
-        &self.links
+    /// The processes, and where each gets its input.
+    pub fn nodes(&self) -> &[PipelineNode] {
+        &self.nodes
     }
 
-    pub(crate) fn recorders_mut(&mut self) -> &mut BTreeMap<String, Recorder> {
+    pub(crate) fn recorders_mut(&mut self) -> &mut BTreeMap<String, DurationRecorder> {
         &mut self.recorders
     }
 

@@ -1,10 +1,10 @@
 use crate::Event;
-use coact_joint_task::Task;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// What was done and said in a run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TaskReport {
     /// How many subgoals the plan has.
     pub subgoals: usize,
@@ -23,7 +23,8 @@ pub struct TaskReport {
 }
 
 /// A decision of the robot.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Decided {
     /// When, s from the start of the run.
     pub at_s: f64,
@@ -32,7 +33,8 @@ pub struct Decided {
 }
 
 /// A sentence of the robot.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Said {
     /// When, s from the start of the run.
     pub at_s: f64,
@@ -41,11 +43,11 @@ pub struct Said {
 }
 
 impl TaskReport {
-    /// From the events of a run that lasted `run_s` seconds.
-    pub fn new(task: &Task, events: &[Event], run_s: f64) -> Self {
+    /// From the events of a run that lasted `run_s` seconds, with a plan of so many subgoals.
+    pub fn new(subgoals: usize, events: &[Event], run_s: f64) -> Self {
         let mut assemblies: BTreeMap<u64, Vec<String>> = BTreeMap::new();
         let mut report = Self {
-            subgoals: task.subgoals.len(),
+            subgoals,
             achieved: 0,
             order: Vec::new(),
             duration_s: run_s,

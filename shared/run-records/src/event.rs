@@ -1,28 +1,30 @@
-use crate::{ActionEvent, FaultEvent};
+use crate::{ActionEvent, FaultEvent, Record};
+use serde::{Deserialize, Serialize};
 
-/// One line of `events.jsonl`: something that the report tells. Times are ms from the start of the run.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+/// One line of the event log, `events.jsonl`: what happened in a run. Times are ms from its start.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "event", rename_all = "snake_case")]
 pub enum Event {
     /// A subgoal's part came into its place (truth).
     Subgoal {
         /// When.
         at_ms: u64,
-        /// Assemblies completed before.
+        /// Number of the assembly in the run, from 0.
         assembly: u64,
-        /// Index of the subgoal.
+        /// Index of the subgoal in the task.
         subgoal: usize,
         /// Its name.
         name: String,
     },
-    /// The last part came into its place, or the scene was laid out again.
+    /// An assembly was completed: its last part came into its place, or the scene was laid out again.
     Assembly {
         /// When.
         at_ms: u64,
         /// Assemblies completed, this one included.
         completed: u64,
     },
-    /// The fields lost the memory of a subgoal that is still achieved.
+    /// The peak that stands for an achieved subgoal is gone, though the subgoal is still achieved.
     Forgotten {
         /// When.
         at_ms: u64,
@@ -47,6 +49,10 @@ pub enum Event {
     Action(ActionEvent),
     /// A fault, and how the set came over it.
     Fault(FaultEvent),
+}
+
+impl Record for Event {
+    const FILE: &'static str = "events.jsonl";
 }
 
 impl Event {

@@ -1,19 +1,20 @@
-//! The album of a run, from hand-made messages: what makes a moment, and what a moment tells.
+//! The snapshot log of a run, from hand-made messages: when a snapshot is taken, and what it tells.
 #![allow(clippy::unwrap_used)]
 
 mod support;
 
 use coact_messages::{KeypointName, NONE, PERSON, ROBOT, SensorSample, Sighting, Truth};
-use coact_monitor::{Album, Moment};
+use coact_monitor::SnapshotLog;
+use coact_run_records::{Record, RunLog, Snapshot};
 use std::path::Path;
 use support::*;
 
 /// Kind of the only parts of [`task`].
 const PLATE: usize = 0;
 
-/// A run that is watched for an album.
+/// A run of which snapshots are taken.
 struct Watching {
-    album: Album,
+    log: SnapshotLog,
     sample: Box<SensorSample>,
     truth: Truth,
 }
@@ -27,7 +28,7 @@ impl Watching {
         for (sighting, x) in sample.scene.sighting.iter_mut().zip([0.1, 0.2]) {
             *sighting = Sighting { kind: PLATE as u32, position: [x, 0.0, 0.0], ..Sighting::default() };
         }
-        Self { album: Album::open(report, &task()).unwrap(), sample, truth }
+        Self { log: SnapshotLog::open(report, &task()).unwrap(), sample, truth }
     }
 
     /// Lets time pass, with a look every 5 ms and a camera frame every 30.
@@ -36,10 +37,10 @@ impl Watching {
             self.sample.header.cycle += 1;
             let cycle = self.sample.header.cycle;
             self.sample.scene.captured_cycle = cycle / 30 * 30;
-            self.album.sample(&self.sample);
-            self.album.truth(&self.truth);
+            self.log.sample(&self.sample);
+            self.log.truth(&self.truth);
             if cycle.is_multiple_of(5) {
-                self.album.look().unwrap();
+                self.log.look().unwrap();
             }
         }
     }
@@ -57,7 +58,7 @@ impl Watching {
 }
 
 fn told(report: &Path) -> Vec<String> {
-    Album::read(report).unwrap().into_iter().map(|moment| moment.what).collect()
+    RunLog::<Snapshot>::read(report).unwrap().into_iter().map(|snapshot| snapshot.what).collect()
 }
 
 /// What is told of a run, without its beginning and end.
@@ -66,7 +67,7 @@ fn told_of(act: impl FnOnce(&mut Watching)) -> Vec<String> {
     let mut run = Watching::open(folder.path());
     run.pass(300);
     act(&mut run);
-    run.album.finish().unwrap();
+    run.log.finish().unwrap();
     let mut told = told(folder.path());
     assert_eq!(told.remove(0), "the beginning");
     assert_eq!(told.pop().unwrap(), "the end");
@@ -79,9 +80,9 @@ fn a_run_in_which_nothing_happens_has_a_beginning_and_an_end() {
 }
 
 #[test]
-fn a_run_that_ends_before_it_was_seen_has_no_moment() {
+fn a_run_that_ends_before_it_was_seen_has_no_snapshot() {
     let folder = tempfile::tempdir().unwrap();
-    Watching::open(folder.path()).album.finish().unwrap();
+    Watching::open(folder.path()).log.finish().unwrap();
     assert_eq!(told(folder.path()), Vec::<String>::new());
 }
 
@@ -122,7 +123,7 @@ fn a_part_that_comes_out_of_a_hand_is_told_unless_it_is_in_its_place() {
 }
 
 #[test]
-fn changes_between_two_looks_are_one_moment() {
+fn changes_between_two_looks_are_one_snapshot() {
     let told = told_of(|run| {
         run.truth.held = [0b01, 0b10];
         run.achieve(0b11);
@@ -142,24 +143,27 @@ fn a_part_that_the_recogniser_misses_for_a_moment_is_shown_and_one_that_stays_aw
     run.holds(ROBOT, 1);
     run.pass(300);
     run.holds(ROBOT, 0);
-    let parts = |moment: &Moment| moment.parts.len();
-    assert_eq!(Album::read(folder.path()).unwrap().iter().map(parts).collect::<Vec<_>>(), [2, 2, 1]);
+    let parts = |snapshot: &Snapshot| snapshot.parts.len();
+    assert_eq!(
+        RunLog::<Snapshot>::read(folder.path()).unwrap().iter().map(parts).collect::<Vec<_>>(),
+        [2, 2, 1]
+    );
 }
 
 #[test]
-fn a_restarted_monitor_goes_on_with_the_album() {
+fn a_restarted_monitor_goes_on_with_the_log() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = Watching::open(folder.path());
     run.pass(300);
     run.achieve(0b01);
-    run.album = Album::open(folder.path(), &task()).unwrap();
+    run.log = SnapshotLog::open(folder.path(), &task()).unwrap();
     run.pass(300);
     run.holds(ROBOT, 1);
     assert_eq!(told(folder.path()), ["the beginning", "in place: lid", "robot takes plate"]);
 }
 
 #[test]
-fn a_moment_tells_who_does_what_and_where_everything_is() {
+fn a_snapshot_tells_who_does_what_and_where_everything_is() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = Watching::open(folder.path());
     run.truth = acting(0, 1, PASS, HINGE, 100, 0);
@@ -168,10 +172,10 @@ fn a_moment_tells_who_does_what_and_where_everything_is() {
     (wrist.position, wrist.confidence) = ([0.3, 0.4, 0.5], 0.9);
     let mut command: coact_messages::Command = bytemuck::Zeroable::zeroed();
     command.action = TAKE_HINGE as u32;
-    run.album.command(&command);
+    run.log.command(&command);
     run.pass(300);
     run.truth.achieved = 0b01;
     run.holds(PERSON, 1);
-    let text = std::fs::read_to_string(folder.path().join(Album::FILE)).unwrap();
+    let text = std::fs::read_to_string(folder.path().join(Snapshot::FILE)).unwrap();
     insta::assert_snapshot!(text.lines().last().unwrap());
 }

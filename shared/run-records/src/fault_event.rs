@@ -1,7 +1,9 @@
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// A fault of one process, and how the set came over it.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+/// A fault of one process, and the recovery from it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FaultEvent {
     /// Name of the process.
     pub process: String,
@@ -13,13 +15,13 @@ pub struct FaultEvent {
     pub detected_ms: Option<f64>,
     /// From the fault until the first good output (of the replacement); none when there was none.
     pub recovered_ms: Option<f64>,
-    /// Deadline misses of each other process between fault and recovery.
+    /// Deadline misses of each surviving process between fault and recovery.
     pub survivors_missed: BTreeMap<String, u64>,
 }
 
 impl FaultEvent {
     /// Instant of the recovery, or of the fault when there was none; ns of `CLOCK_MONOTONIC`.
-    pub(crate) fn settled_ns(&self) -> u64 {
+    pub fn settled_ns(&self) -> u64 {
         self.at_ns + (self.recovered_ms.unwrap_or(0.0) * 1e6) as u64
     }
 }

@@ -1,0 +1,133 @@
+use crate::{
+    AnticipationReport, Environment, FaultReport, Percentiles, ProcessReport, ReactionReport, RecordError,
+    TaskReport, TrackingReport,
+};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// `summary.json`: what a run was like. Programs of users read it, so keys are added, but not renamed without need.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Summary {
+    /// Where it ran.
+    pub environment: Environment,
+    /// How regular each process was; none in lockstep, where no process runs.
+    pub processes: BTreeMap<String, ProcessReport>,
+    /// Hop of each edge, by `<from>-><to>`.
+    pub hops: BTreeMap<String, Percentiles>,
+    /// From the sensor sample's stamp to the publication of the command.
+    pub end_to_end_ns: Percentiles,
+    /// How well the arm followed its setpoints.
+    pub tracking_error_rad: TrackingReport,
+    /// From a changed decision to the first command that it changes, ms.
+    pub movement_reaction_ms: ReactionReport,
+    /// Whether decisions came in time.
+    pub anticipation: AnticipationReport,
+    /// What was done and said.
+    pub task: TaskReport,
+    /// Faults, and the recovery from each.
+    pub faults: Vec<FaultReport>,
+    /// Whether the run reached what `verdict.toml` asks for.
+    pub verdict: Verdict,
+    /// Why not "pass": one sentence for each rule that was broken.
+    pub reasons: Vec<String>,
+}
+
+/// Whether a run reached what it had to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// Every rule was kept.
+    Pass,
+    /// At least one rule was broken.
+    Fail,
+}
+
+impl Summary {
+    /// Name of the file in the report directory.
+    pub const FILE: &'static str = "summary.json";
+
+    /// Reads the summary of a report directory.
+    ///
+    /// # Errors
+    /// There is none, or it is damaged.
+    pub fn read(report: &Path) -> Result<Self, RecordError> {
+        let path = report.join(Self::FILE);
+        let text = std::fs::read_to_string(&path)
+            .map_err(|cause| RecordError::File { path: path.clone(), cause })?;
+        serde_json::from_str(&text).map_err(|cause| RecordError::Summary { path, cause })
+    }
+
+    /// Writes the summary into a report directory.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&self, report: &Path) -> Result<(), RecordError> {
+        let path = report.join(Self::FILE);
+        serde_json::to_string_pretty(self)
+            .map_err(std::io::Error::from)
+            .and_then(|text| std::fs::write(&path, text + "\n"))
+            .map_err(|cause| RecordError::File { path, cause })
+    }
+
+    /// Removes what an earlier run left in a report directory, so that no reader takes it for this run's.
+    ///
+    /// # Errors
+    /// There is one, and it cannot be removed.
+    pub fn remove(report: &Path) -> Result<(), RecordError> {
+        let path = report.join(Self::FILE);
+        match std::fs::remove_file(&path) {
+            Err(cause) if cause.kind() != ErrorKind::NotFound => Err(RecordError::File { path, cause }),
+            _ => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::{Event, MachineReport};
+
+    fn summary() -> Summary {
+        let machine = Some(MachineReport { wakeups: 1000, late: 3, longest_ns: 2_345_678 });
+        Summary {
+            environment: Environment { machine, ..Environment::default() },
+            processes: BTreeMap::new(),
+            hops: BTreeMap::new(),
+            end_to_end_ns: Percentiles::default(),
+            tracking_error_rad: TrackingReport::default(),
+            movement_reaction_ms: ReactionReport::default(),
+            anticipation: AnticipationReport::new(&[]),
+            task: TaskReport::new(2, &[Event::Assembly { at_ms: 1200, completed: 1 }], 2.0),
+            faults: Vec::new(),
+            verdict: Verdict::Fail,
+            reasons: vec!["only 0 of 2 subgoals were achieved".into()],
+        }
+    }
+
+    #[test]
+    fn what_was_written_is_read_back_until_it_is_removed() {
+        let report = tempfile::tempdir().unwrap();
+        summary().write(report.path()).unwrap();
+        assert_eq!(Summary::read(report.path()).unwrap(), summary());
+        Summary::remove(report.path()).unwrap();
+        Summary::remove(report.path()).unwrap();
+        let error = Summary::read(report.path()).unwrap_err().to_string();
+        assert!(error.contains("summary.json: No such file"), "{error}");
+    }
+
+    #[test]
+    fn a_file_that_is_no_summary_is_refused_with_the_place_of_the_damage() {
+        let report = tempfile::tempdir().unwrap();
+        std::fs::write(report.path().join(Summary::FILE), "{\n  \"environment\": 3\n}\n").unwrap();
+        let error = Summary::read(report.path()).unwrap_err().to_string();
+        assert!(
+            error.contains("summary.json: not a summary of a run: ") && error.contains("line 2"),
+            "{error}"
+        );
+    }
+}

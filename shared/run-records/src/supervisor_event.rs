@@ -1,0 +1,75 @@
+use crate::Record;
+use serde::{Deserialize, Serialize};
+
+/// One line of the supervisor log, `supervisor.jsonl`: what happened to a process, and when.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct SupervisorEvent {
+    /// When it was seen or done: ns of `CLOCK_MONOTONIC`. Of a death: detection. Of an injection: just before it.
+    pub at_ns: u64,
+    /// What happened.
+    pub event: SupervisorEventKind,
+    /// Name of the process.
+    pub process: String,
+    /// How often the process had been restarted before.
+    pub generation: u32,
+    /// Process id.
+    pub pid: u32,
+    /// Name of the injected fault, if one was.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub fault: Option<String>,
+    /// Why: how it died, why it was given up.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub reason: Option<String>,
+}
+
+impl Record for SupervisorEvent {
+    const FILE: &'static str = "supervisor.jsonl";
+}
+
+/// What may happen to a process.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum SupervisorEventKind {
+    /// Started for the first time.
+    Started,
+    /// Reported ready.
+    Ready,
+    /// Found dead.
+    Died,
+    /// Started again after a death.
+    Restarted,
+    /// Not started again: the restart intensity is exhausted.
+    GaveUp,
+    /// About to get a fault injected.
+    Injected,
+    /// Ended because the run ended.
+    Stopped,
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn what_is_not_known_of_an_event_is_left_out_of_its_line() {
+        let started = SupervisorEvent {
+            at_ns: 5,
+            event: SupervisorEventKind::Started,
+            process: "fields".into(),
+            generation: 0,
+            pid: 7,
+            fault: None,
+            reason: None,
+        };
+        let line = serde_json::to_string(&started).unwrap();
+        assert_eq!(line, r#"{"at_ns":5,"event":"started","process":"fields","generation":0,"pid":7}"#);
+        let kind = SupervisorEventKind::GaveUp;
+        let given_up = SupervisorEvent { event: kind, reason: Some("why".into()), ..started };
+        let line = serde_json::to_string(&given_up).unwrap();
+        assert!(line.contains(r#""event":"gave_up""#), "{line}");
+        assert_eq!(serde_json::from_str::<SupervisorEvent>(&line).unwrap(), given_up);
+    }
+}
