@@ -1,9 +1,9 @@
-use anyhow::{Context, Result, bail, ensure};
-use coact_pipeline::Run;
+use crate::living_runs;
+use anyhow::{Context, Result};
 use coact_supervisor::Fault;
 use std::process::ExitCode;
 
-/// Injects a fault into a process of a running set, now.
+/// Injects a fault into a process of a running process set, now.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  coact inject fields kill\n  coact inject perception stop --run 1a2b-0\n\n\
@@ -25,29 +25,9 @@ pub struct Args {
 /// # Errors
 /// There is no such run, process or fault, or the process is not running just now.
 pub fn run(args: Args) -> Result<ExitCode> {
-    let run = living_run(args.run.as_deref())?;
+    let run = living_runs::only(args.run.as_deref())?;
     coact_supervisor::request_fault(&run, &args.process, args.fault.name())
         .with_context(|| format!("run {}", run.id()))?;
     eprintln!("run {}: {} injected into {}", run.id(), args.fault, args.process);
     Ok(ExitCode::SUCCESS)
-}
-
-/// The run of this name, or the only one.
-pub(crate) fn living_run(id: Option<&str>) -> Result<Run> {
-    let mut living: Vec<Run> = Run::all().into_iter().filter(Run::owner_lives).collect();
-    let ids: Vec<String> = living.iter().map(|run| run.id().to_owned()).collect();
-    let ids = ids.join(", ");
-    if let Some(id) = id {
-        let found = living.into_iter().find(|run| run.id() == id);
-        return found.with_context(|| format!("there is no run {id}; running now: {}", or_none(&ids)));
-    }
-    ensure!(living.len() < 2, "several sets are running; expected --run with one of: {ids}");
-    match living.pop() {
-        Some(run) => Ok(run),
-        None => bail!("no set is running; expected one that was started with: coact launch"),
-    }
-}
-
-fn or_none(ids: &str) -> &str {
-    if ids.is_empty() { "none" } else { ids }
 }

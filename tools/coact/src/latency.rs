@@ -17,13 +17,13 @@ use std::process::ExitCode;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   coact latency reports/long          percentiles and curves of a run that has ended
-  coact latency --live                of a running set, second by second
+  coact latency --live                of a running process set, second by second
   coact latency --live --json         the same, one line of JSON a second")]
 pub struct Args {
     /// Report directory of a run (or its folder of .hlog files)
     #[arg(required_unless_present = "live", conflicts_with = "live", value_name = "REPORT")]
     directory: Option<PathBuf>,
-    /// Attach to a running set and show its metrics every second, until Ctrl-C or its end
+    /// Attach to a running process set and show its metrics every second, until Ctrl-C or its end
     #[arg(long)]
     live: bool,
     /// The run to attach to, when several are running [default: the newest]
@@ -68,7 +68,7 @@ impl From<&ProcessCounters> for Deadlines {
     }
 }
 
-/// Shows the metrics of a report, or of a running set.
+/// Shows the metrics of a report, or of a running process set.
 ///
 /// # Errors
 /// There are none, or what is there is damaged.

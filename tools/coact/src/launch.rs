@@ -68,7 +68,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
     if duration.is_zero() { Err(expected()) } else { Ok(duration) }
 }
 
-/// Runs the set to its end.
+/// Runs the process set to its end.
 ///
 /// # Errors
 /// A file is missing or malformed, or the machine refuses the run: nothing was started, or it was stopped again.
@@ -122,7 +122,7 @@ fn draw_snapshots(settings: &RunSettings) {
     }
 }
 
-/// A set that was given up has a report as far as it came, and counts as failed; all else was refused.
+/// A process set that was given up has a report as far as it came, and counts as failed; all else was refused.
 fn gave_up(error: LaunchError, settings: &RunSettings, json: bool) -> Result<ExitCode> {
     if error.is_configuration() {
         return Err(error.into());

@@ -9,6 +9,7 @@ mod installation;
 mod latency;
 mod launch;
 mod learn;
+mod living_runs;
 mod lockstep;
 mod motion;
 mod partner;
@@ -42,9 +43,9 @@ struct Cli {
 enum Command {
     /// Start the process set, watch it build, and report
     Launch(launch::Args),
-    /// Inject a fault into a process of a running set
+    /// Inject a fault into a process of a running process set
     Inject(inject::Args),
-    /// Say something to the robot of a running set
+    /// Say something to the robot of a running process set
     Say(say::Args),
     /// Show how punctual and how fast a run was, or is
     Latency(latency::Args),

@@ -1,11 +1,11 @@
-use crate::inject::living_run;
+use crate::living_runs;
 use anyhow::{Result, ensure};
 use coact_messages::{Speech, topic};
 use coact_realtime::{Bus, Output};
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// Says something to the robot of a running set, as the person would.
+/// Says something to the robot of a running process set, as the person would.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  coact say \"give me the wheel\"\n  coact say \"I give you the nut\" --run 1a2b-0\n\n\
@@ -32,7 +32,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let sentence = args.sentence.trim();
     ensure!(!sentence.is_empty(), "nothing was said; expected a sentence such as \"give me the wheel\"");
     ensure!(sentence.len() <= 256, "the sentence has {} bytes; expected at most 256", sentence.len());
-    let run = living_run(args.run.as_deref())?;
+    let run = living_runs::only(args.run.as_deref())?;
     let bus = Bus::open(&run, "say", 0)?;
     let mut speech: Output<Speech> = bus.output(topic::HEARD)?;
     let mut message = speech.loan()?;

@@ -1,7 +1,8 @@
-//! The metrics of a running set, second by second.
+//! The metrics of a running process set, second by second.
 
 use super::{report, show, write};
-use anyhow::{Context, bail};
+use crate::living_runs;
+use anyhow::Context;
 use coact_messages::{Pulse, topic};
 use coact_monitor::{Metrics, PipelineNode};
 use coact_pipeline::{Pipeline, Run};
@@ -20,7 +21,7 @@ const CLEAR: &str = "\x1b[H\x1b[J";
 
 /// Attaches to a run until Ctrl-C or its end.
 pub(super) fn run(id: Option<&str>, json: bool) -> anyhow::Result<()> {
-    let run = find(id)?;
+    let run = living_runs::newest(id)?;
     let pipeline = Pipeline::load(&run.settings().pipeline)?;
     let bus = Bus::open(&run, "latency", 0)?;
     let nodes = PipelineNode::all(&pipeline);
@@ -57,24 +58,4 @@ fn print(run: &Run, metrics: &Metrics, json: bool) -> anyhow::Result<bool> {
     }
     let clear = if std::io::stdout().is_terminal() { CLEAR } else { "" };
     write(&format!("{clear}run {} since it was attached to (Ctrl-C ends)\n{}", run.id(), show(metrics)))
-}
-
-/// The run of that name, or the newest one that still has its supervisor.
-fn find(id: Option<&str>) -> anyhow::Result<Run> {
-    let mut living: Vec<Run> = Run::all().into_iter().filter(Run::owner_lives).collect();
-    let known = living.iter().map(|run| run.id().to_owned()).collect::<Vec<_>>().join(", ");
-    let age =
-        |run: &Run| std::fs::metadata(run.directory().join("run.json")).and_then(|file| file.modified()).ok();
-    living.sort_by_key(age);
-    let found = match id {
-        Some(id) => living.into_iter().find(|run| run.id() == id),
-        None => living.pop(),
-    };
-    let Some(run) = found else {
-        match id {
-            Some(id) if !known.is_empty() => bail!("no run is called {id}; running: {known}"),
-            _ => bail!("no set is running; start one with tools/launch"),
-        }
-    };
-    Ok(run)
 }

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// How long the set goes on after the last reach: until its last messages have been read. Chosen by hand; not sensitive.
+/// How long the process set goes on after the last reach: until its last messages have been read. Chosen by hand; not sensitive.
 const AFTER_LAST_REACH: Duration = Duration::from_millis(200);
 /// How often the topics are read: a reader of the chain's topics sees the newest message only, so twice a period.
 const LOOK_EVERY: Duration = Duration::from_micros(500);
