@@ -40,11 +40,6 @@ impl Launched {
         run
     }
 
-    /// What it has shown so far.
-    pub fn shown(&self) -> String {
-        std::fs::read_to_string(self.folder.path().join("stderr")).unwrap()
-    }
-
     /// Sends a signal to the supervisor.
     pub fn signal(&self, signal: Signal) {
         kill_process(Pid::from_child(&self.child), signal).unwrap();

@@ -1,4 +1,4 @@
-//! What the whole-system tests share: a set of real processes, started as a person starts it.
+//! For the whole-system tests: a set of real processes, started as a person starts it.
 //!
 //! The programs are taken from the folder that this workspace builds into: `cargo build --workspace --bins` first,
 //! as `tools/test` does.
@@ -6,28 +6,31 @@
 
 mod finished;
 mod launched;
-mod places;
+mod paths;
 
 pub use finished::Finished;
 pub use launched::Launched;
-pub use places::{checkout, coact, left_behind, shared_memory};
+pub use paths::{checkout, coact, left_behind, shared_memory};
 
 use std::time::{Duration, Instant};
 
-/// Longer than anything that is waited for may take on a loaded machine.
-const PATIENCE: Duration = Duration::from_secs(400);
+/// Longer than anything that is waited for takes on a busy machine: a whole assembly lasts up to 300 s.
+const TIMEOUT: Duration = Duration::from_secs(400);
 
-/// Looks until there is something to see.
+/// Chosen by hand; not sensitive.
+const POLL_INTERVAL: Duration = Duration::from_millis(5);
+
+/// Polls until there is a value.
 ///
 /// # Panics
-/// It never came; `what` says what.
-pub fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
+/// After a while without one; `what` says what was waited for.
+pub fn wait_for<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
     let begin = Instant::now();
     loop {
-        if let Some(found) = look() {
+        if let Some(found) = poll() {
             return found;
         }
-        assert!(begin.elapsed() < PATIENCE, "it never came: {what}");
-        std::thread::sleep(Duration::from_millis(5));
+        assert!(begin.elapsed() < TIMEOUT, "timed out: {what}");
+        std::thread::sleep(POLL_INTERVAL);
     }
 }

@@ -1,11 +1,11 @@
-//! What is wrong is named, with file and line, before anything is started.
+//! Bad input is refused before anything is started, with file and line, and with the cause once.
 #![allow(clippy::unwrap_used)]
 
 use coact_tests::{Finished, Launched, checkout, coact};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A copy of the configuration that may be spoilt.
+/// A copy of the configuration, to make mistakes in.
 fn configuration() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     copy(&checkout().join("rt-config"), &folder.path().join("rt-config"));
@@ -23,8 +23,8 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Replaces the first `from` in a file by `to`; answers file and line as an error should name them.
-fn spoil(file: PathBuf, from: &str, to: &str) -> String {
+/// Replaces the first `from` in a file by `to`; returns file and line as an error should name them.
+fn make_mistake(file: PathBuf, from: &str, to: &str) -> String {
     let text = std::fs::read_to_string(&file).unwrap();
     let at = text.find(from).unwrap();
     std::fs::write(&file, text.replacen(from, to, 1)).unwrap();
@@ -42,8 +42,11 @@ fn refused(arguments: &[&str]) -> Finished {
 fn a_malformed_task_is_refused_with_file_and_line() {
     let folder = configuration();
     let task = folder.path().join("rt-config/tasks/toy-vehicle.toml");
-    let place =
-        spoil(task.clone(), "after = [\"wheel on the robot's side\"]", "after = [\"wheel on the moon\"]");
+    let place = make_mistake(
+        task.clone(),
+        "after = [\"wheel on the robot's side\"]",
+        "after = [\"wheel on the moon\"]",
+    );
     let finished = refused(&["--task", task.to_str().unwrap()]);
     assert!(
         finished.stderr.contains(&place) && finished.stderr.contains("moon"),
@@ -56,7 +59,7 @@ fn a_malformed_task_is_refused_with_file_and_line() {
 fn a_malformed_pipeline_is_refused_with_file_and_line() {
     let folder = configuration();
     let pipeline = folder.path().join("rt-config/pipeline.toml");
-    let place = spoil(pipeline.clone(), "priority = 83", "priority = 183");
+    let place = make_mistake(pipeline.clone(), "priority = 83", "priority = 183");
     let finished = refused(&["--pipeline", pipeline.to_str().unwrap()]);
     assert!(
         finished.stderr.contains(&place) && finished.stderr.contains("183"),
@@ -66,10 +69,30 @@ fn a_malformed_pipeline_is_refused_with_file_and_line() {
 }
 
 #[test]
+fn a_pipeline_with_a_period_is_refused_with_the_reason() {
+    let folder = configuration();
+    let pipeline = folder.path().join("rt-config/pipeline.toml");
+    let place = make_mistake(pipeline.clone(), "[restart]", "period_us = 500\n[restart]");
+    let finished = refused(&["--pipeline", pipeline.to_str().unwrap()]);
+    assert!(
+        finished.stderr.contains(&format!("{place}: period_us: is not a setting")),
+        "{}",
+        finished.stderr
+    );
+    assert!(finished.stderr.contains("the period is 1 ms, a constant"), "{}", finished.stderr);
+}
+
+#[test]
+fn the_cause_of_an_error_is_printed_once() {
+    let finished = refused(&["--pipeline", "/no/such/pipeline.toml"]);
+    assert_eq!(finished.stderr.matches("No such file or directory").count(), 1, "{}", finished.stderr);
+}
+
+#[test]
 fn a_program_that_is_not_there_is_named() {
     let folder = configuration();
     let pipeline = folder.path().join("rt-config/pipeline.toml");
-    spoil(pipeline.clone(), "program = \"coact-voice\"", "program = \"coact-choir\"");
+    make_mistake(pipeline.clone(), "program = \"coact-voice\"", "program = \"coact-choir\"");
     let finished = refused(&["--pipeline", pipeline.to_str().unwrap()]);
     assert!(finished.stderr.contains("coact-choir does not exist"), "{}", finished.stderr);
 }

@@ -45,20 +45,20 @@ fn faults_are_injected_into_a_running_set_from_the_command_line() {
     wait_for("the replacement of control", || run.ready("control", 1).unwrap());
     let unknown = inject(&["wheels", "kill", "--run", id]);
     assert_eq!(unknown.status.code(), Some(2));
-    let said = String::from_utf8(unknown.stderr).unwrap();
+    let message = String::from_utf8(unknown.stderr).unwrap();
     for name in ["wheels", "world", "perception", "fields", "control", "monitor", "voice"] {
-        assert!(said.contains(name), "{name} is not in: {said}");
+        assert!(message.contains(name), "{name} is not in: {message}");
     }
     let finished = launched.finish();
     assert!(finished.cycles("fields") > 6000, "{}", finished.stderr);
-    let resumed = finished.supervisor.iter().any(|event| {
+    let found_hung = finished.supervisor.iter().any(|event| {
         event.process == "control" && event.reason.as_deref().is_some_and(|reason| reason.starts_with("hung"))
     });
-    assert!(resumed, "{:?}", finished.supervisor);
+    assert!(found_hung, "{:?}", finished.supervisor);
 }
 
 #[test]
-fn a_replacement_goes_on_from_what_its_predecessor_left() {
+fn a_replacement_resumes_from_its_predecessors_checkpoint() {
     let launched = Launched::start(&["--duration", "8", "--world", "kinematic", "--inject=fields:kill@5s"]);
     let run = launched.when_started();
     let ready = wait_for("the replacement of fields", || run.ready("fields", 1).unwrap());

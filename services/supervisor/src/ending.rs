@@ -16,7 +16,7 @@ pub enum Ending {
 /// When a run ends by itself.
 #[derive(Debug)]
 pub(crate) struct EndCondition {
-    /// The duration that was asked for; without it, the run ends when all subgoals are achieved.
+    /// The duration that was requested; without it, the run ends when all subgoals are achieved.
     duration: Option<Duration>,
     achieved_at: Option<Duration>,
 }

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// A run that is to be started: everything that was asked for, read and checked.
+/// A run that is to be started: everything that was requested, read and checked.
 #[derive(Debug)]
 pub struct Launch {
     /// What the processes find in the run directory.

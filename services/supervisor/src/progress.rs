@@ -26,8 +26,7 @@ struct DeadlineMisses {
     now: u64,
 }
 
-/// A population whose output is above this stands for an achieved subgoal: the middle of the sigmoid's range, at which a
-/// site is at its threshold.
+/// A population whose signal is above this stands for an achieved subgoal: the middle between rest (0) and a full peak (1).
 const ACHIEVED: f64 = 0.5;
 
 impl Progress {

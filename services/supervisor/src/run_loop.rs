@@ -130,7 +130,7 @@ impl<'a> RunLoop<'a> {
         Ok(())
     }
 
-    /// In red: which process runs without the scheduling or the locked memory that it asked for.
+    /// In red: which process runs without the scheduling or the locked memory that the process table wants.
     fn warn_of_missing_privileges(&mut self) {
         for entry in &self.pipeline.processes {
             let Ok(Some(ready)) = self.run.ready(&entry.name, 0) else { continue };

@@ -11,7 +11,7 @@ pub(crate) struct Supervised {
     pub(crate) generation: u32,
     pub(crate) lifecycle: Lifecycle,
     pub(crate) history: RestartHistory,
-    /// Fault that was injected and not yet recovered from: stands in the events that it causes.
+    /// Fault that was injected and not yet recovered from; the events that it causes name it.
     pub(crate) fault: Option<Fault>,
     /// The next replacement is to be killed before it is ready.
     pub(crate) crash_next: bool,

@@ -2,15 +2,15 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_joint_task::Task;
-use coact_pipeline::{Pipeline, Run, RunSettings, WorldMode};
+use coact_pipeline::{Pipeline, Run, RunSettings};
 use coact_run_records::{RunLog, Summary, SupervisorEvent, SupervisorEventKind};
 use coact_supervisor::{Ending, Launch, LaunchError, request_fault};
 use std::os::unix::fs::PermissionsExt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Reports ready as a service does, then runs until it is asked to end.
+/// Reports ready as a service does, then runs until it gets SIGTERM.
 const SERVICE: &str = r#"#!/bin/sh
 name=${0##*/}
 cat > "$2/ready/$name.$COACT_GENERATION.json" <<END
@@ -41,14 +41,8 @@ impl Place {
         let task = configuration.join("tasks/toy-vehicle.toml");
         let settings = RunSettings {
             task: task.clone(),
-            robot: PathBuf::new(),
-            model: PathBuf::new(),
-            pipeline: PathBuf::new(),
-            safety: PathBuf::new(),
             report: self.0.path().join("report"),
-            seed: 1,
-            partner: "synthetic".into(),
-            world: WorldMode::Kinematic,
+            ..RunSettings::default()
         };
         Launch {
             settings,
@@ -76,13 +70,13 @@ impl Place {
     }
 }
 
-fn wait_for<T>(mut look: impl FnMut() -> Option<T>) -> T {
+fn wait_for<T>(mut poll: impl FnMut() -> Option<T>) -> T {
     let begin = Instant::now();
     loop {
-        if let Some(found) = look() {
+        if let Some(found) = poll() {
             return found;
         }
-        assert!(begin.elapsed() < Duration::from_secs(60), "it never came");
+        assert!(begin.elapsed() < Duration::from_secs(60), "timed out");
         std::thread::sleep(Duration::from_millis(2));
     }
 }
@@ -189,4 +183,22 @@ fn an_earlier_summary_in_the_report_folder_is_not_taken_for_this_runs() {
     std::fs::write(&summary, "{}").unwrap();
     launch.run().unwrap();
     assert!(!summary.exists());
+}
+
+/// As the command line prints it: with its chain of causes.
+fn printed(error: impl std::error::Error + Send + Sync + 'static) -> String {
+    format!("{:#}", anyhow::Error::from(error))
+}
+
+#[test]
+fn the_cause_of_an_error_is_printed_once() {
+    let place = Place::new(&[("a", SERVICE)]);
+    let mut launch = place.launch(&["a"], LONG, &[]);
+    launch.settings.report = place.0.path().join("a/report");
+    let refused = printed(launch.run().unwrap_err());
+    assert_eq!(refused.matches("Not a directory").count(), 1, "{refused}");
+    let run = Run::create(RunSettings::default()).unwrap();
+    let unreachable = printed(request_fault(&run, "a", "kill").unwrap_err());
+    run.remove().unwrap();
+    assert_eq!(unreachable.matches("No such file").count(), 1, "{unreachable}");
 }

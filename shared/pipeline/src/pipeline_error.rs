@@ -28,7 +28,7 @@ pub enum PipelineError {
     /// No process of the table has this name.
     #[error("no process is called \"{name}\"; expected one of: {}", known.join(", "))]
     UnknownProcess {
-        /// The name asked for.
+        /// The unknown name.
         name: String,
         /// The names in the table.
         known: Vec<String>,

@@ -20,7 +20,7 @@ pub struct Ready {
     pub core: Option<usize>,
     /// True if all its present and future memory is locked.
     pub memory_locked: bool,
-    /// Everything it asked for and was refused, each with the reason; empty when it got what it asked for.
+    /// Everything that the process table wants and the machine refused, each with the reason.
     pub why_not: Vec<String>,
     /// True if it resumed from its predecessor's checkpoint.
     pub resumed: bool,

@@ -142,7 +142,7 @@ impl Run {
     /// Release of tick 0, ns of `CLOCK_MONOTONIC`; `None` until [`Run::start`] was called.
     ///
     /// # Errors
-    /// [`RunError::Malformed`] when the file holds no number.
+    /// [`RunError::Malformed`] when the file contains no number.
     pub fn start_ns(&self) -> Result<Option<u64>, RunError> {
         let path = self.directory.join("start");
         if path.exists() { read_json(&path).map(Some) } else { Ok(None) }
@@ -195,8 +195,8 @@ fn failed(operation: &'static str, path: &Path, cause: io::Error) -> RunError {
     RunError::File { path: path.to_owned(), operation, cause }
 }
 
-/// Beside the shared memory: iceoryx2 syncs a dozen files when a process starts, which costs nothing where no disk is.
-/// The path is short as well: socket names below it grow to some 80 bytes, and may have 108 in all.
+/// The folder of all run directories: in memory, because iceoryx2 syncs a dozen files when a process starts, which takes
+/// time on a disk. The path is short, too: the names of sockets in it grow to some 80 bytes, and the system takes 108.
 fn base() -> PathBuf {
     let memory = Path::new(shared_memory::DIRECTORY);
     if memory.is_dir() { memory.to_owned() } else { std::env::temp_dir() }

@@ -14,7 +14,7 @@ pub enum RunError {
         /// Why it failed.
         cause: std::io::Error,
     },
-    /// A file of the run does not hold what it should.
+    /// A file of the run does not contain what it should.
     #[error("{}: {problem}; expected a file that a coact supervisor of this version wrote", path.display())]
     Malformed {
         /// The file.

@@ -21,6 +21,7 @@ const NAMES: [&str; 4] = ["world", "perception", "fields", "control"];
 const START_DELAY: Duration = Duration::from_millis(20);
 /// Longest latency that the histograms take: far more than a machine is ever late.
 const LONGEST: Duration = Duration::from_secs(1);
+const MICROSECONDS_PER_SECOND: f64 = 1e6;
 /// Significant digits of the histograms, as in the monitor's.
 const DIGITS: u8 = 3;
 
@@ -149,7 +150,9 @@ fn collect(pulses: &mut [Input<Pulse>], duration: Duration) -> Outcome<()> {
 }
 
 fn print(label: &str, histogram: &Histogram<u64>) {
-    let at = |quantile| histogram.value_at_quantile(quantile) as f64 / 1000.0;
+    let at = |quantile| {
+        Duration::from_nanos(histogram.value_at_quantile(quantile)).as_secs_f64() * MICROSECONDS_PER_SECOND
+    };
     let (p50, p99, p999, max) = (at(0.5), at(0.99), at(0.999), at(1.0));
     println!("{label:24}{:9}{p50:9.1}{p99:9.1}{p999:9.1}{max:9.1}", histogram.len());
 }

@@ -51,7 +51,7 @@ impl Executor {
         }
     }
 
-    /// Runs until a signal asks to stop.
+    /// Runs until a signal stops it.
     pub(crate) fn run(&mut self, work: &mut impl Cycle, signals: &Signals) -> Result<(), PortError> {
         let mut cycle = self.schedule.next_after(now());
         loop {

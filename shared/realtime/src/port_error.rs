@@ -26,9 +26,11 @@ pub enum PortError {
         problem: String,
     },
     /// Only the monitor may read the truth.
-    #[error("process {process} asked for {topic}; expected the process \"monitor\": truth is for it alone")]
+    #[error(
+        "process {process} may not read {topic}; expected the process \"monitor\": no other may read the truth"
+    )]
     TruthIsForTheMonitor {
-        /// The process that asked.
+        /// The process that tried to.
         process: String,
         /// The topic.
         topic: String,

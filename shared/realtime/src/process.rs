@@ -85,7 +85,7 @@ impl Process {
         &self.bus
     }
 
-    /// True once it was asked to stop, by SIGTERM or SIGINT.
+    /// True once SIGTERM or SIGINT requested that it stops.
     pub fn stop_requested(&self) -> bool {
         self.signals.stop()
     }
@@ -130,9 +130,9 @@ impl Process {
         Ok(())
     }
 
-    /// Goes real time as far as the process table asks and the machine grants, and reports readiness.
+    /// Becomes real time as far as the process table wants and the machine grants, and reports readiness.
     ///
-    /// What was refused stands in the report, which the supervisor shows in red; the process runs all the same.
+    /// The report says what was refused, and the supervisor shows that in red; the process runs all the same.
     ///
     /// # Errors
     /// [`ProcessError::Run`] when the report cannot be written.
@@ -156,7 +156,7 @@ impl Process {
         Ok(self.run.report_ready(&ready)?)
     }
 
-    /// Waits until the run starts; `None` when the process was asked to stop before.
+    /// Waits until the run starts; `None` when the process is to stop before.
     ///
     /// # Errors
     /// [`ProcessError::Run`].
@@ -170,8 +170,8 @@ impl Process {
         Ok(None)
     }
 
-    /// Goes real time, reports readiness, waits for the start of the run, and runs `cycle` in each period until it
-    /// is asked to stop.
+    /// Becomes real time, reports readiness, waits for the start of the run, and runs `cycle` in each period until a signal
+    /// stops it.
     ///
     /// # Errors
     /// [`ProcessError`]; a port that failed ends the process.

@@ -1,4 +1,4 @@
-//! Scheduling class and core of the calling thread: asked for, and read back as obtained.
+//! Scheduling class and core of the calling thread: requested, and read back as obtained.
 
 use crate::SchedulingClass;
 use coact_pipeline::{Pipeline, ProcessEntry, Ready};
@@ -39,7 +39,7 @@ pub(crate) fn become_ordinary(pipeline: &Pipeline) {
     exclude_real_time_cores(pipeline);
 }
 
-/// Gives the calling thread the core and class that `entry` asks for; returns what was refused, with the reasons.
+/// Gives the calling thread the core and class that `entry` wants; returns what was refused, with the reasons.
 pub(crate) fn apply(entry: &ProcessEntry) -> Vec<String> {
     // Without SCHED_FIFO the kernel may delay wake-ups by this slack, 50 µs by default. The least that it takes is 1 ns.
     let _ = set_current_timer_slack(NonZeroU64::new(1));

@@ -20,7 +20,7 @@ impl Signals {
         Ok(signals)
     }
 
-    /// True once the process was asked to stop.
+    /// True once a signal requested that the process stops.
     pub(crate) fn stop(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }

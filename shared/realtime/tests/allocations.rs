@@ -14,7 +14,7 @@ const CYCLES: u64 = 200;
 /// The cycle's own output, and its pulse.
 const LOANS: u64 = 2;
 
-/// A trivial stage that asks to stop after so many cycles, and counts the allocations within each of its steps.
+/// A trivial stage that stops its process after so many cycles, and counts the allocations within each of its steps.
 struct Counted<'a> {
     command: Input<Command>,
     sample: Output<SensorSample>,

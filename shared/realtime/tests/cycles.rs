@@ -29,9 +29,9 @@ latest_start_us = 700
 "#;
 
 /// Signals reach every shell of the program: one test at a time.
-fn alone() -> MutexGuard<'static, ()> {
-    static ALONE: Mutex<()> = Mutex::new(());
-    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+fn one_at_a_time() -> MutexGuard<'static, ()> {
+    static LOCK: Mutex<()> = Mutex::new(());
+    LOCK.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Publishes a message in each cycle up to the `last` one; later cycles publish nothing.
@@ -109,7 +109,7 @@ fn stop(stages: [JoinHandle<()>; 2]) {
 
 #[test]
 fn later_stage_runs_on_each_message_and_at_its_latest_start_once_they_stop() {
-    let _alone = alone();
+    let _lock = one_at_a_time();
     let run = TestRun::new(TABLE);
     let last = 100;
     let (stages, mut pulses) = chain(&run, last);
@@ -146,7 +146,7 @@ fn later_stage_runs_on_each_message_and_at_its_latest_start_once_they_stop() {
 
 #[test]
 fn injected_slowness_lasts_fifty_cycles_and_skips_periods() {
-    let _alone = alone();
+    let _lock = one_at_a_time();
     let run = TestRun::new(TABLE);
     let (stages, mut pulses) = chain(&run, u64::MAX);
     let mut seen = Vec::new();
@@ -167,7 +167,7 @@ fn injected_slowness_lasts_fifty_cycles_and_skips_periods() {
 
 #[test]
 fn readiness_tells_what_was_obtained_and_why_not_more() {
-    let _alone = alone();
+    let _lock = one_at_a_time();
     let table = "[[process]]\nname = \"world\"\nprogram = \"none\"\norder = 1\nrealtime = true\npriority = 7\n\
                  core = 1000\ntrigger = \"timer\"\n";
     let run = TestRun::new(table);
@@ -186,7 +186,7 @@ fn readiness_tells_what_was_obtained_and_why_not_more() {
 
 #[test]
 fn table_that_starts_a_process_by_something_else_than_its_input_is_refused() {
-    let _alone = alone();
+    let _lock = one_at_a_time();
     let run = TestRun::new(&TABLE.replace("coact/percept", "coact/sensors"));
     let process = Process::open("fields", run.0.directory(), 0).unwrap();
     let input: Input<Percept> = process.bus().trigger(topic::PERCEPT).unwrap();

@@ -1,4 +1,4 @@
-//! What ports promise: messages lie in the run's own shared memory, the newest counts, and other layouts are refused.
+//! Ports: messages lie in the run's own shared memory, the newest counts, and other layouts are refused.
 #![allow(clippy::unwrap_used)]
 
 mod support;
@@ -211,5 +211,5 @@ fn runs_beside_each_other_do_not_hear_each_other_and_leave_nothing() {
     assert!(!directory.exists());
     let mut output = other.output(topic::PERCEPT).unwrap();
     send(&mut output, 7);
-    assert!(input.refresh().unwrap(), "the run beside goes on");
+    assert!(input.refresh().unwrap(), "the other run goes on");
 }

@@ -1,4 +1,4 @@
-//! Recorded reaches through real processes: what is decided is what lockstep decides.
+//! Recorded reaches through real processes: the decisions are those of lockstep.
 #![allow(clippy::unwrap_used)]
 
 use coact_run_records::Summary;
@@ -22,20 +22,21 @@ const JOINTS: [(&str, [f64; 3]); 9] = [
     ("RPinky1Knuckles", [10.0, -5.0, 0.0]),
 ];
 
-/// A made-up person's recordings: the larger the object, the wider the hand on the way.
+/// A made-up person's recordings: the larger the object, the wider the hand during the movement. The wrist follows a
+/// minimum-jerk movement.
 fn recordings() -> String {
     let mut text = "participant,size,trial,t_rel_onset_s,mt_s,rtg".to_owned();
     JOINTS.iter().for_each(|(name, _)| write!(text, ",{name}.x,{name}.y,{name}.p").unwrap());
     for (trial, (size, opening)) in [("S", 8.0), ("L", 16.0), ("L", 15.5), ("S", 8.5)].iter().enumerate() {
         for frame in 0..90 {
             let (time, movement_time) = (f64::from(frame) / 60.0 - 0.45, 0.58);
-            let share = ((time + 0.05) / (movement_time + 0.05)).clamp(0.0, 1.0);
-            let way = 55.0 * share * share * share * (10.0 + share * (6.0 * share - 15.0));
+            let fraction = ((time + 0.05) / (movement_time + 0.05)).clamp(0.0, 1.0);
+            let way = 55.0 * fraction * fraction * fraction * (10.0 + fraction * (6.0 * fraction - 15.0));
             let reaching = u8::from((0.0..=movement_time).contains(&time));
             write!(text, "\n7,{size},{},{time:.4},{movement_time},{reaching}", trial + 1).unwrap();
             for (_, [ahead, aside, open]) in JOINTS {
                 let along = way + ahead;
-                let across = aside + open * opening * (share / 0.7).min(1.0);
+                let across = aside + open * opening * (fraction / 0.7).min(1.0);
                 let (x, y) = (110.0 + 0.6 * along - 0.8 * across, 100.0 + 0.8 * along + 0.6 * across);
                 write!(text, ",{x:.2},{y:.2},0.8").unwrap();
             }
