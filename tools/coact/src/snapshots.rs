@@ -2,7 +2,7 @@
 
 use crate::installation::Installation;
 use anyhow::{Context, Result};
-use coact_figures::Lettering;
+use coact_drawing::Lettering;
 use coact_joint_task::Task;
 use coact_pictures::ContactSheet;
 use coact_robot::Robot;

@@ -1,7 +1,5 @@
-use crate::colours::FAINT;
 use crate::page::{LETTERS, number};
-use crate::{Anchor, Sheet};
-use plotters::prelude::{BLACK, RGBColor};
+use coact_drawing::{Anchor, BLACK, FAINT, RGBColor, Sheet};
 
 /// Curves of activity over field position.
 #[derive(Debug, Clone)]

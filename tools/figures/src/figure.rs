@@ -2,7 +2,8 @@ use crate::heat_map::HeatMap;
 use crate::layer_page::{Column, LayerPage};
 use crate::page::Caption;
 use crate::prediction::Prediction;
-use crate::{FigureError, Lettering, Quantity, Recording, Scenario, Sheet, single_field, table_view};
+use crate::{FigureError, Quantity, RunTrace, Scenario, single_field, table_view};
+use coact_drawing::{Lettering, Sheet};
 use coact_messages::LayerKind;
 
 /// Input that matters, as a part of what ignites a population.
@@ -150,7 +151,7 @@ impl Figure {
     ///
     /// # Errors
     /// A field that cannot be made.
-    pub fn draw(&self, runs: &[&Recording], seed: u64, letters: &Lettering) -> Result<Sheet, FigureError> {
+    pub fn draw(&self, runs: &[&RunTrace], seed: u64, letters: &Lettering) -> Result<Sheet, FigureError> {
         let caption = self.caption(runs, seed);
         Ok(match (self.content, runs) {
             (Content::Activation, _) => single_field::activation(caption, letters)?,
@@ -162,7 +163,7 @@ impl Figure {
         })
     }
 
-    fn caption(&self, runs: &[&Recording], seed: u64) -> Caption {
+    fn caption(&self, runs: &[&RunTrace], seed: u64) -> Caption {
         let mut notes = Vec::new();
         match runs.first() {
             None => notes.push("One field by itself, kernel and constants of our own.".into()),
@@ -185,7 +186,7 @@ impl Figure {
 }
 
 /// Layers over the whole time of the runs.
-fn layers(mut caption: Caption, runs: &[&Recording], panels: &[Panel]) -> LayerPage {
+fn layers(mut caption: Caption, runs: &[&RunTrace], panels: &[Panel]) -> LayerPage {
     let mut maps = Vec::new();
     let mut partly = Vec::new();
     for &(letter, layer, with_input) in panels {
@@ -209,7 +210,7 @@ fn layers(mut caption: Caption, runs: &[&Recording], panels: &[Panel]) -> LayerP
     LayerPage { caption, columns: runs.iter().map(|run| Column::of(run, 0.0, run.end_ms())).collect(), maps }
 }
 
-fn map(runs: &[&Recording], letter: &str, layer: LayerKind, quantity: Quantity, rows: &[usize]) -> HeatMap {
+fn map(runs: &[&RunTrace], letter: &str, layer: LayerKind, quantity: Quantity, rows: &[usize]) -> HeatMap {
     let surfaces = runs.iter().map(|run| run.surface(layer, quantity).only(rows)).collect();
     let constants = runs.first().map_or((1.0, -1.0), |run| {
         let plan = run.plan.layer(layer);
@@ -219,7 +220,7 @@ fn map(runs: &[&Recording], letter: &str, layer: LayerKind, quantity: Quantity, 
 }
 
 /// Populations of a layer that a figure shows: all of memory and plan, of the others those that got input.
-fn rows_that_matter(layer: LayerKind, runs: &[&Recording]) -> Vec<usize> {
+fn rows_that_matter(layer: LayerKind, runs: &[&RunTrace]) -> Vec<usize> {
     let all = runs.first().map_or(0, |run| run.plan.populations_of(layer).len());
     let shown_in_full = [
         LayerKind::ObjectMemoryRobot,
@@ -230,7 +231,7 @@ fn rows_that_matter(layer: LayerKind, runs: &[&Recording]) -> Vec<usize> {
     if shown_in_full.contains(&layer) {
         return (0..all).collect();
     }
-    let reached = |run: &&Recording| {
+    let reached = |run: &&RunTrace| {
         run.surface(layer, Quantity::Input).reaching(MATTERS * run.plan.layer(layer).gain as f32)
     };
     let reached: Vec<usize> = runs.iter().flat_map(reached).collect();

@@ -12,13 +12,6 @@ pub enum FigureError {
     Stage(#[from] coact_lockstep::LockstepError),
     #[error(transparent)]
     Field(#[from] coact_neural_field::ParameterError),
-    #[error("a picture could not be drawn: {0}")]
-    Drawing(String),
-}
-
-impl FigureError {
-    /// What the drawing library said.
-    pub(crate) fn drawing(cause: impl std::fmt::Display) -> Self {
-        Self::Drawing(cause.to_string())
-    }
+    #[error(transparent)]
+    Drawing(#[from] coact_drawing::DrawingError),
 }

@@ -1,5 +1,6 @@
-use crate::{Figure, FigureError, Index, Lettering, Recording, Scenario};
-use std::path::{Path, PathBuf};
+use crate::{Figure, FigureError, Index, RunTrace, Scenario};
+use coact_drawing::Lettering;
+use std::path::Path;
 
 /// Which figures are wanted, and where.
 #[derive(Debug, Clone)]
@@ -32,25 +33,26 @@ impl Gallery<'_> {
         std::fs::create_dir_all(self.out)
             .map_err(|cause| FigureError::Folder { path: self.out.to_owned(), cause })?;
         let letters = Lettering::new()?;
-        let recordings = self.record(progress)?;
+        let traces = self.record(progress)?;
         let mut index = Index::new(self.seed);
         for figure in &self.figures {
             progress(Step::Figure(figure.number));
-            let of = |scenario: &Scenario| recordings.iter().find(|run| run.scenario == *scenario);
-            let runs: Vec<&Recording> = figure.scenarios().iter().filter_map(of).collect();
+            let of = |scenario: &Scenario| traces.iter().find(|run| run.scenario == *scenario);
+            let runs: Vec<&RunTrace> = figure.scenarios().iter().filter_map(of).collect();
             let sheet = figure.draw(&runs, self.seed, &letters)?;
             let names = ["svg", "png"].map(|kind| format!("figure-{:02}.{kind}", figure.number));
             self.write(&names[0], sheet.svg()?.as_bytes())?;
             self.write(&names[1], &sheet.png(&letters)?)?;
             index.add(figure, &runs, names);
         }
-        let text = serde_json::to_string_pretty(&index).map_err(FigureError::drawing)?;
+        let text =
+            serde_json::to_string_pretty(&index).map_err(|cause| self.error("figures.json", cause.into()))?;
         self.write("figures.json", text.as_bytes())?;
         Ok(index)
     }
 
-    /// One recording of each scenario that is shown.
-    fn record(&self, progress: &mut dyn FnMut(Step)) -> Result<Vec<Recording>, FigureError> {
+    /// One trace of each scenario that is shown.
+    fn record(&self, progress: &mut dyn FnMut(Step)) -> Result<Vec<RunTrace>, FigureError> {
         let mut scenarios: Vec<Scenario> =
             self.figures.iter().flat_map(|figure| figure.scenarios()).copied().collect();
         scenarios.sort_unstable();
@@ -59,13 +61,16 @@ impl Gallery<'_> {
             .into_iter()
             .map(|scenario| {
                 let mut told = |ms: u64| progress(Step::Run(scenario, ms));
-                Recording::of(scenario, self.configuration, self.seed, &mut told)
+                RunTrace::of(scenario, self.configuration, self.seed, &mut told)
             })
             .collect()
     }
 
     fn write(&self, name: &str, bytes: &[u8]) -> Result<(), FigureError> {
-        let path: PathBuf = self.out.join(name);
-        std::fs::write(&path, bytes).map_err(|cause| FigureError::Folder { path, cause })
+        std::fs::write(self.out.join(name), bytes).map_err(|cause| self.error(name, cause))
+    }
+
+    fn error(&self, name: &str, cause: std::io::Error) -> FigureError {
+        FigureError::Folder { path: self.out.join(name), cause }
     }
 }

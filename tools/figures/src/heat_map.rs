@@ -1,8 +1,7 @@
-use crate::colours::{FAINT, diverging};
 use crate::page::{LEFT, LETTERS, MARGIN, RIGHT, number};
-use crate::{Anchor, Quantity, Sheet, Surface};
+use crate::{Quantity, Surface};
+use coact_drawing::{Anchor, BLACK, FAINT, Sheet, diverging};
 use coact_messages::LayerKind;
-use plotters::prelude::BLACK;
 
 /// Part of the scale that a run of equal colour may depart from its first value: noise does not break it up.
 const TOLERANCE: f32 = 1.0 / 40.0;

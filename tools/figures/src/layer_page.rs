@@ -1,14 +1,13 @@
-use crate::colours::TELLING;
 use crate::heat_map::{HeatMap, Span};
 use crate::page::{Caption, LEFT, LETTERS, MARGIN, RIGHT, axis, rows};
-use crate::{Anchor, Interval, Lettering, Mark, Recording, Sheet};
-use plotters::prelude::{BLACK, RGBColor};
+use crate::{Interval, RunTrace};
+use coact_drawing::{Anchor, BLACK, DISTINCT, Lettering, Mark, RGBColor, Sheet};
 
 /// Room between two runs, pixels.
 const GAP: i32 = 24;
 /// What is marked below the maps, and its colour.
 const EVENTS: [(&str, RGBColor); 2] =
-    [("hand closed, or gesture shown", TELLING[1]), ("part in its place", TELLING[2])];
+    [("hand closed, or gesture shown", DISTINCT[1]), ("part in its place", DISTINCT[2])];
 
 /// Layers of one or more runs over time: heat maps one above the other, intervals marked across all of them.
 #[derive(Debug, Clone)]
@@ -29,33 +28,28 @@ pub struct Column {
     /// End, ms.
     pub to_ms: f64,
     intervals: Vec<Interval>,
-    closing: String,
+    end_label: String,
     events_ms: [Vec<f64>; 2],
 }
 
 impl Column {
     /// The time of a run between two instants.
-    pub fn of(recording: &Recording, from_ms: f64, to_ms: f64) -> Self {
+    pub fn of(trace: &RunTrace, from_ms: f64, to_ms: f64) -> Self {
         let inside = |ms: &f64| (from_ms..to_ms).contains(ms);
         let within = |times: &[f64]| times.iter().copied().filter(inside).collect();
-        let next = recording.scenario.first_interval() + recording.intervals.len();
+        let next = trace.scenario.first_interval() + trace.intervals.len();
         Self {
             from_ms,
             to_ms,
-            intervals: recording
-                .intervals
-                .iter()
-                .filter(|interval| inside(&interval.from_ms))
-                .cloned()
-                .collect(),
-            closing: if to_ms >= recording.end_ms() { format!("T{next}") } else { String::new() },
-            events_ms: [within(&recording.grasps_ms), within(&recording.achievements_ms)],
+            intervals: trace.intervals.iter().filter(|interval| inside(&interval.from_ms)).cloned().collect(),
+            end_label: if to_ms >= trace.end_ms() { format!("T{next}") } else { String::new() },
+            events_ms: [within(&trace.grasps_ms), within(&trace.achievements_ms)],
         }
     }
 
     /// A time axis with these intervals.
     pub fn marked(from_ms: f64, to_ms: f64, intervals: Vec<Interval>) -> Self {
-        Self { from_ms, to_ms, intervals, closing: String::new(), events_ms: Default::default() }
+        Self { from_ms, to_ms, intervals, end_label: String::new(), events_ms: Default::default() }
     }
 
     fn x(&self, Span { left, right }: Span, ms: f64) -> i32 {
@@ -104,7 +98,7 @@ impl LayerPage {
         }
     }
 
-    /// Each run has its share of the width, as it has of the time.
+    /// Each run gets the same fraction of the width as it has of the time.
     fn spans(&self) -> Vec<Span> {
         let all: f64 = self.columns.iter().map(|column| column.to_ms - column.from_ms).sum();
         let room = f64::from(RIGHT - LEFT - GAP * (self.columns.len() as i32 - 1));
@@ -118,14 +112,14 @@ impl LayerPage {
         self.columns.iter().map(span).collect()
     }
 
-    /// Writes what the person does above the maps, and tells how many rows it took.
+    /// Writes what the person does above the maps, and returns how many rows it took.
     fn name_intervals(&self, sheet: &mut Sheet, y: i32, spans: &[Span], letters: &Lettering) -> i32 {
         let names = |(column, span): (&Column, &Span)| {
             let name = |interval: &Interval| {
                 (column.x(*span, interval.from_ms), format!("{} {}", interval.name, interval.doing))
             };
             let mut names: Vec<_> = column.intervals.iter().map(name).collect();
-            names.push((span.right, column.closing.clone()));
+            names.push((span.right, column.end_label.clone()));
             names
         };
         let names: Vec<_> = self.columns.iter().zip(spans).flat_map(names).collect();

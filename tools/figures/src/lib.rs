@@ -1,9 +1,9 @@
 //! The chapter's figures, drawn from runs that are made then and there.
 //!
-//! A [`Recording`] holds what a run in lockstep showed: input and activity of every layer, what the person did, when
-//! which peak stood. A [`Figure`] makes a [`Sheet`] of it, which is written as SVG and as PNG. [`Gallery`] does it all.
+//! A [`RunTrace`] has what happened in a run in lockstep: input and activity of every layer, what the person did, when
+//! which peak stood. A [`Figure`] makes a [`Sheet`](coact_drawing::Sheet) of it, which is written as SVG and as PNG.
+//! [`Gallery`] does it all.
 
-mod colours;
 mod curves;
 mod figure;
 mod figure_error;
@@ -11,25 +11,21 @@ mod gallery;
 mod heat_map;
 mod index;
 mod interval;
+mod interval_tracker;
 mod layer_page;
-mod lettering;
 mod page;
 mod prediction;
-mod recording;
+mod run_trace;
 mod scenario;
-mod sheet;
 mod single_field;
 mod surface;
 mod table_view;
 
-pub use colours::TELLING;
 pub use figure::Figure;
 pub use figure_error::FigureError;
 pub use gallery::{Gallery, Step};
-pub use index::{Done, Entry, Index, Run, Stretch};
+pub use index::{FigureEntry, Index, IntervalEntry, PeakEntry, RunEntry};
 pub use interval::Interval;
-pub use lettering::Lettering;
-pub use recording::{Peak, Quantity, Recording};
+pub use run_trace::{Peak, Quantity, RunTrace};
 pub use scenario::Scenario;
-pub use sheet::{Anchor, Mark, Place, Sheet, Text};
 pub use surface::Surface;

@@ -1,6 +1,3 @@
-use crate::{Anchor, Lettering, Sheet, Text};
-use plotters::prelude::BLACK;
-
 /// Width of every picture, pixels.
 pub const WIDTH: i32 = 1500;
 /// Left edge of what is drawn; the names of populations stand before it.
@@ -11,6 +8,8 @@ pub const RIGHT: i32 = WIDTH - 120;
 pub const MARGIN: i32 = 24;
 /// Ordinary letters, pixels of an em.
 pub const LETTERS: u32 = 18;
+
+use coact_drawing::{Anchor, BLACK, Lettering, Sheet};
 
 /// What stands above every picture.
 #[derive(Debug, Clone)]
@@ -62,8 +61,8 @@ pub fn axis(sheet: &mut Sheet, (left, right): (i32, i32), y: i32, (from, to): (f
     let step = step.into_iter().find(|step| (to - from) / step <= most).unwrap_or(200.0);
     let mut tick = (from / step).ceil();
     while tick * step <= to + 1e-9 {
-        let share = (tick * step - from) / (to - from);
-        let x = left + (share * f64::from(right - left)).round() as i32;
+        let fraction = (tick * step - from) / (to - from);
+        let x = left + (fraction * f64::from(right - left)).round() as i32;
         sheet.path([[x, y], [x, y + 6]], BLACK, 1);
         // No minus before a zero.
         sheet.text(number(tick * step + 0.0), [x, y + 18], LETTERS - 2, Anchor::Middle);
@@ -79,7 +78,7 @@ pub fn number(value: f64) -> String {
 }
 
 /// Puts texts at `at` (from left to right) into as few rows as they need without touching each other, the first row at
-/// height `y`, and tells how many rows those are.
+/// height `y`, and returns how many rows those are.
 pub fn rows(sheet: &mut Sheet, texts: &[(i32, String)], y: i32, size: u32, letters: &Lettering) -> i32 {
     let mut ends: Vec<i32> = Vec::new();
     for (x, text) in texts {
@@ -92,7 +91,7 @@ pub fn rows(sheet: &mut Sheet, texts: &[(i32, String)], y: i32, size: u32, lette
         });
         ends[row] = x + width + 10;
         let at = [x, y + row as i32 * (size as i32 + 6)];
-        sheet.marks.push(crate::Mark::Text(Text { at, text: text.clone(), size, anchor: Anchor::Start }));
+        sheet.text(text, at, size, Anchor::Start);
     }
     ends.len() as i32
 }

@@ -1,7 +1,7 @@
 use crate::heat_map::HeatMap;
 use crate::layer_page::{Column, LayerPage};
 use crate::page::Caption;
-use crate::{Peak, Quantity, Recording};
+use crate::{Peak, Quantity, RunTrace};
 use coact_messages::LayerKind;
 
 /// Time shown before and after the inference, ms.
@@ -10,7 +10,7 @@ const AROUND: [f64; 2] = [500.0, 1500.0];
 /// What an inferred goal does to the plan before it is reached.
 #[derive(Debug, Clone)]
 pub struct Prediction<'a> {
-    recording: &'a Recording,
+    trace: &'a RunTrace,
     /// The first goal that was inferred.
     pub goal: Option<&'a Peak>,
     /// Subgoals that became available on it while what comes before them was not achieved: indices.
@@ -19,32 +19,29 @@ pub struct Prediction<'a> {
 
 impl<'a> Prediction<'a> {
     /// Finds the first inference of a run and the subgoals that it opened.
-    pub fn of(recording: &'a Recording) -> Self {
-        let goal = recording.peaks_of(LayerKind::Intention).next();
+    pub fn of(trace: &'a RunTrace) -> Self {
+        let goal = trace.peaks_of(LayerKind::Intention).next();
         let early = |peak: &&Peak| {
-            let after = &recording.task.subgoals[peak.population].after;
+            let after = &trace.task.subgoals[peak.population].after;
             let achieved = |subgoal: &usize| {
-                recording
+                trace
                     .peaks_of(LayerKind::SubgoalsAchieved)
                     .any(|done| done.population == *subgoal && done.from_ms < peak.from_ms)
             };
             goal.is_some_and(|goal| peak.from_ms >= goal.from_ms) && !after.iter().all(achieved)
         };
-        let mut opened: Vec<usize> = recording
-            .peaks_of(LayerKind::SubgoalsAvailable)
-            .filter(early)
-            .map(|peak| peak.population)
-            .collect();
+        let mut opened: Vec<usize> =
+            trace.peaks_of(LayerKind::SubgoalsAvailable).filter(early).map(|peak| peak.population).collect();
         opened.sort_unstable();
         opened.dedup();
-        Self { recording, goal, opened }
+        Self { trace, goal, opened }
     }
 
     /// The subgoals of now, the inferred goal, and the subgoals that it opens, around the moment of inference.
     pub(crate) fn page(&self, mut caption: Caption) -> LayerPage {
         let (from, to) = match self.goal {
-            Some(goal) => (goal.from_ms - AROUND[0], (goal.from_ms + AROUND[1]).min(self.recording.end_ms())),
-            None => (0.0, self.recording.end_ms()),
+            Some(goal) => (goal.from_ms - AROUND[0], (goal.from_ms + AROUND[1]).min(self.trace.end_ms())),
+            None => (0.0, self.trace.end_ms()),
         };
         caption.notes.push(match self.goal {
             Some(goal) => format!(
@@ -55,19 +52,18 @@ impl<'a> Prediction<'a> {
             None => "No goal was inferred in this run.".into(),
         });
         let available = LayerKind::SubgoalsAvailable;
-        let now: Vec<usize> = (0..self.recording.task.subgoals.len())
-            .filter(|subgoal| !self.opened.contains(subgoal))
-            .collect();
-        let intention = self.recording.surface(LayerKind::Intention, Quantity::Activity);
+        let now: Vec<usize> =
+            (0..self.trace.task.subgoals.len()).filter(|subgoal| !self.opened.contains(subgoal)).collect();
+        let intention = self.trace.surface(LayerKind::Intention, Quantity::Activity);
         let goals = intention.reaching(0.0);
         let map = |letter: &str, layer, quantity, rows: &[usize]| {
-            let surface = self.recording.surface(layer, quantity).only(rows).between(from, to);
-            let plan = self.recording.plan.layer(layer);
+            let surface = self.trace.surface(layer, quantity).only(rows).between(from, to);
+            let plan = self.trace.plan.layer(layer);
             HeatMap::of(letter, layer, quantity, vec![surface], (plan.gain as f32, plan.resting as f32))
         };
         LayerPage {
             caption,
-            columns: vec![Column::of(self.recording, from, to)],
+            columns: vec![Column::of(self.trace, from, to)],
             maps: vec![
                 map("A", available, Quantity::Activity, &now),
                 map("B", LayerKind::Intention, Quantity::Activity, &goals),

@@ -1,13 +1,12 @@
 //! Figures 3 and 4: one field by itself, before it is part of any architecture.
 
-use crate::colours::TELLING;
 use crate::curves::{Curves, Stroke};
 use crate::heat_map::HeatMap;
 use crate::layer_page::{Column, LayerPage};
 use crate::page::{Caption, LEFT, MARGIN, RIGHT};
-use crate::{FigureError, Interval, Lettering, Sheet, Surface};
+use crate::{FigureError, Interval, Surface};
+use coact_drawing::{BLACK, DISTINCT, Lettering, Sheet};
 use coact_neural_field::{Field, Kernel, Parameters};
-use plotters::prelude::BLACK;
 
 /// Sites of a population: 30 units of length, five peaks' widths.
 const SITES: usize = 60;
@@ -22,13 +21,13 @@ const DASHED: &[f64] = &[14.0, 9.0];
 const DASH_DOTTED: &[f64] = &[16.0, 7.0, 3.0, 7.0];
 
 /// A field that can be driven for a while.
-struct Bench {
+struct DrivenField {
     field: Field,
     resting: Vec<f64>,
     activity: Vec<f64>,
 }
 
-impl Bench {
+impl DrivenField {
     fn new(populations: usize, inhibition: f64, h: f64) -> Result<Self, FigureError> {
         let kernel = Kernel { amplitude: 3.0, sigma: 2.0, inhibition, range: None };
         let parameters =
@@ -51,10 +50,10 @@ impl Bench {
 
 /// Figure 3: rest, response to weak input, and a peak that stands without input.
 pub fn activation(caption: Caption, letters: &Lettering) -> Result<Sheet, FigureError> {
-    let bench = || Bench::new(1, 0.6, -2.0);
-    let rest = bench()?.drive(1000, &[0.0]);
-    let weak = bench()?.drive(1000, &[0.9]);
-    let mut driven = bench()?;
+    let field = || DrivenField::new(1, 0.6, -2.0);
+    let rest = field()?.drive(1000, &[0.0]);
+    let weak = field()?.drive(1000, &[0.9]);
+    let mut driven = field()?;
     driven.drive(300, &[3.0]);
     let peak = driven.drive(3000, &[0.0]);
     let curve = |name: &str, values, colour, dashes| (name.to_owned(), values, Stroke { colour, dashes });
@@ -63,8 +62,8 @@ pub fn activation(caption: Caption, letters: &Lettering) -> Result<Sheet, Figure
         populations: vec!["field position x: grasping".into()],
         curves: vec![
             curve("resting state: no input", rest, BLACK, &[]),
-            curve("response to weak input, below threshold", weak, TELLING[0], DASHED),
-            curve("self-stabilised peak: 3 s after strong input ended", peak, TELLING[1], DASH_DOTTED),
+            curve("response to weak input, below threshold", weak, DISTINCT[0], DASHED),
+            curve("self-stabilised peak: 3 s after strong input ended", peak, DISTINCT[1], DASH_DOTTED),
         ],
     };
     let (mut sheet, y) = caption.sheet(letters);
@@ -76,8 +75,8 @@ pub fn activation(caption: Caption, letters: &Lettering) -> Result<Sheet, Figure
 
 /// Figure 4: four alternatives compete; one gets more input, wins and suppresses the others.
 pub fn decision(caption: Caption, letters: &Lettering) -> Result<Sheet, FigureError> {
-    let mut bench = Bench::new(PRESHAPE.len(), 1.5, -3.0)?;
-    bench.drive(1000, &PRESHAPE);
+    let mut field = DrivenField::new(PRESHAPE.len(), 1.5, -3.0)?;
+    field.drive(1000, &PRESHAPE);
     let mut strength = PRESHAPE;
     let alternatives: Vec<String> = (1..=PRESHAPE.len()).map(|number| format!("A{number}")).collect();
     let mut evolution = Surface {
@@ -89,18 +88,18 @@ pub fn decision(caption: Caption, letters: &Lettering) -> Result<Sheet, FigureEr
     };
     for ms in -(SHOWN[0] as i64)..SHOWN[1] as i64 {
         strength[1] = PRESHAPE[1] + if ms >= 0 { ADDITIONAL } else { 0.0 };
-        evolution.values.extend(bench.drive(1, &strength).iter().map(|&u| u as f32));
+        evolution.values.extend(field.drive(1, &strength).iter().map(|&u| u as f32));
     }
-    let moment = |ms: f64, colour, dashes| {
+    let instant = |ms: f64, colour, dashes| {
         let values = evolution.at(ms).iter().map(|&u| f64::from(u)).collect();
         (format!("t = {ms:.0} ms"), values, Stroke { colour, dashes })
     };
     let curves = Curves {
         title: "activity u(x) at three instants".into(),
         curves: vec![
-            moment(0.0, BLACK, &[]),
-            moment(60.0, TELLING[0], DASHED),
-            moment(SHOWN[1], TELLING[1], DASH_DOTTED),
+            instant(0.0, BLACK, &[]),
+            instant(60.0, DISTINCT[0], DASHED),
+            instant(SHOWN[1], DISTINCT[1], DASH_DOTTED),
         ],
         populations: alternatives,
     };

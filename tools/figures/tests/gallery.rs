@@ -1,7 +1,8 @@
 //! The chapter's figures: all are written, none is empty, and they show what the chapter tells.
 #![allow(clippy::unwrap_used)]
 
-use coact_figures::{Figure, FigureError, Gallery, Index, Lettering, Mark, Recording, Scenario};
+use coact_drawing::{Lettering, Mark};
+use coact_figures::{Figure, FigureError, Gallery, Index, RunTrace, Scenario};
 use std::path::{Path, PathBuf};
 
 fn configuration() -> PathBuf {
@@ -112,11 +113,11 @@ fn a_folder_that_cannot_be_made_is_one_clear_error() {
 #[test]
 fn no_letters_touch_others_or_leave_the_sheet() {
     let letters = Lettering::new().unwrap();
-    let recordings = [Scenario::Proactive, Scenario::Occlusion, Scenario::Errors]
-        .map(|scenario| Recording::of(scenario, &configuration(), 2, &mut |_| ()).unwrap());
+    let traces = [Scenario::Proactive, Scenario::Occlusion, Scenario::Errors]
+        .map(|scenario| RunTrace::of(scenario, &configuration(), 2, &mut |_| ()).unwrap());
     for figure in Figure::ALL {
-        let run = |scenario| recordings.iter().find(|run| run.scenario == scenario).unwrap();
-        let runs: Vec<&Recording> = figure.scenarios().iter().map(|&scenario| run(scenario)).collect();
+        let run = |scenario| traces.iter().find(|run| run.scenario == scenario).unwrap();
+        let runs: Vec<&RunTrace> = figure.scenarios().iter().map(|&scenario| run(scenario)).collect();
         let sheet = figure.draw(&runs, 2, &letters).unwrap();
         let rooms: Vec<_> = sheet
             .marks

@@ -1,6 +1,3 @@
-use coact_figures::{Anchor, Sheet, TELLING};
-use plotters::prelude::{BLACK, RGBColor};
-
 /// Curves over time.
 pub(crate) struct Chart<'a> {
     /// What is shown, with its unit.
@@ -12,6 +9,8 @@ pub(crate) struct Chart<'a> {
     /// Where a new segment begins, s.
     pub marks: Vec<f64>,
 }
+
+use coact_drawing::{Anchor, BLACK, DISTINCT, RGBColor, Sheet};
 
 const FAINT: RGBColor = RGBColor(170, 170, 170);
 
@@ -41,7 +40,7 @@ impl Chart<'_> {
             sheet.text(format!("{} s", number(t)), [x(t), bottom + 16], 14, Anchor::Middle);
         }
         for (index, (name, values)) in self.curves.iter().enumerate() {
-            let colour = TELLING[index % TELLING.len()];
+            let colour = DISTINCT[index % DISTINCT.len()];
             let last = (values.len() - 1).max(1) as f64;
             let points = values.iter().enumerate();
             let places: Vec<_> =

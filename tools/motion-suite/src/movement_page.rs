@@ -1,10 +1,9 @@
 use crate::chart::Chart;
 use crate::{FAR, Quality, path};
-use coact_figures::{Anchor, Sheet, TELLING};
+use coact_drawing::{Anchor, DISTINCT, RGBColor, Sheet};
 use coact_motion::{Capsule, Clearance, Plan, Problem, SegmentKind};
 use coact_pictures::{ARM, HAND, THINGS, View, paint};
 use nalgebra::Vector3;
-use plotters::prelude::RGBColor;
 
 /// A planned movement on one page: pictures of it, and curves of joints, hand and clearance.
 pub struct MovementPage<'a> {
@@ -72,7 +71,7 @@ impl MovementPage<'_> {
             let things = &self.problem.scene.obstacles;
             strokes.extend(things.iter().flat_map(|thing| view.edges(thing, THINGS)));
             paint(sheet, strokes);
-            sheet.path(hand.places.iter().map(|place| view.place(place)).collect::<Vec<_>>(), TELLING[1], 2);
+            sheet.path(hand.places.iter().map(|place| view.place(place)).collect::<Vec<_>>(), DISTINCT[1], 2);
             sheet.frame(
                 corner,
                 [corner[0] + PICTURE[0], corner[1] + PICTURE[1] - 6],

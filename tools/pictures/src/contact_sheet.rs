@@ -1,13 +1,12 @@
 use crate::person::arm_and_hand;
 use crate::view::{ARM, HAND, Stroke, THINGS, View, paint};
-use coact_figures::{Anchor, Lettering, Mark, Place, Sheet, TELLING};
+use coact_drawing::{Anchor, DISTINCT, Lettering, Mark, Place, RGBColor, Sheet};
 use coact_joint_task::{Fixture, Kind, Task};
 use coact_messages::ARM_JOINTS;
 use coact_motion::{Capsule, CollisionModel, Mechanism};
 use coact_robot::{HAND_JOINTS, Robot, RobotError};
 use coact_run_records::{SeenPart, Snapshot};
 use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion, Vector3};
-use plotters::prelude::RGBColor;
 
 /// The snapshots of a run on one sheet: a picture of each, with what had happened.
 pub struct ContactSheet<'a> {
@@ -186,5 +185,5 @@ fn frame(part: &SeenPart) -> Isometry3<f64> {
 }
 
 fn colour(kind: usize) -> RGBColor {
-    TELLING[kind % TELLING.len()]
+    DISTINCT[kind % DISTINCT.len()]
 }

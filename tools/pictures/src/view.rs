@@ -1,8 +1,7 @@
 use crate::face::{Face, arc};
-use coact_figures::{Mark, Place, Sheet};
+use coact_drawing::{Mark, Place, RGBColor, Sheet};
 use coact_motion::{Capsule, Obstacle, Solid};
 use nalgebra::{Point3, Vector3};
-use plotters::prelude::RGBColor;
 use std::f64::consts::TAU;
 
 /// Colour of the robot's arm.

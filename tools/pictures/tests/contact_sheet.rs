@@ -1,12 +1,11 @@
 //! Sheets of snapshots that are made up here.
 #![allow(clippy::unwrap_used)]
 
-use coact_figures::{Lettering, Mark, Sheet};
+use coact_drawing::{Lettering, Mark, RGBColor, Sheet};
 use coact_joint_task::Task;
 use coact_pictures::{ContactSheet, ContactSheetError};
 use coact_robot::Robot;
 use coact_run_records::{SeenPart, Snapshot};
-use plotters::prelude::RGBColor;
 use std::path::{Path, PathBuf};
 
 fn configuration(file: &str) -> PathBuf {

@@ -2,7 +2,7 @@
 
 use super::robot::RobotArgs;
 use anyhow::{Context, Result, bail, ensure};
-use coact_figures::Lettering;
+use coact_drawing::Lettering;
 use coact_motion::{Goal, MinClearance, Obstacle, Plan, Problem, Scene, SegmentKind, Solid};
 use coact_motion_suite::{MovementPage, Quality, Setting};
 use coact_robot::{HandGoal, MotionState};

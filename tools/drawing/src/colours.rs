@@ -1,6 +1,7 @@
 use plotters::prelude::RGBColor;
 
-/// ColorBrewer's RdBu from blue over white to red: told apart by people who do not see all colours, too.
+/// From blue over white to red: ColorBrewer's RdBu with 11 classes (Harrower and Brewer 2003), which people tell apart
+/// who do not see all colours, too.
 const DIVERGING: [[u8; 3]; 11] = [
     [5, 48, 97],
     [33, 102, 172],
@@ -17,8 +18,9 @@ const DIVERGING: [[u8; 3]; 11] = [
 
 /// Lines and letters that are there to help the eye.
 pub const FAINT: RGBColor = RGBColor(150, 150, 150);
-/// Colours that everybody tells apart (Okabe and Ito), then black.
-pub const TELLING: [RGBColor; 7] = [
+/// Six colours that people tell apart who do not see all colours, too (Okabe and Ito, "Color universal design", 2008;
+/// their yellow is left out: too faint on white), then nearly black.
+pub const DISTINCT: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -32,9 +34,9 @@ pub const TELLING: [RGBColor; 7] = [
 pub fn diverging(value: f32) -> RGBColor {
     let place = (value.clamp(-1.0, 1.0) + 1.0) / 2.0 * (DIVERGING.len() - 1) as f32;
     let lower = (place as usize).min(DIVERGING.len() - 2);
-    let share = place - lower as f32;
+    let fraction = place - lower as f32;
     let [from, to] = [DIVERGING[lower], DIVERGING[lower + 1]];
-    let [r, g, b] =
-        [0, 1, 2].map(|i| (f32::from(from[i]) * (1.0 - share) + f32::from(to[i]) * share).round() as u8);
+    let [r, g, b] = [0, 1, 2]
+        .map(|i| (f32::from(from[i]) * (1.0 - fraction) + f32::from(to[i]) * fraction).round() as u8);
     RGBColor(r, g, b)
 }

@@ -1,7 +1,7 @@
-use crate::FigureError;
+use crate::DrawingError;
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont, point};
 
-/// The font of the pictures: one that is compiled in, so that a picture is the same on every machine.
+/// The font of the pictures: compiled in, so that a picture is the same on every machine.
 #[derive(Clone)]
 pub struct Lettering {
     font: FontRef<'static>,
@@ -15,9 +15,8 @@ impl Lettering {
     ///
     /// # Errors
     /// The compiled-in font is no font.
-    pub fn new() -> Result<Self, FigureError> {
-        let font =
-            FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT).map_err(FigureError::drawing)?;
+    pub fn new() -> Result<Self, DrawingError> {
+        let font = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT).map_err(DrawingError::new)?;
         Ok(Self { font })
     }
 
@@ -28,7 +27,8 @@ impl Lettering {
         text.chars().map(advance).sum::<f32>().ceil() as i32
     }
 
-    /// Tells `put` each pixel that `text` covers and how much of it (0 to 1), from the start of its base line.
+    /// Calls `put` with each pixel that `text` covers, from the start of its base line, and with the fraction of it that
+    /// is covered.
     ///
     /// # Errors
     /// The first error of `put`.
@@ -48,9 +48,9 @@ impl Lettering {
             let Some(outline) = font.outline_glyph(glyph) else { continue };
             let corner = outline.px_bounds().min;
             let mut pixels = Vec::new();
-            outline.draw(|x, y, share| pixels.push((x as i32, y as i32, share)));
-            for (x, y, share) in pixels {
-                put(corner.x as i32 + x, corner.y as i32 + y, share.min(1.0))?;
+            outline.draw(|x, y, coverage| pixels.push((x as i32, y as i32, coverage)));
+            for (x, y, coverage) in pixels {
+                put(corner.x as i32 + x, corner.y as i32 + y, coverage.min(1.0))?;
             }
         }
         Ok(())

@@ -1,20 +1,22 @@
-use crate::interval::Observer;
+use crate::interval_tracker::IntervalTracker;
 use crate::{FigureError, Interval, Scenario, Surface};
 use coact_joint_task::{LayerPlan, NetworkPlan, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{FieldFrame, LayerKind, PartnerPhase, SceneView};
+use coact_period::cycles;
 use std::path::Path;
+use std::time::Duration;
 
-/// Time between two samples, ticks.
-const SAMPLE_EVERY: u64 = 10;
-/// How long a run goes on when the person has come to rest, ticks.
-const AFTERWARDS: u64 = 1000;
-/// How long it lasts at most, ticks.
-const LONGEST: u64 = 90_000;
+/// Time between two samples, ticks: a run of ten seconds has about one for each pixel of the page.
+const SAMPLE_EVERY: u64 = cycles(Duration::from_millis(10));
+/// How long a run goes on when the person has come to rest, ticks: what the robot decides on that is seen as well.
+const AFTERWARDS: u64 = cycles(Duration::from_secs(1));
+/// How long it lasts at most, ticks: the end of a scenario that gets stuck. Chosen by hand, longer than any takes.
+const LONGEST: u64 = cycles(Duration::from_secs(90));
 
-/// All that the figures show of a run.
+/// All that the figures show of a run, sample by sample.
 #[derive(Debug, Clone)]
-pub struct Recording {
+pub struct RunTrace {
     /// What the person did.
     pub scenario: Scenario,
     /// The task.
@@ -23,7 +25,7 @@ pub struct Recording {
     pub plan: NetworkPlan,
     /// What the person really did, one thing after the other.
     pub intervals: Vec<Interval>,
-    /// Peaks of all layers, in the order of their begin.
+    /// Peaks of all layers, in the order in which they begin.
     pub peaks: Vec<Peak>,
     /// Instants at which the person's fingers had closed (or a gesture was shown), ms.
     pub grasps_ms: Vec<f64>,
@@ -58,11 +60,11 @@ pub struct Peak {
     pub to_ms: f64,
 }
 
-impl Recording {
-    /// When the scene is taken down: all parts have been seen, and the person has not begun.
+impl RunTrace {
+    /// When the scene is copied: all parts have been seen, and the person has not begun.
     pub const SCENE_MS: f64 = 1500.0;
 
-    /// Runs a scenario to its end; `progress` is told the time of the run, ms, now and then.
+    /// Runs a scenario to its end; `progress` is called with the time of the run, ms, at each sample.
     ///
     /// # Errors
     /// A file that a stage refuses.
@@ -73,35 +75,35 @@ impl Recording {
         progress: &mut dyn FnMut(u64),
     ) -> Result<Self, FigureError> {
         let mut stages = Lockstep::new(&scenario.settings(configuration, seed))?;
-        let mut recording = Self::empty(scenario, &stages);
-        let (mut observer, mut rested, mut achieved, mut grasp) = (Observer::default(), 0, 0, 0);
+        let mut trace = Self::empty(scenario, &stages);
+        let (mut tracker, mut rested, mut achieved, mut grasp) = (IntervalTracker::default(), 0, 0, 0);
         while stages.ticks() < LONGEST && rested < AFTERWARDS {
             stages.step();
             let (tick, truth) = (stages.ticks(), &stages.truth);
             let ms = tick as f64;
-            observer.observe(ms, truth);
-            recording.follow_peaks(&stages.frame, ms);
+            tracker.observe(ms, truth);
+            trace.follow_peaks(&stages.frame, ms);
             if truth.grasp_cycle > grasp {
-                recording.grasps_ms.push(ms);
+                trace.grasps_ms.push(ms);
             }
             if tick > 1 && truth.achieved & !achieved != 0 {
-                recording.achievements_ms.push(ms);
+                trace.achievements_ms.push(ms);
             }
             (grasp, achieved) = (truth.grasp_cycle, truth.achieved);
             if ms == Self::SCENE_MS {
-                recording.scene = stages.sample.scene;
+                trace.scene = stages.sample.scene;
             }
             if tick.is_multiple_of(SAMPLE_EVERY) {
-                recording.sample(&stages.frame);
+                trace.sample(&stages.frame);
                 progress(tick);
             }
             let over = truth.actions == scenario.actions() && truth.phase == PartnerPhase::Idle as u32;
             rested = if over { rested + 1 } else { 0 };
         }
         let end = stages.ticks() as f64;
-        recording.intervals = observer.intervals(stages.task(), scenario.first_interval(), end);
-        recording.peaks.iter_mut().for_each(|peak| peak.to_ms = peak.to_ms.min(end));
-        Ok(recording)
+        trace.intervals = tracker.intervals(stages.task(), scenario.first_interval(), end);
+        trace.peaks.iter_mut().for_each(|peak| peak.to_ms = peak.to_ms.min(end));
+        Ok(trace)
     }
 
     /// A quantity of a layer during the whole run.

@@ -1,4 +1,4 @@
-use crate::{FigureError, Lettering};
+use crate::{DrawingError, Lettering};
 use plotters::prelude::{BLACK, BitMapBackend, Color, DrawingBackend, IntoFont, RGBColor, SVGBackend, WHITE};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -88,7 +88,7 @@ impl Sheet {
     ///
     /// # Errors
     /// The drawing library's.
-    pub fn svg(&self) -> Result<String, FigureError> {
+    pub fn svg(&self) -> Result<String, DrawingError> {
         let mut picture = String::new();
         let mut canvas = SVGBackend::with_string(&mut picture, (self.width, self.height));
         self.paint(&mut canvas, |canvas, Text { at, text, size, anchor }| {
@@ -97,10 +97,10 @@ impl Sheet {
                 Anchor::Middle => HPos::Center,
                 Anchor::End => HPos::Right,
             };
-            // The backend divides by 1.24 what it takes for the height of a line.
+            // plotters' SVG backend divides the size by 1.24, for it takes it for the height of a line.
             let font = (Lettering::FAMILY, 1.24 * f64::from(*size)).into_font().color(&BLACK);
             let style = font.pos(Pos::new(side, VPos::Center));
-            canvas.draw_text(text, &style, pair(at)).map_err(FigureError::drawing)
+            canvas.draw_text(text, &style, pair(at)).map_err(DrawingError::new)
         })?;
         drop(canvas);
         Ok(picture)
@@ -110,14 +110,14 @@ impl Sheet {
     ///
     /// # Errors
     /// The drawing library's.
-    pub fn png(&self, letters: &Lettering) -> Result<Vec<u8>, FigureError> {
+    pub fn png(&self, letters: &Lettering) -> Result<Vec<u8>, DrawingError> {
         let mut pixels = vec![0; 3 * (self.width * self.height) as usize];
         let mut canvas = BitMapBackend::with_buffer(&mut pixels, (self.width, self.height));
         self.paint(&mut canvas, |canvas, text| {
             let [x, y] = text.start(letters);
-            letters.cover(&text.text, text.size, |dx, dy, share| {
-                let ink = BLACK.mix(f64::from(share)).to_backend_color();
-                canvas.draw_pixel((x + dx, y + dy), ink).map_err(FigureError::drawing)
+            letters.cover(&text.text, text.size, |dx, dy, coverage| {
+                let ink = BLACK.mix(f64::from(coverage)).to_backend_color();
+                canvas.draw_pixel((x + dx, y + dy), ink).map_err(DrawingError::new)
             })
         })?;
         drop(canvas);
@@ -125,7 +125,7 @@ impl Sheet {
         let mut encoder = png::Encoder::new(&mut file, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);
         let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&pixels));
-        written.map_err(FigureError::drawing)?;
+        written.map_err(DrawingError::new)?;
         Ok(file)
     }
 
@@ -133,10 +133,10 @@ impl Sheet {
     fn paint<B: DrawingBackend>(
         &self,
         canvas: &mut B,
-        write: impl Fn(&mut B, &Text) -> Result<(), FigureError>,
-    ) -> Result<(), FigureError> {
+        write: impl Fn(&mut B, &Text) -> Result<(), DrawingError>,
+    ) -> Result<(), DrawingError> {
         let corner = (self.width as i32, self.height as i32);
-        canvas.draw_rect((0, 0), corner, &WHITE, true).map_err(FigureError::drawing)?;
+        canvas.draw_rect((0, 0), corner, &WHITE, true).map_err(DrawingError::new)?;
         for mark in &self.marks {
             let painted = match mark {
                 Mark::Block(from, to, colour) => canvas.draw_rect(pair(from), pair(to), colour, true),
@@ -150,9 +150,9 @@ impl Sheet {
                     continue;
                 }
             };
-            painted.map_err(FigureError::drawing)?;
+            painted.map_err(DrawingError::new)?;
         }
-        canvas.present().map_err(FigureError::drawing)
+        canvas.present().map_err(DrawingError::new)
     }
 }
 
@@ -173,7 +173,7 @@ impl Text {
             Anchor::Middle => width / 2,
             Anchor::End => width,
         };
-        // Half the height of a small letter lies above the middle.
+        // 0.26 em is half the height of a small letter of this font: it stands in the middle of the line.
         [self.at[0] - shift, self.at[1] + (0.26 * f64::from(self.size)).round() as i32]
     }
 }
