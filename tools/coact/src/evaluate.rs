@@ -20,14 +20,15 @@ use std::process::ExitCode;
 /// Runs whole assemblies in lockstep with the kinematic world, on all cores, and counts what the robot understood.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
-  coact evaluate                                      100 assemblies with a partner who errs now and then
-  coact evaluate --trials 10000 --out reports/random  ... many, with every action written down
-  coact evaluate --baseline reactive                  against the same robot without anticipation
+  coact evaluate                                      100 with a partner who errs now and then
+  coact evaluate --trials 10000 --out reports/random  many, with every action written down
+  coact evaluate --baseline reactive                  against a robot without anticipation
   coact evaluate --ablate oml                         without object memory
   coact evaluate --partner random:goal=0.2,clarity=0.3..1
 
 Keys of random, after a colon, separated by commas:
-  idle, goal, ask, means  fractions of the person's choices: idling; a part taken for a subgoal whose
+  idle, goal, request, means
+                          fractions of the person's choices: idling; a part taken for a subgoal whose
                           turn has not come or that is achieved; a part requested out of turn; a part
                           requested that is at hand
   hidden, words           fractions of valid actions: a part taken behind an occluder that hides it and

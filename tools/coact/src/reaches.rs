@@ -10,7 +10,7 @@ use anyhow::{Result, bail};
 use clap::ValueEnum;
 use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
-use coact_reaches::{AnticipationReport, Evaluation, ReachOutcome, Subject};
+use coact_reaches::{Evaluation, ReachOutcome, ReachesReport, Subject};
 use coact_recordings::{Order, Reach, read_folder};
 use coact_robot::Robot;
 use real_time::{RealTime, RealTimeMetrics};
@@ -69,7 +69,7 @@ enum Sequence {
 #[derive(Debug, Serialize)]
 struct Measured {
     #[serde(flatten)]
-    report: AnticipationReport,
+    report: ReachesReport,
     /// Empty in lockstep.
     real_time: Vec<RealTimeMetrics>,
 }
@@ -154,7 +154,7 @@ fn measure(
             play_all(&player, &subjects)?
         }
     };
-    Ok(Measured { report: AnticipationReport::new(&task.name, task.kinds.len(), outcomes), real_time })
+    Ok(Measured { report: ReachesReport::new(&task.name, task.kinds.len(), outcomes), real_time })
 }
 
 fn play_all(player: &RealTime, subjects: &[Subject]) -> Result<(Vec<ReachOutcome>, Vec<RealTimeMetrics>)> {

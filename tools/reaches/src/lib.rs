@@ -4,18 +4,18 @@
 //! Whoever is tested is unseen: the model comes from the other people of the folder, or from a file. Labels of the
 //! tested person are looked at only after all decisions have been taken.
 
-mod anticipation_report;
 mod evaluation;
 mod extraction;
 mod inference_trace;
 mod level_fit;
 mod reach_outcome;
+mod reaches_report;
 mod subject;
 mod training;
 
-pub use anticipation_report::{AnticipationReport, ReachTally};
 pub use evaluation::Evaluation;
 pub use inference_trace::InferenceTrace;
 pub use reach_outcome::{FRACTIONS, GoalDecision, ReachOutcome};
+pub use reaches_report::{ReachTally, ReachesReport};
 pub use subject::Subject;
 pub use training::{TrainError, model_file, train};

@@ -3,7 +3,7 @@
 
 use coact_joint_task::{NetworkPlan, Task};
 use coact_perception::PreshapeModel;
-use coact_reaches::{AnticipationReport, Evaluation, ReachOutcome, model_file, train};
+use coact_reaches::{Evaluation, ReachOutcome, ReachesReport, model_file, train};
 use coact_recordings::{Frame, ImagePoint, Order, Reach, Size};
 use coact_robot::Robot;
 use coact_world::METRES_PER_PIXEL;
@@ -112,10 +112,10 @@ fn too_few_people_make_no_model() {
 
 #[test]
 fn goals_of_unseen_people_are_decided_before_contact() {
-    let report = AnticipationReport::new("three", 3, decide("tasks/three-objects.toml", &people(4, 5), None));
+    let report = ReachesReport::new("three", 3, decide("tasks/three-objects.toml", &people(4, 5), None));
     assert_eq!((report.overall.reaches, report.people.len()), (60, 4));
     assert!(report.overall.right_fraction > 0.85, "{:?}", report.overall);
-    let two = AnticipationReport::new("two", 2, decide("tasks/two-objects.toml", &people(4, 5), None));
+    let two = ReachesReport::new("two", 2, decide("tasks/two-objects.toml", &people(4, 5), None));
     assert_eq!(two.overall.reaches, 40);
     assert!(two.overall.right_fraction > 0.95, "{:?}", two.overall);
     let lead = two.overall.lead_ms.unwrap();
@@ -149,7 +149,7 @@ fn goals_of_recorded_people_are_inferred_as_often_as_measured() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../data/reaches");
     let reaches = coact_recordings::read_folder(&folder).unwrap();
     for (task, goals, least) in [("tasks/three-objects.toml", 3, 0.78), ("tasks/two-objects.toml", 2, 0.95)] {
-        let report = AnticipationReport::new(task, goals, decide(task, &reaches, None));
+        let report = ReachesReport::new(task, goals, decide(task, &reaches, None));
         assert!(report.overall.right_fraction >= least, "{task}: {:?}", report.overall);
         assert!(report.overall.lead_ms.unwrap()[1] >= 100, "{task}: {:?}", report.overall);
     }

@@ -3,7 +3,7 @@ use serde::Serialize;
 
 /// What was inferred from all reaches, and from each person's.
 #[derive(Debug, Clone, Serialize)]
-pub struct AnticipationReport {
+pub struct ReachesReport {
     /// The plan.
     pub task: String,
     /// How many goals it leaves possible.
@@ -39,7 +39,7 @@ pub struct ReachTally {
     pub onset_missed: usize,
 }
 
-impl AnticipationReport {
+impl ReachesReport {
     /// Counts the outcomes.
     pub fn new(task: &str, goals: usize, reaches: Vec<ReachOutcome>) -> Self {
         let mut people: Vec<u32> = reaches.iter().map(|outcome| outcome.participant).collect();
