@@ -1,4 +1,5 @@
-use crate::supervised::{Death, Lifecycle, Supervised};
+use crate::death::Death;
+use crate::supervised::{Lifecycle, Supervised};
 use crate::{Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSpec, RunningChild, SupervisorLog};
 use coact_pipeline::RestartPolicy;
 use coact_realtime::monotonic_time;

@@ -1,7 +1,8 @@
+use crate::death::Death;
+use crate::kill_reason::KillReason;
+use crate::running::Running;
 use crate::{Fault, ProcessSpec, RestartHistory, RunningChild};
 use rustix::process::Signal;
-use std::os::unix::process::ExitStatusExt;
-use std::process::ExitStatus;
 use std::time::Duration;
 
 /// One process of the set, in all its generations.
@@ -28,37 +29,6 @@ pub(crate) enum Lifecycle {
     RestartDue(Duration),
     /// Ended, and not to be started again.
     Stopped,
-}
-
-/// What is known of a running process. Times are of `CLOCK_MONOTONIC`.
-#[derive(Debug)]
-pub(crate) struct Running {
-    pub(crate) child: RunningChild,
-    pub(crate) since: Duration,
-    pub(crate) ready: bool,
-    /// Its newest sign of life: a pulse, or its start.
-    pub(crate) last_sign: Duration,
-    /// Killed because it was not ready in time.
-    pub(crate) not_ready_in_time: bool,
-    /// Why the watchdog killed it, if it did.
-    pub(crate) kill_reason: Option<String>,
-    /// When a stopped process is continued.
-    pub(crate) continue_at: Option<Duration>,
-    /// When a starting process is killed, as the fault `crash-on-start` demands.
-    pub(crate) crash_at: Option<Duration>,
-}
-
-/// How a process ended.
-#[derive(Debug)]
-pub(crate) struct Death {
-    pub(crate) pid: u32,
-    pub(crate) reason: String,
-    /// It was not ready in time.
-    pub(crate) not_ready_in_time: bool,
-    pub(crate) was_ready: bool,
-    /// It ended by itself, not by a signal.
-    pub(crate) exited: bool,
-    pub(crate) child: RunningChild,
 }
 
 impl Supervised {
@@ -91,33 +61,17 @@ impl Supervised {
     /// Enters a child that was just started.
     pub(crate) fn started(&mut self, child: RunningChild, now: Duration) {
         let crash_at = std::mem::take(&mut self.crash_next).then_some(now + Self::CRASH_AFTER);
-        self.lifecycle = Lifecycle::Running(Running {
-            child,
-            since: now,
-            ready: false,
-            last_sign: now,
-            not_ready_in_time: false,
-            kill_reason: None,
-            continue_at: None,
-            crash_at,
-        });
+        self.lifecycle = Lifecycle::Running(Running::new(child, now, crash_at));
     }
 
-    /// Its death, if it died; it is down from then on.
+    /// Its death, if it died; its replacement is due from then on.
     pub(crate) fn died(&mut self, now: Duration) -> Option<Death> {
         let status = self.running_mut()?.child.exit_status()?;
         let Lifecycle::Running(running) = std::mem::replace(&mut self.lifecycle, Lifecycle::RestartDue(now))
         else {
             return None;
         };
-        Some(Death {
-            pid: running.child.pid(),
-            reason: running.kill_reason.unwrap_or_else(|| describe(status)),
-            not_ready_in_time: running.not_ready_in_time,
-            was_ready: running.ready,
-            exited: status.code().is_some(),
-            child: running.child,
-        })
+        Some(Death::new(running, status))
     }
 
     /// True once, when its ready file has appeared.
@@ -147,22 +101,19 @@ impl Supervised {
         }
         if running.crash_at.is_some_and(|due| now >= due) {
             running.crash_at = None;
-            running.kill("killed before it was ready: injected crash-on-start".into());
+            running.kill(KillReason::InjectedCrash);
         }
         if !running.ready && now.saturating_sub(running.since) > ready_within {
-            running.not_ready_in_time = true;
-            running.kill(format!("not ready within {} s", ready_within.as_secs_f64()));
+            running.kill(KillReason::NotReadyInTime(ready_within));
         }
         if let (Some(limit), Some(from)) = (hung_after, pulses_from)
             && running.ready
             && now.saturating_sub(running.last_sign.max(from)) > limit
         {
-            running.kill(format!("hung: no pulse for more than {} ms", limit.as_millis()));
+            running.kill(KillReason::Hung(limit));
         }
     }
-}
 
-impl Supervised {
     /// Requests that it ends; SIGCONT, because a stopped process would not see the request.
     pub(crate) fn request_stop(&mut self) {
         if let Some(running) = self.running() {
@@ -175,44 +126,7 @@ impl Supervised {
     pub(crate) fn kill_after_grace(&mut self, elapsed: Duration) {
         let grace = self.spec.stop_grace;
         if let Some(running) = self.running_mut().filter(|_| elapsed > grace) {
-            running.kill(format!("killed: it did not end within {} s", grace.as_secs_f64()));
+            running.kill(KillReason::DidNotStop(grace));
         }
     }
-}
-
-impl Running {
-    /// Kills it, once, for this reason.
-    fn kill(&mut self, reason: String) {
-        if self.kill_reason.is_none() {
-            self.kill_reason = Some(reason);
-            self.child.signal(Signal::KILL);
-        }
-    }
-}
-
-/// How it ended, in words.
-fn describe(status: ExitStatus) -> String {
-    match (status.signal(), status.code()) {
-        (Some(signal), _) => match Signal::from_named_raw(signal) {
-            Some(name) => format!("killed by {}", signal_name(name)),
-            None => format!("killed by signal {signal}"),
-        },
-        (None, Some(code)) => format!("ended by itself with exit status {code}"),
-        (None, None) => "ended by itself".into(),
-    }
-}
-
-/// The usual names of the signals by which processes end.
-fn signal_name(signal: Signal) -> String {
-    let name = match signal {
-        Signal::KILL => "SIGKILL",
-        Signal::TERM => "SIGTERM",
-        Signal::INT => "SIGINT",
-        Signal::SEGV => "SIGSEGV (invalid memory access)",
-        Signal::BUS => "SIGBUS (shared memory is full, or was removed)",
-        Signal::ABORT => "SIGABRT",
-        Signal::USR1 => "SIGUSR1",
-        other => return format!("signal {}", other.as_raw()),
-    };
-    name.into()
 }

@@ -2,7 +2,8 @@ use crate::{Header, JOINTS, MAX_PARTS};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
-/// The world's own memory: what a restarted world resumes from. Read by the supervisor's keeper alone (1 kHz).
+/// The world's own memory: what a restarted world resumes from. Read by the supervisor alone (1 kHz), which
+/// keeps it as a checkpoint.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
 #[type_name("coact::WorldState")]

@@ -1,0 +1,59 @@
+use crate::RunningChild;
+use crate::kill_reason::KillReason;
+use crate::running::Running;
+use rustix::process::Signal;
+use std::os::unix::process::ExitStatusExt;
+use std::process::ExitStatus;
+
+/// How a process ended.
+#[derive(Debug)]
+pub(crate) struct Death {
+    pub(crate) pid: u32,
+    pub(crate) reason: String,
+    /// It was not ready in time.
+    pub(crate) not_ready_in_time: bool,
+    pub(crate) was_ready: bool,
+    /// It ended by itself, not by a signal.
+    pub(crate) exited: bool,
+    pub(crate) child: RunningChild,
+}
+
+impl Death {
+    pub(crate) fn new(running: Running, status: ExitStatus) -> Self {
+        Self {
+            pid: running.child.pid(),
+            reason: running.kill_reason.map_or_else(|| describe(status), |reason| reason.to_string()),
+            not_ready_in_time: matches!(running.kill_reason, Some(KillReason::NotReadyInTime(_))),
+            was_ready: running.ready,
+            exited: status.code().is_some(),
+            child: running.child,
+        }
+    }
+}
+
+/// How it ended, in words.
+fn describe(status: ExitStatus) -> String {
+    match (status.signal(), status.code()) {
+        (Some(signal), _) => match Signal::from_named_raw(signal) {
+            Some(name) => format!("killed by {}", signal_name(name)),
+            None => format!("killed by signal {signal}"),
+        },
+        (None, Some(code)) => format!("ended by itself with exit status {code}"),
+        (None, None) => "ended by itself".into(),
+    }
+}
+
+/// The usual names of the signals by which processes end.
+fn signal_name(signal: Signal) -> String {
+    let name = match signal {
+        Signal::KILL => "SIGKILL",
+        Signal::TERM => "SIGTERM",
+        Signal::INT => "SIGINT",
+        Signal::SEGV => "SIGSEGV (invalid memory access)",
+        Signal::BUS => "SIGBUS (shared memory is full, or was removed)",
+        Signal::ABORT => "SIGABRT",
+        Signal::USR1 => "SIGUSR1",
+        other => return format!("signal {}", other.as_raw()),
+    };
+    name.into()
+}

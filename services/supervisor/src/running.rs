@@ -1,0 +1,43 @@
+use crate::RunningChild;
+use crate::kill_reason::KillReason;
+use rustix::process::Signal;
+use std::time::Duration;
+
+/// What is known of a running process. Times are of `CLOCK_MONOTONIC`.
+#[derive(Debug)]
+pub(crate) struct Running {
+    pub(crate) child: RunningChild,
+    pub(crate) since: Duration,
+    pub(crate) ready: bool,
+    /// Its newest sign of life: a pulse, or its start.
+    pub(crate) last_sign: Duration,
+    /// Why the watchdog killed it, if it did.
+    pub(crate) kill_reason: Option<KillReason>,
+    /// When a process that was stopped by a fault is continued.
+    pub(crate) continue_at: Option<Duration>,
+    /// When a starting process is killed, for the fault `crash-on-start`.
+    pub(crate) crash_at: Option<Duration>,
+}
+
+impl Running {
+    /// A child that was started just now.
+    pub(crate) fn new(child: RunningChild, now: Duration, crash_at: Option<Duration>) -> Self {
+        Self {
+            child,
+            since: now,
+            ready: false,
+            last_sign: now,
+            kill_reason: None,
+            continue_at: None,
+            crash_at,
+        }
+    }
+
+    /// Kills it, once, for this reason.
+    pub(crate) fn kill(&mut self, reason: KillReason) {
+        if self.kill_reason.is_none() {
+            self.kill_reason = Some(reason);
+            self.child.signal(Signal::KILL);
+        }
+    }
+}
