@@ -27,17 +27,16 @@ use std::process::ExitCode;
   coact evaluate --partner random:goal=0.2,clarity=0.3..1
 
 Keys of random, after a colon, separated by commas:
-  idle, goal, request, means
-                          fractions of the person's choices: idling; a part taken for a subgoal whose
-                          turn has not come or that is achieved; a part requested out of turn; a part
-                          requested that is at hand
-  hidden, words           fractions of valid actions: a part taken behind an occluder that hides it and
-                          the hand at it; an action that comes with a sentence that means the same
-  clarity=LOW..HIGH       of a grip: 1 its own pitch, 0 the middle between it and the nearest other one
-  dropouts                bursts per second in which the tracker loses the hand
-  withdraws, late         fractions of handovers: the person lets go, or takes back, too early; the
-                          person comes 2 to 6 s late for the part
-  movement=LOW..HIGH      movement time of a reach, ms
+  idle, goal, request, means  fractions of the person's choices: idling; a part taken for a subgoal
+                              whose turn has not come or that is achieved; a part requested out of
+                              turn; a part requested that is at hand
+  hidden, words               fractions of valid actions: a part taken behind an occluder that hides
+                              it and the hand at it; an action that comes with a sentence
+  clarity=LOW..HIGH           of a grip: 1 its own pitch, 0 the middle to the nearest other grip's
+  dropouts                    bursts per second in which the tracker loses the hand
+  withdraws, late             fractions of handovers: the person lets go, or takes back, too early;
+                              the person comes 2 to 6 s late for the part
+  movement=LOW..HIGH          movement time of a reach, ms
 
 Exit status: 0, or 2 for bad usage or configuration.")]
 pub struct Args {
@@ -104,7 +103,7 @@ struct Evaluation {
     comparison: Option<Comparison>,
 }
 
-/// Runs all assemblies and prints what came of them.
+/// Runs all assemblies and prints the metrics.
 ///
 /// # Errors
 /// A file, partner or setting is refused, or the folder cannot be written to.

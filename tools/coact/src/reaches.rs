@@ -45,7 +45,7 @@ pub struct Args {
     /// Where reports of real-time runs go [default: reports/DATE-TIME]
     #[arg(long, value_name = "DIR", requires = "realtime")]
     report: Option<PathBuf>,
-    /// Order of a person's reaches, from which perception learns on the way
+    /// Order of a person's reaches: perception adapts to those that it has seen
     #[arg(long, value_enum, default_value_t = Sequence::Trial)]
     order: Sequence,
     /// Seed of the order within equal trial numbers, and of the fields' noise
@@ -123,7 +123,7 @@ fn recordings(args: &Args, installation: &Installation) -> Result<Recordings> {
     Ok(Recordings { folder, reaches })
 }
 
-/// What comes of the reaches under one plan.
+/// What is decided about the reaches under one plan.
 fn measure(
     args: &Args,
     installation: &Installation,

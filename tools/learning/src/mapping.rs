@@ -65,12 +65,12 @@ impl Mapping {
         })
     }
 
-    /// Another construction begins: what was under way is forgotten, what was learned is not.
+    /// Another assembly begins: actions that have not ended are forgotten, what was learned is not.
     pub fn begin(&mut self) {
         self.detector = SuccessDetector::new(&self.task);
     }
 
-    /// Watches one cycle: what AOL observes, and what is perceived to come of it.
+    /// Watches one cycle: what AOL observes, and what is perceived of the parts.
     pub fn watch(&mut self, tick: u64, frame: &FieldFrame, percept: &Percept) {
         let observed = &frame.signal[self.plan.layer(LayerKind::ActionObservation).populations.clone()];
         for success in self.detector.observe(tick, &self.task, observed, percept) {

@@ -37,7 +37,7 @@ impl MappingFile {
         std::fs::write(path, self.text()).map_err(|cause| LearnError::File { path: path.to_owned(), cause })
     }
 
-    /// What stands in the file.
+    /// The content of the file.
     pub fn text(&self) -> String {
         let Provenance { task, trials, seed, successes } = &self.provenance;
         let mut provenance = Table::new();

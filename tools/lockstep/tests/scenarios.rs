@@ -14,7 +14,7 @@ fn seeds() -> std::ops::RangeInclusive<u64> {
     1..=std::env::var("COACT_SEEDS").map_or(3, |seeds| seeds.parse().unwrap())
 }
 
-/// Everything that begins to stand in the error monitoring layer, and each decision, in order.
+/// Each error that is noticed in EML, and each decision, in order.
 fn story(scenario: &str, seed: u64, seconds: u64) -> Vec<String> {
     let script = format!("script:{}", configuration().join(format!("scenarios/{scenario}.toml")).display());
     let mut stages = Lockstep::new(&settings(seed, &script)).unwrap();

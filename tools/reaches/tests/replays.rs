@@ -144,10 +144,25 @@ fn labels_of_the_tested_person_change_no_decision_about_him() {
     assert!(!(others(1) && others(3) && others(4)), "the other people's model must change");
 }
 
+/// The shipped recordings.
+fn recorded() -> Vec<Reach> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../data/reaches");
+    coact_recordings::read_folder(&folder).unwrap()
+}
+
+#[test]
+fn the_shipped_model_is_what_the_shipped_recordings_make() {
+    let (task, _) = plan("tasks/three-objects.toml");
+    let reaches = recorded();
+    let model = train(&task, &robot(), &reaches, Order::Trial { seed: 1 }).unwrap();
+    let source = "github.com/nsoul97/object_size_prediction at 976a346";
+    let shipped = std::fs::read_to_string(configuration("perception/preshape.toml")).unwrap();
+    assert_eq!(model_file(&model, &reaches, source).unwrap(), shipped);
+}
+
 #[test]
 fn goals_of_recorded_people_are_inferred_as_often_as_measured() {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../data/reaches");
-    let reaches = coact_recordings::read_folder(&folder).unwrap();
+    let reaches = recorded();
     for (task, goals, least) in [("tasks/three-objects.toml", 3, 0.78), ("tasks/two-objects.toml", 2, 0.95)] {
         let report = ReachesReport::new(task, goals, decide(task, &reaches, None));
         assert!(report.overall.right_fraction >= least, "{task}: {:?}", report.overall);

@@ -19,7 +19,7 @@ const LONGEST: u64 = cycles(Duration::from_secs(180));
   coact learn mapping --out rt-config/tasks/learned-toy-vehicle.toml
 
 The robot builds with the synthetic partner, under the task's present network, and learns from the
-partner's actions that it perceives to succeed. Put learned = \"FILE\" into the task to use the result.")]
+partner's actions that it perceives to succeed. Put learned = \"FILE\" into the task to use it.")]
 pub struct Args {
     /// The task [default: the toy vehicle]
     #[arg(long, value_name = "FILE")]

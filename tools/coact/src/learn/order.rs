@@ -13,7 +13,7 @@ use std::process::ExitCode;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   coact learn order --demonstrations rt-config/demonstrations/toy-vehicle/*.toml --out mine.toml
-  coact learn order --demonstrations reports/* --task rt-config/tasks/table-setting.toml --out mine.toml
+  coact learn order --demonstrations reports/* --task table.toml --out mine.toml
   coact launch --lockstep --task mine.toml
 
 A demonstration is a .toml file with tables [[achieved]] (keys seconds, subgoal), a .csv file with

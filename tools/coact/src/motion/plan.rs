@@ -26,7 +26,7 @@ sign: --to=-0.4,...")]
 pub struct Args {
     #[command(flatten)]
     robot: RobotArgs,
-    /// Task whose table, base and parts are in the way
+    /// Task whose table, base and parts are obstacles
     #[arg(long, value_name = "FILE")]
     task: Option<PathBuf>,
     /// Joint angles at the start, rad, with commas between [default: the park posture]
@@ -41,7 +41,7 @@ pub struct Args {
     /// Length of the straight approach before the goal, m
     #[arg(long, value_name = "M", default_value_t = 0.0)]
     approach_length: f64,
-    /// Something in the way: box:X,Y,Z,DX,DY,DZ or cylinder:X,Y,Z,RADIUS,HEIGHT (centre, then size, m)
+    /// Another obstacle: box:X,Y,Z,DX,DY,DZ or cylinder:X,Y,Z,RADIUS,HEIGHT (centre, then size, m)
     #[arg(long, value_name = "KIND:NUMBERS", allow_hyphen_values = true)]
     obstacle: Vec<String>,
     /// Folder for the files; it is made if it is not there

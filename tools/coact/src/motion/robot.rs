@@ -21,7 +21,7 @@ pub struct RobotArgs {
     missing_meshes: MissingMeshes,
 }
 
-/// What stands in for a mesh.
+/// What takes the place of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MissingMeshes {
     /// The robot is refused
@@ -30,8 +30,8 @@ enum MissingMeshes {
     Capsules,
 }
 
-/// Radius of the capsules that stand in for links, m: about that of a light arm's links. Chosen by hand.
-const STAND_IN: f64 = 0.06;
+/// Radius of the capsules that take the place of links' meshes, m: about that of a light arm's links. Chosen by hand.
+const CAPSULE_RADIUS: f64 = 0.06;
 
 impl RobotArgs {
     /// Reads the robot. That of a robot file works on the task; that of a URDF alone has none.
@@ -45,7 +45,7 @@ impl RobotArgs {
         let hand = self.hand.as_deref().map(Urdf::load).transpose()?;
         let meshes = match self.missing_meshes {
             MissingMeshes::Refuse => Meshes::Required,
-            MissingMeshes::Capsules => Meshes::OrCapsules(STAND_IN),
+            MissingMeshes::Capsules => Meshes::OrCapsules(CAPSULE_RADIUS),
         };
         if file.extension().is_some_and(|extension| extension == "toml") {
             let toy = installation.configuration.join("tasks/toy-vehicle.toml");
