@@ -1,27 +1,38 @@
 use crate::evidence::{follow, smooth_step};
 use crate::gestures::Gestures;
 use crate::grasps::Grasps;
-use crate::memory::Memory;
-use crate::movement::Movement;
-use crate::objects::Places;
+use crate::objects::TaskPlaces;
+use crate::perception_state::PerceptionState;
+use crate::present_movement::PresentMovement;
 use crate::preshape::Classifier;
 use coact_joint_task::{Act, Task};
 use coact_messages::{MAX_ACTS, Percept};
+use coact_period::cycles;
 use nalgebra::Vector3;
+use std::time::Duration;
 
-/// Times in which evidence rises or falls from end to end, cycles. That of grasps only bridges from frame to frame.
-const REST: (f64, f64) = (120.0, 40.0);
-const REACH: (f64, f64) = (60.0, 60.0);
-const GESTURE: (f64, f64) = (60.0, 60.0);
-const GRASP: (f64, f64) = (30.0, 60.0);
-const HIDDEN: (f64, f64) = (40.0, 40.0);
-const WORD: (f64, f64) = (60.0, 300.0);
-/// Cycles without any sight of the hand from which the person counts as idle: nothing can be told of what she does.
-const UNSEEN: u64 = 1000;
-/// Dwell at rest that makes full evidence of idling, cycles.
-const LONG: f64 = 3000.0;
-/// A resting hand is this near to its place (m) and this slow (m/s): full, and no evidence.
+/// Cycles in which evidence rises and in which it falls from end to end, given in ms.
+///
+/// All chosen by hand, between the noise of single frames (17 ms) and the delay of the decision. Evidence of rest rises
+/// slowly, for a hand may slow down on its way, and falls fast, for the person has set out. That of grasps only bridges
+/// from frame to frame: the network weighs it. That of words falls slowly: they are heard once and stand for what follows.
+const fn ramp(rise: u64, fall: u64) -> (f64, f64) {
+    (cycles(Duration::from_millis(rise)) as f64, cycles(Duration::from_millis(fall)) as f64)
+}
+const REST: (f64, f64) = ramp(120, 40);
+const REACH: (f64, f64) = ramp(60, 60);
+const GESTURE: (f64, f64) = ramp(60, 60);
+const GRASP: (f64, f64) = ramp(30, 60);
+const HIDDEN: (f64, f64) = ramp(40, 40);
+const WORD: (f64, f64) = ramp(60, 300);
+/// Time without any sight of the hand from which the person counts as idle: nothing can be told of what she does. Chosen
+/// by hand: longer than a drop-out of the tracker.
+const UNSEEN: u64 = cycles(Duration::from_secs(1));
+/// Dwell at rest that makes full evidence of idling, cycles: then the robot takes the initiative. Chosen by hand.
+const LONG: f64 = cycles(Duration::from_secs(3)) as f64;
+/// Distance of a resting hand from its place, m: full, and no evidence. Chosen by hand.
 const AT_REST: (f64, f64) = (0.06, 0.12);
+/// Speed of a resting hand, m/s: full, and no evidence. The lower one is what the tracker's scatter makes.
 const RESTING_SPEED: (f64, f64) = (0.10, 0.25);
 
 /// Makes evidence for each observable act.
@@ -52,32 +63,32 @@ impl Acts {
     pub fn report(
         &self,
         tick: u64,
-        memory: &mut Memory,
+        state: &mut PerceptionState,
         classifier: &Classifier,
-        places: &Places,
+        places: &TaskPlaces,
         heard: Option<&[f64]>,
         out: &mut Percept,
     ) {
-        let hidden = memory.hiding.is_hidden();
-        let movement = Movement::now(tick, memory, classifier).filter(|_| !hidden);
-        let preparing = self.grasps.preparing(movement.as_ref(), memory, classifier, places);
+        let hidden = state.occlusion.is_hidden();
+        let movement = PresentMovement::now(tick, state, classifier).filter(|_| !hidden);
+        let preparing = self.grasps.preparing(movement.as_ref(), state, classifier, places);
         let held = out.person_holds.iter().copied().fold(0.0, f64::max);
-        let resting = (1.0 - held) * self.resting(tick, memory);
-        memory.unseen = if hidden || memory.hand.is_tracked(tick) { 0 } else { memory.unseen + 1 };
-        memory.dwell = if resting > 0.5 || memory.unseen > UNSEEN { memory.dwell + 1 } else { 0 };
+        let resting = (1.0 - held) * self.resting(tick, state);
+        state.unseen = if hidden || state.hand.is_tracked(tick) { 0 } else { state.unseen + 1 };
+        state.dwell = if resting > 0.5 || state.unseen > UNSEEN { state.dwell + 1 } else { 0 };
         let reaches = movement.is_some_and(|movement| movement.phase.is_some());
         for (index, act) in self.acts.iter().enumerate().take(MAX_ACTS) {
             let (target, (rise, fall)) = match *act {
                 Act::Rest => (resting, REST),
-                Act::Idle => ((memory.dwell as f64 / LONG).min(1.0), REST),
+                Act::Idle => ((state.dwell as f64 / LONG).min(1.0), REST),
                 Act::Hidden => (f64::from(u8::from(hidden)), HIDDEN),
                 Act::Word(_) => (heard.map_or(0.0, |heard| heard[index]), WORD),
                 Act::Reach => (f64::from(u8::from(reaches)), REACH),
                 Act::Gesture(gesture) => {
-                    (self.gestures.evidence(gesture, tick, movement.as_ref(), memory, out), GESTURE)
+                    (self.gestures.evidence(gesture, tick, movement.as_ref(), state, out), GESTURE)
                 }
                 Act::Grasp { grip, kind } => {
-                    (self.grasps.evidence(grip, kind, &preparing, memory, out), GRASP)
+                    (self.grasps.evidence(grip, kind, &preparing, state, out), GRASP)
                 }
             };
             let cycles = if target > out.act[index] { rise } else { fall };
@@ -85,15 +96,15 @@ impl Acts {
         }
     }
 
-    fn resting(&self, tick: u64, memory: &Memory) -> f64 {
-        let motion = &memory.hand.motion;
+    fn resting(&self, tick: u64, state: &PerceptionState) -> f64 {
+        let movement = &state.hand.movement;
         // A hand that has set out does not rest, however near to its place the part lies that it reaches for.
-        let sets_out = motion.is_moving() && self.is_from_rest(motion.departure);
-        if sets_out || !memory.hand.is_tracked(tick) {
+        let sets_out = movement.is_moving() && self.is_from_rest(movement.departure);
+        if sets_out || !state.hand.is_tracked(tick) {
             return 0.0;
         }
-        let away = (memory.hand.wrist_at(tick) - self.rest).norm();
-        let slow = smooth_step(motion.speed, RESTING_SPEED.1, RESTING_SPEED.0);
+        let away = (state.hand.wrist_at(tick) - self.rest).norm();
+        let slow = smooth_step(movement.speed, RESTING_SPEED.1, RESTING_SPEED.0);
         smooth_step(away, AT_REST.1, AT_REST.0) * slow
     }
 }

@@ -1,9 +1,9 @@
-/// Moves `value` one cycle towards 1 or 0, as `holds` says, at the pace that takes `cycles` from end to end.
+/// Moves `value` one cycle towards 1 or 0, as `holds` says, at the rate that takes `cycles` from end to end.
 pub(crate) fn approach(value: &mut f64, holds: bool, cycles: f64) {
     follow(value, if holds { 1.0 } else { 0.0 }, cycles);
 }
 
-/// Moves `value` one cycle towards `target`, at most at the pace that takes `cycles` from 0 to 1.
+/// Moves `value` one cycle towards `target`, at most at the rate that takes `cycles` from 0 to 1.
 pub(crate) fn follow(value: &mut f64, target: f64, cycles: f64) {
     let step = 1.0 / cycles.max(1.0);
     *value += (target - *value).clamp(-step, step);
@@ -15,11 +15,12 @@ pub(crate) fn smooth_step(value: f64, low: f64, high: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// What a share of one among `possible` alternatives is more than mere chance, in [0, 1]: 0 when nothing speaks for it.
-pub(crate) fn beyond_chance(share: f64, possible: usize) -> f64 {
+/// By how much one of `possible` alternatives, which has this `fraction` of all probability, is more than mere chance, in
+/// [0, 1]: 0 when nothing speaks for it.
+pub(crate) fn beyond_chance(fraction: f64, possible: usize) -> f64 {
     if possible < 2 {
-        return share;
+        return fraction;
     }
     let chance = 1.0 / possible as f64;
-    ((share - chance) / (1.0 - chance)).max(0.0)
+    ((fraction - chance) / (1.0 - chance)).max(0.0)
 }

@@ -1,19 +1,21 @@
 use crate::evidence::smooth_step;
 use crate::grasps::OFFERED;
-use crate::memory::Memory;
-use crate::movement::Movement;
+use crate::perception_state::PerceptionState;
+use crate::present_movement::PresentMovement;
 use coact_joint_task::{Gesture, Task};
 use coact_messages::Percept;
 use nalgebra::Vector3;
 
-/// A gesture is shown this near to the handover place (m) and this slow (m/s): full, and no evidence.
+/// Distance from the handover place at which a gesture is shown, m: full, and no evidence. Chosen by hand.
 const SHOWN: (f64, f64) = (0.17, 0.32);
+/// Speed of a hand that shows one, m/s: full, and no evidence. Chosen by hand: a hand that passes by is faster.
 const SHOWN_SPEED: (f64, f64) = (0.15, 0.50);
-/// An open hand's aperture, m: no, full evidence.
+/// Aperture of an open hand, m: no, and full evidence. Chosen by hand: a relaxed
+/// hand is narrower.
 const OPEN: (f64, f64) = (0.06, 0.085);
-/// Scatter of the pitch of a gesture, rad.
+/// Scatter of the pitch of a gesture, rad. Chosen by hand: gestures are held less exactly than grips.
 const SCATTER: f64 = 0.35;
-/// A hand this near to a part may be about to take it or to put it down, m.
+/// A hand this near to a part may be about to take it or to put it down, m: a finger's length.
 const AT_PART: f64 = 0.07;
 
 /// Makes evidence for gestures of the empty hand, held out where parts change hands.
@@ -35,12 +37,12 @@ impl Gestures {
         &self,
         index: usize,
         tick: u64,
-        movement: Option<&Movement>,
-        memory: &Memory,
+        movement: Option<&PresentMovement>,
+        state: &PerceptionState,
         out: &Percept,
     ) -> f64 {
-        let hand = &memory.hand;
-        if !hand.is_tracked(tick) || self.is_about_a_part(memory) {
+        let hand = &state.hand;
+        if !hand.is_tracked(tick) || self.is_about_a_part(state) {
             return 0.0;
         }
         let away = (hand.centre() - self.handover).norm();
@@ -55,11 +57,11 @@ impl Gestures {
     }
 
     /// Whether a part lies at the hand, or the robot offers one.
-    fn is_about_a_part(&self, memory: &Memory) -> bool {
-        memory.objects.parts().any(|(_, part)| {
+    fn is_about_a_part(&self, state: &PerceptionState) -> bool {
+        state.parts.parts().any(|(_, part)| {
             let place = Vector3::from(part.position);
             let offered = part.is_with_the_robot() && (place - self.handover).norm() < OFFERED;
-            offered || (place - memory.hand.centre()).norm() < AT_PART
+            offered || (place - state.hand.centre()).norm() < AT_PART
         })
     }
 }

@@ -1,29 +1,32 @@
 use crate::evidence::{beyond_chance, smooth_step};
-use crate::grips::resemblance;
-use crate::memory::Memory;
-use crate::movement::Movement;
-use crate::objects::{PartTrack, Places};
+use crate::grip_resemblance::grip_resemblance;
+use crate::objects::{PartTrack, TaskPlaces};
+use crate::perception_state::PerceptionState;
+use crate::present_movement::PresentMovement;
 use crate::preshape::{Classifier, LAST_READ};
 use coact_joint_task::{Grip, Kind, Task};
 use coact_messages::{MAX_KINDS, PERSON, Percept};
 use nalgebra::Vector3;
 
-/// Phase of contact (see [`crate::SNAPSHOTS`]).
+/// Phase of contact (see [`crate::SNAPSHOTS`]): in the recorded reaches, within 10 %.
 const CONTACT: f64 = 1.8;
-/// Phases of a reach between which the hand takes the shape that tells what it is for: before, it misleads.
+/// Phases of a reach between which the hand takes the shape that tells what it is for: before, it misleads. They are those
+/// from which the recorded reaches can be told apart.
 const SHAPES: (f64, f64) = (0.6, 1.1);
-/// Phases between which evidence is sharpened, as contact comes near, and the exponent that is reached.
+/// Phases between which evidence is sharpened, as contact comes near. Chosen by hand.
 const SHARPENS: (f64, f64) = (1.0, 1.4);
+/// The exponent that is reached then. Chosen by hand: large enough that the best of two that are nearly alike decides.
 const SHARPNESS: f64 = 6.0;
-/// Phases between which the pitch of the hand becomes that of the grip.
+/// Phases between which the pitch of the hand becomes that of the grip. Chosen by hand.
 const TURNS: (f64, f64) = (0.25, 0.80);
-/// How well a movement must lead to a part: no, and full evidence that it is meant for one.
+/// How well a movement must lead to a part: no, and full evidence that it is meant for one. Chosen by hand.
 const LEADS: (f64, f64) = (0.05, 0.35);
 /// Distance from its target at which a movement that did not begin at rest tells where it goes, m: no, full evidence.
+/// Chosen by hand: such a movement has no known length, so that its phase tells nothing.
 const ARRIVES: (f64, f64) = (0.15, 0.05);
 /// Least that a movement leads anywhere: its logarithm is finite.
 const LEAST: f64 = 1e-12;
-/// A part in the robot's hand is offered when it is this near to the handover place, m.
+/// A part in the robot's hand is offered when it is this near to the handover place, m: chosen by hand.
 pub(crate) const OFFERED: f64 = 0.25;
 
 /// Makes evidence for grasps: by the hand's way, its shape and its pitch; and by sight, once a part is in the hand.
@@ -58,45 +61,45 @@ impl Grasps {
         grip: usize,
         kind: usize,
         preparing: &Preparing,
-        memory: &Memory,
+        state: &PerceptionState,
         out: &Percept,
     ) -> f64 {
         let held = out.person_holds.iter().copied().fold(0.0, f64::max);
         let shown = |evidence: f64, pitch: Option<f64>, trust: f64| {
-            if evidence > 0.0 { evidence * resemblance(&self.grips, grip, pitch, trust) } else { 0.0 }
+            if evidence > 0.0 { evidence * grip_resemblance(&self.grips, grip, pitch, trust) } else { 0.0 }
         };
-        let holds = shown(out.person_holds[kind], memory.grip_pitch(), 1.0);
-        holds + (1.0 - held) * shown(preparing.kind[kind], memory.hand.pitch_ahead(), preparing.trust)
+        let holds = shown(out.person_holds[kind], state.grip_pitch(), 1.0);
+        holds + (1.0 - held) * shown(preparing.kind[kind], state.hand.pitch_ahead(), preparing.trust)
     }
 
     /// What the present movement prepares for.
     pub fn preparing(
         &self,
-        movement: Option<&Movement>,
-        memory: &Memory,
+        movement: Option<&PresentMovement>,
+        state: &PerceptionState,
         classifier: &Classifier,
-        places: &Places,
+        places: &TaskPlaces,
     ) -> Preparing {
         let mut preparing = Preparing { kind: [0.0; MAX_KINDS], trust: 1.0 };
         let Some(movement) = movement else { return preparing };
-        let mut way = [None; MAX_KINDS];
-        for (kind, slot) in way.iter_mut().enumerate().take(self.kinds.len()) {
-            *slot = self.best_way(kind, movement, memory, places);
+        let mut matches = [None; MAX_KINDS];
+        for (kind, slot) in matches.iter_mut().enumerate().take(self.kinds.len()) {
+            *slot = self.best_match(kind, movement, state, places);
         }
-        let Some(best) = way.iter().flatten().copied().max_by(|a, b| a.leads.total_cmp(&b.leads)) else {
+        let Some(best) = matches.iter().flatten().copied().max_by(|a, b| a.leads.total_cmp(&b.leads)) else {
             return preparing;
         };
         let near = smooth_step(best.distance, ARRIVES.0, ARRIVES.1);
         let (gate, sharpness, fit) = match movement.phase {
             Some(phase) => {
-                let phase = phase_of(phase, &best, memory);
+                let phase = phase_of(phase, &best, state);
                 preparing.trust = smooth_step(phase, TURNS.0, TURNS.1);
                 let sharp = 1.0 + (SHARPNESS - 1.0) * smooth_step(phase, SHARPENS.0, SHARPENS.1);
                 let trust = smooth_step(phase, SHAPES.0, SHAPES.1);
                 (
                     smooth_step(best.leads, LEADS.0, LEADS.1),
                     sharp,
-                    size_fit(memory, classifier).map(|fit| trust * fit),
+                    size_fit(state, classifier).map(|fit| trust * fit),
                 )
             }
             None => {
@@ -104,80 +107,89 @@ impl Grasps {
                 (best.leads * near, SHARPNESS, [0.0; MAX_KINDS])
             }
         };
-        let possible = way.iter().flatten().count();
-        let elsewhere = self.elsewhere(movement, &way);
-        preparing.kind =
-            shares(&way, &fit, elsewhere, sharpness).map(|share| gate * beyond_chance(share, possible));
+        let possible = matches.iter().flatten().count();
+        let elsewhere = self.elsewhere(movement, &matches);
+        preparing.kind = fractions(&matches, &fit, elsewhere, sharpness)
+            .map(|fraction| gate * beyond_chance(fraction, possible));
         preparing
     }
 
     /// How well the movement leads to a place where nothing is taken: an empty hand is shown at the handover place, and
     /// returns to rest.
-    fn elsewhere(&self, movement: &Movement, way: &[Option<Way>; MAX_KINDS]) -> f64 {
-        let offered = way.iter().flatten().any(|way| way.offered);
+    fn elsewhere(&self, movement: &PresentMovement, matches: &[Option<TargetMatch>; MAX_KINDS]) -> f64 {
+        let offered = matches.iter().flatten().any(|target| target.offered);
         let shows = if offered { 0.0 } else { movement.heading.leads_to(self.handover) };
         let returns = if movement.phase.is_some() { 0.0 } else { movement.heading.leads_to(self.rest) };
         shows.max(returns)
     }
 
     /// The part of `kind` that the movement leads to best, among those that the person could take.
-    fn best_way(&self, kind: usize, movement: &Movement, memory: &Memory, places: &Places) -> Option<Way> {
+    fn best_match(
+        &self,
+        kind: usize,
+        movement: &PresentMovement,
+        state: &PerceptionState,
+        places: &TaskPlaces,
+    ) -> Option<TargetMatch> {
         let takable = |part: &PartTrack| {
             let offered = (Vector3::from(part.position) - self.handover).norm() < OFFERED;
             places.is_free_at(PERSON, kind, part) || (part.is_with_the_robot() && offered)
         };
-        let parts = memory.objects.parts().filter(|(own, part)| *own == kind && takable(part));
-        let ways = parts.map(|(_, part)| {
-            let centre = part.above_underside(0.5 * places.body(kind).height);
+        let parts = state.parts.parts().filter(|(own, part)| *own == kind && takable(part));
+        let matches = parts.map(|(_, part)| {
+            let centre = part.above_underside(0.5 * places.size(kind).height);
             let heading = &movement.heading;
             let distance = (centre - heading.centre).norm();
-            Way { leads: heading.leads_to(centre), distance, offered: part.is_with_the_robot() }
+            TargetMatch { leads: heading.leads_to(centre), distance, offered: part.is_with_the_robot() }
         });
-        ways.max_by(|a, b| a.leads.total_cmp(&b.leads))
+        matches.max_by(|a, b| a.leads.total_cmp(&b.leads))
     }
 }
 
 /// How a movement relates to one part.
 #[derive(Debug, Clone, Copy)]
-struct Way {
+struct TargetMatch {
+    /// How well it leads there, in (0, 1].
     leads: f64,
-    /// m.
+    /// How far it is away, m.
     distance: f64,
     /// Whether the robot holds it out.
     offered: bool,
 }
 
 /// Phase of a reach: the mean of what the time that it has taken says, and the way that is left to the part that it
-/// leads to. The share of the way goes with the square root of the phase, nearly so in all people.
-fn phase_of(time: f64, way: &Way, memory: &Memory) -> f64 {
-    let shape = memory.hand.shape();
-    let covered = (Vector3::from(shape.wrist) - Vector3::from(memory.preshape.reach.departure)).norm();
-    let share = covered / (covered + way.distance).max(1e-6);
-    0.5 * (time + CONTACT * share * share)
+/// leads to. The fraction of the way that is covered grows with the square root of the phase,
+/// nearly so in all people.
+fn phase_of(time: f64, target: &TargetMatch, state: &PerceptionState) -> f64 {
+    let shape = state.hand.shape();
+    let covered = (Vector3::from(shape.wrist) - Vector3::from(state.preshape.reach.departure)).norm();
+    let fraction = covered / (covered + target.distance).max(1e-6);
+    0.5 * (time + CONTACT * fraction * fraction)
 }
 
 /// Logarithm of how well the hand's shape fits each kind. Beyond the last phase that the model reads, what was seen
 /// then counts.
-fn size_fit(memory: &Memory, classifier: &Classifier) -> [f64; MAX_KINDS] {
-    let (hand, reach, person) = (&memory.hand, &memory.preshape.reach, &memory.preshape.person);
+fn size_fit(state: &PerceptionState, classifier: &Classifier) -> [f64; MAX_KINDS] {
+    let (hand, reach, person) = (&state.hand, &state.preshape.reach, &state.preshape.person);
     if reach.passed as usize > LAST_READ {
         return classifier.likelihoods(&reach.features[LAST_READ], crate::SNAPSHOTS[LAST_READ], person);
     }
-    let seen = classifier.phase(&memory.preshape, hand.captured);
+    let seen = classifier.phase(&state.preshape, hand.captured);
     classifier.likelihoods(&classifier.features(hand, reach), seen, person)
 }
 
-/// Shares of the kinds in explaining movement and shape, sharpened. What leads `elsewhere` as well, with no shape that
-/// would tell, takes its own share.
-fn shares(
-    way: &[Option<Way>; MAX_KINDS],
+/// How far each kind explains movement and shape, sharpened: fractions of what all explain together. What leads `elsewhere`
+/// as well, with no shape that would tell, takes its own fraction.
+fn fractions(
+    matches: &[Option<TargetMatch>; MAX_KINDS],
     fit: &[f64; MAX_KINDS],
     elsewhere: f64,
     sharpness: f64,
 ) -> [f64; MAX_KINDS] {
-    let score =
-        |kind: usize| way[kind].map_or(f64::NEG_INFINITY, |way| fit[kind] + way.leads.max(LEAST).ln());
-    let fits = || fit.iter().zip(way).filter(|(_, way)| way.is_some()).map(|(fit, _)| *fit);
+    let score = |kind: usize| {
+        matches[kind].map_or(f64::NEG_INFINITY, |target| fit[kind] + target.leads.max(LEAST).ln())
+    };
+    let fits = || fit.iter().zip(matches).filter(|(_, target)| target.is_some()).map(|(fit, _)| *fit);
     let usual = fits().sum::<f64>() / fits().count().max(1) as f64;
     let other = usual + elsewhere.max(LEAST).ln();
     let best = (0..MAX_KINDS).map(score).fold(other, f64::max);

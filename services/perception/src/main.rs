@@ -34,8 +34,10 @@ fn main() -> anyhow::Result<()> {
     let mut perception = Perception::new(&task, &PreshapeModel::load(&run.model)?)?.with_robot(robot);
     let sample = process.bus().trigger(topic::SENSORS)?;
     let mut percept = process.bus().output(topic::PERCEPT)?;
-    if let Some(last) = process.checkpoint(&mut percept)? {
-        perception.resume(&last);
+    if let Some(last) = process.checkpoint(&mut percept)?
+        && let Err(refused) = perception.resume(&last)
+    {
+        tracing::warn!("perception begins anew: {refused}");
     }
     Ok(process.run_cycles(Observer { perception, sample, percept })?)
 }

@@ -1,25 +1,30 @@
 use crate::acts::Acts;
-use crate::hand::HandMemory;
-use crate::memory::Memory;
-use crate::objects::{PersonHand, Places, Surroundings};
+use crate::hand::TrackedHand;
+use crate::objects::{Hands, PersonHand, TaskPlaces};
+use crate::perception_state::{PerceptionState, ResumeError};
 use crate::preshape::{Classifier, PreshapeModel, ReachRecord};
 use crate::words::Words;
 use coact_joint_task::Task;
 use coact_messages::{HandPercept, JointReading, Percept, SensorSample};
 use coact_robot::Robot;
+use coact_stage_state::StageState;
 use nalgebra::Point3;
+
+/// Evidence from which a part counts as held by the person: the middle.
+const HELD: f64 = 0.5;
 
 /// Sensor samples become a percept: what the person's hand does, what lies where, how far the construction is.
 #[derive(Debug, Clone)]
 pub struct Perception {
-    places: Places,
+    places: TaskPlaces,
     acts: Acts,
     words: Words,
     classifier: Classifier,
     robot: Option<Robot>,
-    /// Everything that lasts from cycle to cycle: the next percept without header and memory, and its memory.
-    state: Box<Percept>,
-    memory: Box<Memory>,
+    /// The next percept, without its header and its state words: evidence lasts from cycle to cycle.
+    percept: Box<Percept>,
+    /// Everything else that lasts.
+    state: Box<PerceptionState>,
 }
 
 /// Why perception cannot be built.
@@ -33,16 +38,16 @@ impl Perception {
     /// # Errors
     /// [`SingularModel`] when a covariance of the model cannot be inverted.
     pub fn new(task: &Task, model: &PreshapeModel) -> Result<Self, SingularModel> {
-        let mut state: Box<Percept> = bytemuck::zeroed_box();
-        state.workspace.iter_mut().for_each(|place| place.orientation.fill([0.0, 0.0, 0.0, 1.0]));
+        let mut percept: Box<Percept> = bytemuck::zeroed_box();
+        percept.workspace.iter_mut().for_each(|place| place.orientation.fill([0.0, 0.0, 0.0, 1.0]));
         Ok(Self {
-            places: Places::new(task),
+            places: TaskPlaces::new(task),
             acts: Acts::new(task),
             words: Words::new(task),
             classifier: Classifier::new(model, &task.kinds).ok_or(SingularModel)?,
             robot: None,
-            state,
-            memory: bytemuck::zeroed_box(),
+            percept,
+            state: bytemuck::zeroed_box(),
         })
     }
 
@@ -55,9 +60,13 @@ impl Perception {
     }
 
     /// Continues from the newest percept of a predecessor, made for the same task.
-    pub fn resume(&mut self, last: &Percept) {
-        *self.state = *last;
-        *self.memory = *Memory::of(&last.memory);
+    ///
+    /// # Errors
+    /// [`ResumeError`] when it is not what a perception of this task leaves behind; then this one stays as it was.
+    pub fn resume(&mut self, last: &Percept) -> Result<(), ResumeError> {
+        *self.state = PerceptionState::of(last, self.places.kinds())?;
+        *self.percept = *last;
+        Ok(())
     }
 
     /// Advances by one period of 1 ms. `sample` is the newest one known; the same one again is a stale one, whose
@@ -65,51 +74,51 @@ impl Perception {
     pub fn step(&mut self, tick: u64, sample: Option<&SensorSample>, out: &mut Percept) {
         if let Some(sample) = sample {
             self.sense(tick, sample);
-            let followed = self.memory.hand.is_followed(tick);
-            self.places.report(tick, &self.memory.objects, &sample.scene, followed, &mut self.state);
+            let followed = self.state.hand.is_followed(tick);
+            self.places.report(tick, &self.state.parts, &sample.scene, followed, &mut self.percept);
         }
-        self.classifier.learn(&mut self.memory.preshape);
+        self.classifier.learn(&mut self.state.preshape);
         let heard = self.words.heard(tick);
-        self.acts.report(tick, &mut self.memory, &self.classifier, &self.places, heard, &mut self.state);
-        self.memory.loss.report(tick, self.places.kinds(), &mut self.state);
+        self.acts.report(tick, &mut self.state, &self.classifier, &self.places, heard, &mut self.percept);
+        self.state.loss.report(tick, self.places.kinds(), &mut self.percept);
         self.report_hand(tick);
         let header = out.header;
-        *out = *self.state;
+        *out = *self.percept;
         out.header = header;
-        *Memory::of_mut(&mut out.memory) = *self.memory;
+        self.state.store(&mut out.state);
     }
 
     /// The present reach's features, for those who learn a model from them.
     pub fn reach(&self) -> &ReachRecord {
-        &self.memory.preshape.reach
+        &self.state.preshape.reach
     }
 
     fn sense(&mut self, tick: u64, sample: &SensorSample) {
-        let memory = &mut *self.memory;
-        if let Some(onset) = memory.hand.observe(tick, &sample.hand, sample.scene.occluders > 0) {
-            let from_rest = onset && self.acts.is_from_rest(memory.hand.motion.departure);
-            self.classifier.observe(&memory.hand, from_rest, &mut memory.preshape);
-            if self.state.person_holds.iter().all(|held| *held < 0.5) {
-                let pitch = memory.hand.pitch();
-                memory.keep_pitch(pitch);
+        let state = &mut *self.state;
+        if let Some(onset) = state.hand.observe(tick, &sample.hand, sample.scene.occluders > 0) {
+            let from_rest = onset && self.acts.is_from_rest(state.hand.movement.departure);
+            self.classifier.observe(&state.hand, from_rest, &mut state.preshape);
+            if self.percept.person_holds.iter().all(|held| *held < HELD) {
+                let pitch = state.hand.pitch();
+                state.keep_pitch(pitch);
             }
         }
-        if memory.objects.is_news(tick, &sample.scene) {
-            let around = surroundings(tick, &memory.hand, self.robot.as_ref(), &sample.joints);
-            memory.objects.observe(&sample.scene, &around, &self.places);
-            memory.loss.look(&memory.objects, &around, &self.places);
+        if state.parts.is_news(tick, &sample.scene) {
+            let around = hands(tick, &state.hand, self.robot.as_ref(), &sample.joints);
+            state.parts.observe(&sample.scene, &around, &self.places);
+            state.loss.look(&state.parts, &around, &self.places);
         }
-        memory.loss.feel(tick, &sample.joints, &memory.objects, &self.places);
-        memory.hiding.watch(tick, sample, &memory.hand, &memory.preshape.reach, &self.places);
+        state.loss.feel(tick, &sample.joints, &state.parts, &self.places);
+        state.occlusion.watch(tick, sample, &state.hand, &state.preshape.reach, &self.places);
         self.words.listen(&sample.heard);
     }
 
     fn report_hand(&mut self, tick: u64) {
-        let (hand, reach) = (&self.memory.hand, &self.memory.preshape.reach);
+        let (hand, reach) = (&self.state.hand, &self.state.preshape.reach);
         let tracked = hand.is_tracked(tick);
-        let reaching = tracked && hand.motion.is_moving() && hand.motion.onset == reach.onset;
-        self.state.arm = hand.arm_at(tick);
-        self.state.hand = HandPercept {
+        let reaching = tracked && hand.movement.is_moving() && hand.movement.onset == reach.onset;
+        self.percept.arm = hand.arm_at(tick);
+        self.percept.hand = HandPercept {
             wrist: hand.wrist_at(tick).into(),
             velocity: hand.velocity().into(),
             aperture: hand.aperture(),
@@ -121,15 +130,16 @@ impl Perception {
     }
 }
 
-fn surroundings(tick: u64, hand: &HandMemory, robot: Option<&Robot>, joints: &JointReading) -> Surroundings {
+/// Both hands at `tick`.
+fn hands(tick: u64, hand: &TrackedHand, robot: Option<&Robot>, joints: &JointReading) -> Hands {
     let person = hand.is_tracked(tick).then(|| PersonHand {
         centre: hand.centre(),
         aperture: hand.aperture(),
-        speed: hand.motion.speed,
+        speed: hand.movement.speed,
     });
     let hand_axis = robot.map(|robot| {
         let (palm, hand) = (robot.palm(&joints.position), &robot.hand);
         [hand.palm_face, hand.grasp_distance].map(|along| (palm * Point3::new(0.0, 0.0, along)).coords)
     });
-    Surroundings { person, hand_axis, touch: joints.touch }
+    Hands { person, hand_axis, touch: joints.touch }
 }

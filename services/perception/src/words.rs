@@ -1,17 +1,21 @@
 use coact_joint_task::{Act, Task};
 use coact_messages::{Heard, MAX_ACTS};
+use coact_period::cycles;
+use std::time::Duration;
 
-/// How long a sentence stays in mind, cycles.
-const STAYS: u64 = 3000;
-/// Share of a phrase's words below which a sentence says nothing of the kind, and from which it counts.
+/// How long a sentence is remembered: until the reach that it announces has ended. Chosen by hand.
+const STAYS: u64 = cycles(Duration::from_secs(3));
+/// Fraction of a phrase's words below which a sentence says nothing of the kind, and from which it counts: half of them
+/// may be common to all phrases. Chosen by hand.
 const SAYS: (f64, f64) = (0.5, 0.65);
-/// How much what fits less well than the best is left out: the exponent of its share of the best.
+/// How much what fits less well than the best is left out: the exponent of its fraction of the best. Chosen by hand: one
+/// word of six fewer leaves 5 %.
 const SHARPNESS: i32 = 16;
 /// Words that no phrase and no sentence is told apart by.
 const ARTICLES: [&str; 3] = ["the", "a", "an"];
 /// How the names of parts are written and said.
 const NUMBERS: [&str; 10] = ["zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
-/// Most words of a sentence that are listened to.
+/// Most words of a sentence that are listened to: more than the 256 bytes of a message hold.
 const MOST_WORDS: usize = 64;
 
 /// Understands what the person says as far as words go: how well a sentence fits each phrase of the task.
@@ -65,7 +69,7 @@ impl Words {
         self.fit.fill(0.0);
         for phrase in &self.phrases {
             let fit = &mut self.fit[phrase.act];
-            *fit = fit.max(phrase.share_in(sentence));
+            *fit = fit.max(phrase.fraction_in(sentence));
         }
         let best = self.fit.iter().copied().fold(0.0, f64::max);
         for fit in self.fit.iter_mut().filter(|fit| **fit > 0.0) {
@@ -76,9 +80,9 @@ impl Words {
 }
 
 impl Phrase {
-    /// Weight of those of its words that occur in `sentence` in their order, as a share of all: the heaviest common
+    /// Weight of those of its words that occur in `sentence` in their order, as a fraction of all: the heaviest common
     /// subsequence, whatever other words are between.
-    fn share_in(&self, sentence: &str) -> f64 {
+    fn fraction_in(&self, sentence: &str) -> f64 {
         let mut row = [0.0_f64; MOST_WORDS + 1];
         for (word, weight) in &self.words {
             let mut diagonal = 0.0;

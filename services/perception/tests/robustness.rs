@@ -45,7 +45,7 @@ fn a_replacement_goes_on_as_if_nothing_had_happened() {
         assert!(bytes_of(&*stage.percept) == bytes_of(&expected[at]), "cycle {at}");
         if at % 97 == 0 {
             stage.perception = perception(&stage.task);
-            stage.perception.resume(&stage.percept);
+            stage.perception.resume(&stage.percept).unwrap();
         }
         at += 1;
     });

@@ -59,7 +59,7 @@ fn nothing_of_an_old_sentence_comes_back_with_a_replacement() {
     stage.sample.heard.hear(stage.tick, "give me the wheel");
     stage.run(4000, |_, _| {});
     stage.perception = support::perception(&stage.task);
-    stage.perception.resume(&stage.percept);
+    stage.perception.resume(&stage.percept).unwrap();
     let words = |stage: &Stage| {
         let acts = stage.task.acts.iter().zip(&stage.percept.act);
         acts.filter(|(act, _)| matches!(act, Act::Word(_))).map(|(_, fit)| *fit).fold(0.0, f64::max)

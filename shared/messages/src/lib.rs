@@ -47,7 +47,7 @@ pub use field_frame::{Decision, FieldFrame, LayerKind, LayerTable};
 pub use header::{Header, LAYOUT};
 pub use heard::Heard;
 pub use line_of_sight::is_blocked;
-pub use percept::{HandPercept, Percept, PerceptionMemory, WorkspacePercept};
+pub use percept::{HandPercept, Percept, WorkspacePercept};
 pub use person_arm::{PersonArm, TrackedPoint};
 pub use pulse::Pulse;
 pub use sensor_sample::{HandView, JointReading, Keypoint, KeypointName, SceneView, SensorSample, Sighting};

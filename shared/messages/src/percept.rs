@@ -27,8 +27,9 @@ pub struct Percept {
     pub person_holds: [f64; MAX_KINDS],
     /// Evidence that the robot has lost a part of this kind out of its hand (touch and sight together).
     pub lost: [f64; MAX_KINDS],
-    /// What perception itself must remember from cycle to cycle.
-    pub memory: PerceptionMemory,
+    /// Perception's state, as opaque words: what else it needs to go on. `services/perception` says what each holds; other
+    /// readers ignore them.
+    pub state: [f64; 1024],
 }
 
 /// The person's hand, estimated at this tick.
@@ -63,14 +64,4 @@ pub struct WorkspacePercept {
     pub position: [[f64; 3]; MAX_KINDS],
     /// Its orientation, quaternion x, y, z, w.
     pub orientation: [[f64; 4]; MAX_KINDS],
-}
-
-/// Perception's own memory, carried in its message so that a restarted perception resumes from it.
-///
-/// The words belong to perception alone; other readers ignore them.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
-pub struct PerceptionMemory {
-    /// Opaque state words; `services/perception` says what each holds.
-    pub word: [f64; 1024],
 }

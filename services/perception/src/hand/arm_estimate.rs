@@ -1,4 +1,4 @@
-use super::HandMemory;
+use super::TrackedHand;
 use coact_messages::{KeypointName, PersonArm, TrackedPoint};
 use coact_period::seconds;
 use nalgebra::Vector3;
@@ -15,7 +15,7 @@ const HAND_SPEED: f64 = 2.0;
 /// How far the elbow follows a movement of the wrist: it lies between the wrist and a shoulder that rests.
 const ELBOW_FOLLOWS: f64 = 0.5;
 
-impl HandMemory {
+impl TrackedHand {
     /// The person's arm at `tick`: the wrist filtered and extrapolated, the other joints moved along with it from where
     /// they were found last.
     pub fn arm_at(&self, tick: u64) -> PersonArm {
@@ -51,7 +51,8 @@ impl HandMemory {
     /// goes on unnoticed; but it is not faster than hands are.
     fn deviation(&self, name: KeypointName, speed: f64, tick: u64) -> f64 {
         let Some(age) = self.age_of(name, tick) else { return f64::INFINITY };
-        let (time, unnoticed) = (seconds(age), seconds(age.saturating_sub(super::hand_memory::EXTRAPOLATED)));
+        let (time, unnoticed) =
+            (seconds(age), seconds(age.saturating_sub(super::tracked_hand::EXTRAPOLATED)));
         let accelerated = 0.5 * ACCELERATION * time * time + speed * unnoticed;
         SCATTER.hypot(accelerated.min(HAND_SPEED.max(speed) * time))
     }

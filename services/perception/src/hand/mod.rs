@@ -1,10 +1,10 @@
 //! The person's hand: keypoints bridged over drop-outs, filtered, and its movement from stillness to stillness.
 
 mod arm_estimate;
-mod hand_memory;
-mod motion;
+mod hand_movement;
+mod tracked_hand;
 mod view_frame;
 
-pub(crate) use hand_memory::HandMemory;
-pub(crate) use motion::Motion;
+pub(crate) use hand_movement::HandMovement;
+pub(crate) use tracked_hand::{TrackedHand, USABLE};
 pub(crate) use view_frame::ViewFrame;

@@ -1,4 +1,5 @@
 use bytemuck::{Pod, Zeroable};
+use coact_stage_state::{Implausible, finite};
 
 /// What is kept of one frame of the tracker.
 #[repr(C)]
@@ -14,4 +15,13 @@ pub(crate) struct ViewFrame {
     pub index: [f64; 3],
     /// Middle tip, m.
     pub middle: [f64; 3],
+}
+
+impl ViewFrame {
+    /// Refuses what is no frame.
+    pub fn check(&self) -> Result<(), Implausible> {
+        [self.wrist, self.thumb, self.index, self.middle]
+            .iter()
+            .try_for_each(|point| finite("hand.recent", point))
+    }
 }

@@ -1,102 +1,105 @@
-use super::PersonHand;
-use super::Surroundings;
 use super::part_track::{BY_PERSON, BY_ROBOT, FREE, PartTrack};
+use super::{Hands, PersonHand};
+use coact_period::cycles;
 use nalgebra::Vector3;
+use std::time::Duration;
 
-/// Distance of the finger tips' middle from the centre of a part that they close on, m.
+/// Distance of the finger tips' middle from the centre of a part that they close on, m: half a large part, and scatter.
+/// Chosen by hand, as all distances here: smaller ones miss grasps at a part's end, larger ones grasp the neighbour.
 const CLOSED_ON: f64 = 0.045;
-/// The same for a part that moves along with the hand.
+/// The same for a part that moves along with the hand, which is sighted up to a frame earlier or later than the hand.
 const CARRIED: f64 = 0.06;
 /// Distance at which a part is out of the hand, m.
 const OUT: f64 = 0.09;
-/// Thumb and index hold a part when they are no further apart than its width and this, m; and have let go of it when
-/// they are further apart than its width and the second.
+/// Thumb and index hold a part when they are no further apart than its width and this, m.
 const CLOSED: f64 = 0.02;
+/// They have let go of it when they are further apart than its width and this, m.
 const OPENED: f64 = 0.05;
-/// Speed of a hand that closes on a part, m/s.
+/// Speed of a hand that closes on a part, m/s: that of a hand at rest, with the tracker's scatter.
 const SLOW: f64 = 0.15;
-/// A hand that moves off from a part that has lain still for so long (cycles) has let go of it, once it is so far away.
-const SETTLED: u32 = 60;
+/// A hand that moves off from a part that has lain still for so long has let go of it: two frames of the recogniser.
+const SETTLED: u32 = cycles(Duration::from_millis(60)) as u32;
+/// How far the hand must be away for that, m.
 const LEFT: f64 = 0.035;
-/// Force that tells that the robot's fingers hold something, N.
+/// Force that tells that the robot's fingers hold something, N: above a sensor's noise, below the weight of a light part.
+/// Chosen by hand.
 pub(crate) const TOUCH: f64 = 0.2;
-/// Distance of the robot's hand from the axis of the part that it holds, m; beyond twice that, it holds it not.
+/// Distance of the robot's hand from the axis of the part that it holds, m; beyond twice that, it does not hold it.
 const GRASPED: f64 = 0.045;
-
-/// Pieces of the hand's axis at whose ends that is measured.
+/// Pieces of the hand's axis at whose ends that is measured: they are shorter than a centimetre or two.
 const ALONG: u32 = 8;
 
-/// What a track's kind is like.
+/// How large the parts of a kind are.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Body {
-    /// m.
+pub(crate) struct PartSize {
+    /// How far fingers close on it, m.
     pub width: f64,
-    /// m.
+    /// From its underside to its top, m.
     pub height: f64,
 }
 
 impl PartTrack {
     /// Finds out whether a hand still has the part that it had.
-    pub(super) fn let_go(&mut self, body: Body, around: &Surroundings) {
+    pub(super) fn let_go(&mut self, size: PartSize, around: &Hands) {
         if let Some(hand) = around.person
             && self.holder & BY_PERSON != 0
-            && !self.stays_with_person(body, &hand)
+            && !self.stays_with_person(size, &hand)
         {
             self.holder &= !BY_PERSON;
         }
-        if self.holder & BY_ROBOT != 0 && !self.stays_with_robot(body, around) {
+        if self.holder & BY_ROBOT != 0 && !self.stays_with_robot(size, around) {
             self.holder &= !BY_ROBOT;
         }
     }
 
     /// Finds out whether a hand that is `free` takes the part: bits [`BY_ROBOT`] and [`BY_PERSON`]. A hand holds one part.
     /// `airborne`: the part hangs in the air, on nothing that could carry it.
-    pub(super) fn take(&mut self, free: u32, body: Body, around: &Surroundings, airborne: bool) {
+    pub(super) fn take(&mut self, free: u32, size: PartSize, around: &Hands, airborne: bool) {
         if let Some(hand) = around.person.filter(|_| free & BY_PERSON != 0)
-            && self.is_taken_by_person(body, &hand)
+            && self.is_taken_by_person(size, &hand)
         {
             self.holder |= BY_PERSON;
         }
         let reached = around
             .hand_axis
-            .map_or(airborne && self.holder == FREE, |axis| self.distance_to_hand(body, axis) < GRASPED);
+            .map_or(airborne && self.holder == FREE, |axis| self.distance_to_hand(size, axis) < GRASPED);
         if free & BY_ROBOT != 0 && around.touch > TOUCH && reached {
             self.holder |= BY_ROBOT;
         }
     }
 
-    fn stays_with_person(&self, body: Body, hand: &PersonHand) -> bool {
-        let away = self.away_from(body, hand);
+    fn stays_with_person(&self, size: PartSize, hand: &PersonHand) -> bool {
+        let away = self.away_from(size, hand);
         let left = away > LEFT && self.still >= SETTLED && hand.speed > SLOW;
-        !(away > OUT || left || hand.aperture > body.width + OPENED)
+        !(away > OUT || left || hand.aperture > size.width + OPENED)
     }
 
-    fn is_taken_by_person(&self, body: Body, hand: &PersonHand) -> bool {
-        let away = self.away_from(body, hand);
-        let closed = away < CLOSED_ON && hand.aperture < body.width + CLOSED && hand.speed < SLOW;
+    fn is_taken_by_person(&self, size: PartSize, hand: &PersonHand) -> bool {
+        let away = self.away_from(size, hand);
+        let closed = away < CLOSED_ON && hand.aperture < size.width + CLOSED && hand.speed < SLOW;
         let carried = away < CARRIED && self.still == 0 && hand.speed > SLOW && self.holder & BY_ROBOT == 0;
         closed || carried
     }
 
-    fn stays_with_robot(&self, body: Body, around: &Surroundings) -> bool {
-        let near = around.hand_axis.is_none_or(|axis| self.distance_to_hand(body, axis) < 2.0 * GRASPED);
+    fn stays_with_robot(&self, size: PartSize, around: &Hands) -> bool {
+        let near = around.hand_axis.is_none_or(|axis| self.distance_to_hand(size, axis) < 2.0 * GRASPED);
         around.touch > TOUCH && near
     }
 
-    fn away_from(&self, body: Body, hand: &PersonHand) -> f64 {
-        (self.above_underside(0.5 * body.height) - hand.centre).norm()
+    fn away_from(&self, size: PartSize, hand: &PersonHand) -> f64 {
+        (self.above_underside(0.5 * size.height) - hand.centre).norm()
     }
 
     /// Distance of the part's axis from that of the robot's hand, m.
-    pub fn distance_to_hand(&self, body: Body, [palm, grasp_point]: [Vector3<f64>; 2]) -> f64 {
+    pub fn distance_to_hand(&self, size: PartSize, [palm, grasp_point]: [Vector3<f64>; 2]) -> f64 {
         let points = (0..=ALONG).map(|step| palm.lerp(&grasp_point, f64::from(step) / f64::from(ALONG)));
-        points.map(|point| self.distance_to_axis(body, point)).fold(f64::INFINITY, f64::min)
+        points.map(|point| self.distance_to_axis(size, point)).fold(f64::INFINITY, f64::min)
     }
 
     /// Distance of `point` from the part's axis, between its underside and its top, m.
-    pub fn distance_to_axis(&self, body: Body, point: Vector3<f64>) -> f64 {
+    pub fn distance_to_axis(&self, size: PartSize, point: Vector3<f64>) -> f64 {
         let foot = Vector3::from(self.position);
-        let axis = self.above_underside(body.height) - foot;
+        let axis = self.above_underside(size.height) - foot;
         let along = ((point - foot).dot(&axis) / axis.norm_squared().max(1e-12)).clamp(0.0, 1.0);
         (foot + axis * along - point).norm()
     }

@@ -1,13 +1,13 @@
 //! Parts: where each lies, who has it, and which places are empty.
 
+mod hands;
 mod holders;
-mod objects_memory;
 mod part_track;
-mod places;
-mod surroundings;
+mod part_tracks;
+mod task_places;
 
+pub(crate) use hands::{Hands, PersonHand};
 pub(crate) use holders::TOUCH;
-pub(crate) use objects_memory::ObjectsMemory;
 pub(crate) use part_track::PartTrack;
-pub(crate) use places::Places;
-pub(crate) use surroundings::{PersonHand, Surroundings};
+pub(crate) use part_tracks::PartTracks;
+pub(crate) use task_places::TaskPlaces;

@@ -1,5 +1,6 @@
 use bytemuck::{Pod, Zeroable};
 use coact_messages::Sighting;
+use coact_stage_state::{Implausible, ensure, finite};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// Nobody has the part.
@@ -8,9 +9,10 @@ pub(crate) const FREE: u32 = 0;
 pub(crate) const BY_ROBOT: u32 = 1;
 /// Bit of `holder`: the part is in the person's hand.
 pub(crate) const BY_PERSON: u32 = 2;
-/// A sighting this far from the track means that the part has moved; less is the recogniser's scatter, m.
+/// Distance of a sighting from the track beyond which the part has moved, m; less is scatter. Six standard
+/// deviations of the simulated recogniser, whose sightings scatter by 2 mm along each axis.
 const MOVED: f64 = 0.012;
-/// Share of a new sighting in the position of a part that lies still.
+/// Weight of a new sighting in the position of a part that lies still: the mean of about three sightings. Chosen by hand.
 const SMOOTHING: f64 = 0.3;
 
 /// One part that has been sighted, followed from sighting to sighting.
@@ -48,6 +50,13 @@ impl PartTrack {
     /// The part's kind; `None` when the track is not in use.
     pub fn kind(&self) -> Option<usize> {
         (self.kind_plus_one > 0).then(|| self.kind_plus_one as usize - 1)
+    }
+
+    /// Refuses what is no track.
+    pub fn check(&self) -> Result<(), Implausible> {
+        ensure(self.holder <= BY_ROBOT | BY_PERSON, "parts.holder", "the bits of robot and person")?;
+        finite("parts.position", &self.position)?;
+        finite("parts.orientation", &self.orientation.map(f64::from))
     }
 
     /// Takes in a new sighting, `cycles` after the last frame.

@@ -1,16 +1,17 @@
 use super::blend::Blend;
 use super::features::features;
 use super::hierarchy::{Counts, Hierarchy};
-use super::model::{CLASSES, PreshapeModel, READ, SNAPSHOTS};
-use super::person::{OwnLevel, PastReach, Person};
-use super::reach::ON_THE_WAY;
-use super::{FEATURES, Features, PreshapeMemory, ReachRecord};
-use crate::hand::HandMemory;
+use super::person_model::{OwnLevel, PastReach, PersonModel};
+use super::preshape_model::{CLASSES, PreshapeModel, READ, SNAPSHOTS};
+use super::reach_record::ON_THE_WAY;
+use super::{FEATURES, Features, PreshapeState, ReachRecord};
+use crate::hand::TrackedHand;
 use coact_joint_task::Kind;
 use coact_messages::MAX_KINDS;
+use coact_period::seconds;
 
 /// Degrees of freedom of the Student distribution by which shapes scatter: a hand unlike all that were recorded says
-/// little.
+/// little. Chosen by hand: few, so that the tails are heavy.
 const TAILS: f64 = 5.0;
 
 /// Reads from the hand's shape which kinds of part it prepares for.
@@ -45,51 +46,48 @@ impl Classifier {
     }
 
     /// Time since the reach's onset in units of the person's tempo.
-    pub fn phase(&self, memory: &PreshapeMemory, cycle: u64) -> f64 {
-        let tempo = if memory.person.tempo > 0.0 { memory.person.tempo } else { self.model.tempo };
-        cycle.saturating_sub(memory.reach.onset) as f64 * 1e-3 / tempo
+    pub fn phase(&self, state: &PreshapeState, cycle: u64) -> f64 {
+        let tempo = if state.person.tempo > 0.0 { state.person.tempo } else { self.model.tempo };
+        seconds(cycle.saturating_sub(state.reach.onset)) / tempo
     }
 
     /// The features of the hand now, on `reach`.
-    pub fn features(&self, hand: &HandMemory, reach: &ReachRecord) -> Features {
+    pub fn features(&self, hand: &TrackedHand, reach: &ReachRecord) -> Features {
         features(&hand.shape(), reach.departure)
     }
 
     /// Takes in one new frame of the hand. `onset`: a reach from rest has begun with it.
-    pub fn observe(&self, hand: &HandMemory, onset: bool, memory: &mut PreshapeMemory) {
-        if onset && !memory.reach.is_recording() {
-            memory.reach.begin(hand.motion.onset, hand.motion.departure);
+    pub fn observe(&self, hand: &TrackedHand, onset: bool, state: &mut PreshapeState) {
+        if onset && !state.reach.is_recording() {
+            state.reach.begin(hand.movement.onset, hand.movement.departure);
         }
-        if !memory.reach.is_recording() {
+        if !state.reach.is_recording() {
             return;
         }
-        if hand.motion.onset < memory.reach.onset {
-            memory.reach.onset = 0;
+        if hand.movement.onset < state.reach.onset {
+            state.reach.onset = 0;
             return;
         }
-        let phase = self.phase(memory, hand.captured);
-        let features = self.features(hand, &memory.reach);
+        let phase = self.phase(state, hand.captured);
+        let features = self.features(hand, &state.reach);
         let displacement = features[FEATURES - 1];
-        memory
-            .reach
-            .pace
-            .advance(displacement, hand.captured.saturating_sub(memory.reach.onset) as f64 * 1e-3);
-        let own_movement = hand.motion.onset == memory.reach.onset;
-        if memory.reach.tempo == 0.0 && own_movement && hand.motion.slowed > 0 {
-            memory.reach.tempo = memory.reach.pace.time_to(ON_THE_WAY * displacement).unwrap_or(0.0);
+        state.reach.progress.advance(displacement, seconds(hand.captured.saturating_sub(state.reach.onset)));
+        let own_movement = hand.movement.onset == state.reach.onset;
+        if state.reach.tempo == 0.0 && own_movement && hand.movement.slowed > 0 {
+            state.reach.tempo = state.reach.progress.time_to(ON_THE_WAY * displacement).unwrap_or(0.0);
         }
-        memory.reach.advance(phase, &features);
-        if memory.reach.is_complete() {
-            self.finish(memory);
+        state.reach.advance(phase, &features);
+        if state.reach.is_complete() {
+            self.finish(state);
         }
     }
 
     /// A reach is over: it is remembered, if it was one, and the person's means are fitted anew.
-    fn finish(&self, memory: &mut PreshapeMemory) {
-        let reach = memory.reach;
+    fn finish(&self, state: &mut PreshapeState) {
+        let reach = state.reach;
         if reach.tempo > 0.0 {
-            memory.person.remember(self.projected(&reach), self.model.tempo);
-            memory.fitting.begin();
+            state.person.remember(self.projected(&reach), self.model.tempo);
+            state.fitting.begin();
         }
     }
 
@@ -101,21 +99,21 @@ impl Classifier {
         }
     }
 
-    /// One cycle's share of learning this person's hand.
-    pub fn learn(&self, memory: &mut PreshapeMemory) {
-        memory.fitting.step(&self.whole, &self.phases, self.possible, &mut memory.person);
+    /// One cycle's part of learning this person's hand.
+    pub fn learn(&self, state: &mut PreshapeState) {
+        state.fitting.step(&self.whole, &self.phases, self.possible, &mut state.person);
     }
 
     /// Logarithm of how well a hand with `features` at `phase` of its reach prepares for each kind, up to a constant;
     /// 0 for all before the first phase that is read.
-    pub fn likelihoods(&self, features: &Features, phase: f64, person: &Person) -> [f64; MAX_KINDS] {
+    pub fn likelihoods(&self, features: &Features, phase: f64, person: &PersonModel) -> [f64; MAX_KINDS] {
         let mut fit = [0.0; MAX_KINDS];
         if phase < SNAPSHOTS[0] {
             return fit;
         }
         let between = Blend::of(phase, &SNAPSHOTS[..READ]);
         let (low, high) = (&self.model.phase[between.low], &self.model.phase[between.high]);
-        let own = if person.adapted == 1 { &person.own } else { &self.anyone };
+        let own = if person.adapted.is_set() { &person.own } else { &self.anyone };
         let at = between.mix(low.project(features.iter()), high.project(features.iter()));
         for (kind, size) in self.kinds.iter().enumerate() {
             fit[kind] = self.fit(at, &between, size, own);

@@ -1,13 +1,18 @@
 use super::hierarchy::{Counts, Hierarchy};
-use super::model::{CLASSES, READ};
-use super::person::{OwnLevel, Person};
+use super::person_model::{OwnLevel, PersonModel};
+use super::preshape_model::{CLASSES, READ};
 use bytemuck::{Pod, Zeroable};
+use coact_stage_state::{Flag, Implausible, ensure, finite};
 use nalgebra::Vector3;
 
-/// Sweeps of expectation maximisation from each start.
+/// Sweeps of expectation maximisation from each start. Chosen by hand: in one dimension with three classes it has converged
+/// by then, and one sweep a cycle keeps the whole fit within 35 ms.
 const SWEEPS: u64 = 15;
-/// Starts: the people's means, and the same moved by the person's overall offset.
+/// Starts: the people's means, and the same moved by the person's overall offset. From one alone, a person with small or
+/// large hands could be taken for one who grasps other sizes.
 const STARTS: u64 = 2;
+/// Steps of a fit: all sweeps, then the phases of the way.
+const STEPS: u64 = STARTS * SWEEPS + READ as u64;
 
 /// The mixture of size classes, being fitted to one person's reaches: one sweep in each cycle, so that no cycle
 /// carries the whole burden.
@@ -26,8 +31,16 @@ pub(crate) struct Fitting {
 impl Fitting {
     /// Begins anew, with all reaches that are remembered now.
     pub fn begin(&mut self) {
-        self.remaining = STARTS * SWEEPS + READ as u64;
+        self.remaining = STEPS;
         self.score = f64::NEG_INFINITY;
+    }
+
+    /// Refuses what is no state of a fit.
+    pub fn check(&self) -> Result<(), Implausible> {
+        ensure(self.remaining <= STEPS, "preshape.fitting.remaining", "no more steps than a fit has")?;
+        ensure(!self.score.is_nan(), "preshape.fitting.score", "a number")?;
+        finite("preshape.fitting.means", &self.means)?;
+        finite("preshape.fitting.best", &self.best)
     }
 
     /// One step. `whole` and `phases` are the priors; `possible` tells which classes the task has parts of.
@@ -36,7 +49,7 @@ impl Fitting {
         whole: &Hierarchy,
         phases: &[Hierarchy],
         possible: [bool; CLASSES],
-        person: &mut Person,
+        person: &mut PersonModel,
     ) {
         if self.remaining == 0 {
             return;
@@ -51,7 +64,7 @@ impl Fitting {
         }
     }
 
-    fn sweep(&mut self, done: u64, whole: &Hierarchy, possible: [bool; CLASSES], person: &Person) {
+    fn sweep(&mut self, done: u64, whole: &Hierarchy, possible: [bool; CLASSES], person: &PersonModel) {
         if done.is_multiple_of(SWEEPS) {
             self.means = start(done / SWEEPS, whole, person).into();
         }
@@ -76,7 +89,7 @@ impl Fitting {
         whole: &Hierarchy,
         phases: &[Hierarchy],
         possible: [bool; CLASSES],
-        person: &mut Person,
+        person: &mut PersonModel,
     ) {
         let means = Vector3::from(self.best);
         let mut counts = Counts::default();
@@ -85,7 +98,7 @@ impl Fitting {
             counts.add(&responsibility, reach.phase[level]);
         }
         person.own[level] = OwnLevel::of(&phases[level], &counts);
-        person.adapted = 1;
+        person.adapted = Flag::Set;
     }
 }
 
@@ -98,7 +111,7 @@ impl OwnLevel {
 }
 
 /// Where a fit starts.
-fn start(index: u64, whole: &Hierarchy, person: &Person) -> Vector3<f64> {
+fn start(index: u64, whole: &Hierarchy, person: &PersonModel) -> Vector3<f64> {
     let past = person.past();
     if index == 0 || past.is_empty() {
         return whole.mean;
@@ -107,7 +120,7 @@ fn start(index: u64, whole: &Hierarchy, person: &Person) -> Vector3<f64> {
     whole.mean.add_scalar(own - whole.mean.mean())
 }
 
-/// Shares of the possible classes in explaining one reach, and the logarithm of how well they explain it together.
+/// How far each of the possible classes explains one reach (fractions), and the logarithm of how well they explain it together.
 fn responsibilities(fit: [f64; CLASSES], possible: [bool; CLASSES]) -> ([f64; CLASSES], f64) {
     let allowed = |class: usize| if possible[class] { fit[class] } else { f64::NEG_INFINITY };
     let best = (0..CLASSES).map(allowed).fold(f64::NEG_INFINITY, f64::max);

@@ -1,4 +1,4 @@
-use super::model::{CLASSES, Level};
+use super::preshape_model::{CLASSES, Level};
 use nalgebra::{Matrix3, Vector3};
 
 /// The prior of one person's class means at one level: correlated by the person's offset.

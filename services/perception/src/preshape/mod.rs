@@ -14,24 +14,24 @@
 
 mod blend;
 mod classifier;
-mod error;
 mod features;
 mod fitting;
 mod hierarchy;
-mod model;
-mod pace;
-mod person;
-mod preshape_memory;
-mod reach;
+mod model_error;
+mod person_model;
+mod preshape_model;
+mod preshape_state;
+mod progress;
+mod reach_record;
 
-pub use error::ModelError;
 pub use features::{FEATURES, Features};
-pub use model::{CLASSES, Level, PreshapeModel, READ, SNAPSHOTS, WHOLE, WHOLE_LENGTH};
-pub use pace::Pace;
-pub use reach::ReachRecord;
+pub use model_error::ModelError;
+pub use preshape_model::{CLASSES, Level, PreshapeModel, READ, SNAPSHOTS, WHOLE, WHOLE_LENGTH};
+pub use progress::Progress;
+pub use reach_record::ReachRecord;
 
 /// The last phase that is read, as an index into [`SNAPSHOTS`].
 pub(crate) const LAST_READ: usize = READ - 1;
 
 pub(crate) use classifier::Classifier;
-pub(crate) use preshape_memory::PreshapeMemory;
+pub(crate) use preshape_state::PreshapeState;

@@ -1,9 +1,12 @@
-use super::model::{CLASSES, READ};
-use bytemuck::{Pod, Zeroable};
+use super::preshape_model::{CLASSES, READ};
+use crate::perception_state::cycle;
+use bytemuck::{CheckedBitPattern, NoUninit, Pod, Zeroable};
+use coact_stage_state::{Flag, Implausible, ensure, finite};
 
-/// Reaches that are remembered.
+/// Reaches that are remembered: more tell nothing new of a hand, and older ones may be those of another person.
 pub(crate) const REACHES: usize = 60;
-/// Reaches that the usual tempo of people counts for.
+/// Reaches that the usual tempo of people counts for: a first reach alone, perhaps hesitant, does not set the tempo. Chosen
+/// by hand.
 const PRIOR_REACHES: usize = 3;
 
 /// One earlier reach, along the discriminants.
@@ -28,21 +31,36 @@ pub(crate) struct OwnLevel {
 
 /// What is known of this person: the last reaches, and what was learned from them.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub(crate) struct Person {
+#[derive(Debug, Clone, Copy, CheckedBitPattern, NoUninit, Zeroable)]
+pub(crate) struct PersonModel {
     /// Reaches so far.
     pub count: u64,
     /// Usual tempo, s; 0 before the first reach.
     pub tempo: f64,
     /// Class means at each phase; valid once `adapted`.
     pub own: [OwnLevel; READ],
-    /// 1 once `own` is valid.
-    pub adapted: u64,
+    /// Whether `own` is valid.
+    pub adapted: Flag,
     /// The last reaches; the oldest is overwritten.
     ring: [PastReach; REACHES],
 }
 
-impl Person {
+impl PersonModel {
+    /// Refuses what is no state of it.
+    pub fn check(&self) -> Result<(), Implausible> {
+        cycle("preshape.person.count", self.count)?;
+        ensure(self.tempo >= 0.0 && self.tempo.is_finite(), "preshape.person.tempo", "a time")?;
+        for level in &self.own {
+            finite("preshape.person.own", &level.mean)?;
+            let variances = level.variance.iter().all(|variance| *variance >= 0.0 && variance.is_finite());
+            ensure(variances, "preshape.person.own", "variances")?;
+        }
+        self.ring.iter().try_for_each(|reach| {
+            finite("preshape.person.ring", &reach.phase)?;
+            finite("preshape.person.ring", &[reach.whole, reach.tempo])
+        })
+    }
+
     /// The reaches that are remembered.
     pub fn past(&self) -> &[PastReach] {
         &self.ring[..(self.count as usize).min(REACHES)]

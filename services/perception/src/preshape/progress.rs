@@ -1,21 +1,28 @@
 use bytemuck::{Pod, Zeroable};
+use coact_stage_state::{Implausible, ensure};
 
-/// Steps of displacement whose times are kept.
+/// Steps of displacement whose times are kept: reaches of up to 0.6 m, an arm's length.
 const STEPS: usize = 40;
-/// One step, m.
+/// One step, m: about a frame's way at a usual reaching speed.
 const STEP: f64 = 0.015;
 
 /// When the wrist had covered how much of its way.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct Pace {
+pub struct Progress {
     /// Steps covered so far.
     covered: u64,
     /// Time since onset at which each was covered, s.
     time: [f32; STEPS],
 }
 
-impl Pace {
+impl Progress {
+    /// Refuses what is no progress.
+    pub(crate) fn check(&self) -> Result<(), Implausible> {
+        ensure(self.covered as usize <= STEPS, "preshape.reach.progress", "no more steps than are kept")?;
+        ensure(self.time.iter().all(|time| time.is_finite()), "preshape.reach.progress", "finite times")
+    }
+
     /// Takes in the displacement (m) at one time since onset (s).
     pub(crate) fn advance(&mut self, displacement: f64, time: f64) {
         while (self.covered as usize) < STEPS && displacement >= STEP * (self.covered + 1) as f64 {

@@ -1,31 +1,36 @@
-use bytemuck::{Pod, Zeroable};
+use crate::perception_state::cycle;
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+use coact_stage_state::{Flag, Implausible, finite};
 use nalgebra::Vector3;
 
-/// Wrist speed below which the hand counts as still, m/s.
+/// Wrist speed below which the hand counts as still, m/s: above what the tracker's scatter makes of a resting hand, far
+/// below a reach, whose peak is at 0.8 m/s.
 const STILL: f64 = 0.12;
-/// Displacement from where the hand lay at which a movement has begun, m.
-pub(crate) const ONSET: f64 = 0.04;
-/// Frames of stillness that end a movement.
+/// Displacement from where the hand lay at which a movement has begun, m. Chosen by hand, a trade-off: a fidget is
+/// no reach, and the onset of a reach is noticed the later, the farther the hand must have come.
+const ONSET: f64 = 0.04;
+/// Frames of stillness that end a movement: more than the turning point of one has. Chosen by hand.
 const STILL_FRAMES: u64 = 4;
-/// Share of a new frame in the place where the hand lies still.
+/// Weight of a new frame in the place where the hand lies still. Chosen by hand; not sensitive.
 const SETTLING: f64 = 0.25;
-/// Share of the peak speed below which the slow phase of a movement begins.
+/// Fraction of the peak speed below which the slow phase of a movement begins: the hand closes on the part. Chosen by
+/// hand.
 const SLOW: f64 = 0.4;
-/// Peak speed that a movement must have had before its slow phase can begin, m/s.
+/// Peak speed that a movement must have had before its slow phase can begin, m/s: what is slower is no reach.
 const BRISK: f64 = 0.35;
 
 /// The hand's movement from one stillness to the next.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub(crate) struct Motion {
+#[derive(Debug, Clone, Copy, CheckedBitPattern, NoUninit, Zeroable)]
+pub(crate) struct HandMovement {
     /// Where the hand lay still last, m.
     anchor: [f64; 3],
     /// Where the present or last movement began, m.
     pub departure: [f64; 3],
     /// Frames of stillness up to now.
     still: u64,
-    /// 1 while a movement is under way.
-    moving: u64,
+    /// Whether a movement is under way.
+    moving: Flag,
     /// Cycle at which the present or last movement began.
     pub onset: u64,
     /// Cycle at which its slow phase began; 0 before.
@@ -36,7 +41,7 @@ pub(crate) struct Motion {
     pub speed: f64,
 }
 
-impl Motion {
+impl HandMovement {
     /// A hand that lies still at `place`.
     pub fn still_at(place: Vector3<f64>) -> Self {
         Self { anchor: place.into(), departure: place.into(), ..Self::zeroed() }
@@ -53,7 +58,7 @@ impl Motion {
         }
         let begun = self.displacement(wrist) > ONSET && speed.is_some();
         if begun {
-            (self.moving, self.onset, self.slowed, self.peak) = (1, captured, 0, self.speed);
+            (self.moving, self.onset, self.slowed, self.peak) = (Flag::Set, captured, 0, self.speed);
             self.departure = self.anchor;
         } else if is_still {
             let anchor = Vector3::from(self.anchor);
@@ -68,9 +73,17 @@ impl Motion {
             self.slowed = captured;
         }
         if self.still >= STILL_FRAMES {
-            self.moving = 0;
+            self.moving = Flag::Unset;
             self.anchor = wrist.into();
         }
+    }
+
+    /// Refuses what is no state of it.
+    pub fn check(&self) -> Result<(), Implausible> {
+        cycle("hand.movement.still", self.still)?;
+        finite("hand.movement.anchor", &self.anchor)?;
+        finite("hand.movement.departure", &self.departure)?;
+        finite("hand.movement.speed", &[self.peak, self.speed])
     }
 
     /// Distance of `wrist` from where the movement began, m.
@@ -80,6 +93,6 @@ impl Motion {
 
     /// Whether a movement is under way.
     pub fn is_moving(&self) -> bool {
-        self.moving == 1
+        self.moving.is_set()
     }
 }

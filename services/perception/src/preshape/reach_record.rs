@@ -1,8 +1,10 @@
-use super::{FEATURES, Features, Pace, SNAPSHOTS};
+use super::{FEATURES, Features, Progress, SNAPSHOTS};
+use crate::perception_state::cycle;
 use bytemuck::{Pod, Zeroable};
+use coact_stage_state::{Implausible, ensure, finite};
 
-/// Share of the way to the slow phase that a person's tempo is measured by. People differ in how they arrive; this far,
-/// they are alike: contact comes at 1.8 times it, within 10 %.
+/// Fraction of the way to the slow phase by which a person's tempo is measured. People differ in how they arrive; this
+/// far, they are alike: contact comes at 1.8 times the time that it takes, within 10 %.
 pub(crate) const ON_THE_WAY: f64 = 0.8;
 
 /// What is kept of one reach from rest: features at each phase of [`SNAPSHOTS`].
@@ -18,7 +20,7 @@ pub struct ReachRecord {
     /// Where the wrist lay before, m.
     pub departure: [f64; 3],
     /// When the wrist had covered how much of its way.
-    pub pace: Pace,
+    pub progress: Progress,
     /// Features at each phase.
     pub features: [Features; SNAPSHOTS.len()],
 }
@@ -27,6 +29,20 @@ impl ReachRecord {
     /// Whether all phases have passed.
     pub fn is_complete(&self) -> bool {
         self.passed as usize == SNAPSHOTS.len()
+    }
+
+    /// Refuses what is no record.
+    pub(crate) fn check(&self) -> Result<(), Implausible> {
+        ensure(
+            self.passed as usize <= SNAPSHOTS.len(),
+            "preshape.reach.passed",
+            "no more phases than there are",
+        )?;
+        cycle("preshape.reach.onset", self.onset)?;
+        finite("preshape.reach.tempo", &[self.tempo])?;
+        finite("preshape.reach.departure", &self.departure)?;
+        finite("preshape.reach.features", self.features.as_flattened())?;
+        self.progress.check()
     }
 
     /// Begins to record.

@@ -1,11 +1,16 @@
-use super::{Motion, ViewFrame};
-use bytemuck::{Pod, Zeroable};
+use super::{HandMovement, ViewFrame};
+use crate::perception_state::cycle;
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::{HandView, KeypointName};
+use coact_period::{cycles, seconds};
+use coact_stage_state::{Implausible, ensure, finite};
 use nalgebra::Vector3;
+use std::time::Duration;
 
 /// Frames kept: speed is taken over all of them, which halves the tracker's noise at the price of 40 ms.
-pub(crate) const FRAMES: usize = 6;
-/// Frames that are averaged for what the hand's shape is read from.
+const FRAMES: usize = 6;
+/// Frames that are averaged for what the hand's shape is read from: less of the tracker's scatter, at the price of one
+/// frame's delay.
 const AVERAGED: usize = 3;
 /// Confidence above which a keypoint is believed.
 ///
@@ -15,24 +20,36 @@ const AVERAGED: usize = 3;
 /// than with what was seen before. From 0.2 to 0.3 they are about equal (2.3, 1.9), above that the new one is the better
 /// (1.3, 1.5). The simulated tracker says 0, or 0.7 to 0.95.
 const BELIEVED: f64 = 0.2;
-/// How far a keypoint may lie from the origin, m: beyond it, the tracker talks nonsense.
+/// How far a keypoint may lie from the origin, m: no hand beyond it concerns the robot, the tracker is mistaken.
 const FARTHEST: f64 = 10.0;
-/// A wrist that is this far from where it was a frame ago is another hand, or the same one after a long gap, m.
+/// Jump of the wrist from frame to frame, m, that shows another hand, or the same one after a long gap: at 60 Hz, a hand
+/// would have to move at 15 m/s.
 const JUMP: f64 = 0.25;
-/// Longest gap in the stream of frames that is bridged, cycles.
-const LONGEST_GAP: u64 = 350;
-/// How far ahead of the newest frame the wrist is extrapolated, cycles.
-pub(super) const EXTRAPOLATED: u64 = 50;
-/// Age beyond which the newest frame tells nothing of the hand now, cycles.
-const USABLE: u64 = 150;
-/// Gains of the wrist's alpha-beta filter (position, velocity).
+/// Longest gap between two frames that is bridged: after it, the filter starts anew. Chosen by hand: half a reach.
+const LONGEST_GAP: u64 = cycles(Duration::from_millis(350));
+/// How far ahead of the newest frame the wrist is extrapolated: three frames at 60 Hz. Chosen by hand: farther
+/// ahead, a reaching hand has changed its velocity too much.
+pub(super) const EXTRAPOLATED: u64 = cycles(Duration::from_millis(50));
+/// Age up to which the newest frame tells where the hand is now: nine frames at 60 Hz. A trade-off: dropped frames are
+/// bridged, and a hand at its usual reaching speed is not more than some 10 cm off.
+pub(crate) const USABLE: u64 = cycles(Duration::from_millis(150));
+/// Gains of the wrist's alpha-beta filter (position, velocity). Chosen by hand, a trade-off between the tracker's scatter
+/// and the lag of a hand that sets out; not sensitive.
 const GAINS: (f64, f64) = (0.7, 0.35);
-/// Share of a new frame in the rate at which the pitch changes, and how far ahead it is looked, s.
+/// Shortest time between frames that velocities are computed with, s: two frames with nearly the same stamp would make an
+/// absurd one. A tracker of 200 frames a second still keeps it.
+const SHORTEST_GAP: f64 = 0.005;
+/// The same for a velocity over [`AVERAGED`] frames, s.
+const SHORTEST_SPAN: f64 = 0.01;
+/// Weight of a new frame in the rate at which the pitch changes. Chosen by hand: the rate follows within three frames.
 const PITCH_GAIN: f64 = 0.4;
+/// How far ahead the pitch is looked, s: about what camera and filter delay it by. Chosen by hand.
 const PITCH_AHEAD: f64 = 0.08;
+/// Largest change of pitch that is foretold, rad: half of what lies between the grips of the shipped tasks.
+const MOST_PITCH_AHEAD: f64 = 0.5;
 /// Keypoints of a frame.
 const KEYPOINTS: usize = 9;
-/// Keypoints that differ less in height than this are those of a flat image, m.
+/// Difference in height, m, below which keypoints are those of a flat image: recordings of one camera have none.
 const FLAT: f64 = 1e-6;
 
 /// What must be found of a hand of which a part may be hidden.
@@ -46,8 +63,8 @@ const WHOLE_HAND: [KeypointName; 5] = [
 
 /// The tracked hand.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub(crate) struct HandMemory {
+#[derive(Debug, Clone, Copy, CheckedBitPattern, NoUninit, Zeroable)]
+pub(crate) struct TrackedHand {
     /// Newest frame's number plus one; 0 before the first.
     seen: u64,
     /// Cycle at which it was captured.
@@ -69,10 +86,10 @@ pub(crate) struct HandMemory {
     /// The newest frames, newest last.
     recent: [ViewFrame; FRAMES],
     /// The present movement.
-    pub motion: Motion,
+    pub movement: HandMovement,
 }
 
-impl HandMemory {
+impl TrackedHand {
     /// Takes in the tracker's newest frame. `None` if it is not a new and usable one; true if a movement has begun.
     ///
     /// While something may `hide` the hand, a frame without wrist, knuckles or finger tips is none: a hand that is half out
@@ -88,9 +105,9 @@ impl HandMemory {
             return None;
         }
         let gap = view.captured_cycle.saturating_sub(self.captured);
-        let seconds = (gap as f64 * 1e-3).max(0.005);
+        let time = seconds(gap).max(SHORTEST_GAP);
         let pitch = self.raw_pitch();
-        self.pitch_rate += PITCH_GAIN * ((pitch - self.pitch) / seconds - self.pitch_rate);
+        self.pitch_rate += PITCH_GAIN * ((pitch - self.pitch) / time - self.pitch_rate);
         self.pitch = pitch;
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;
@@ -103,7 +120,7 @@ impl HandMemory {
         }
         self.remember();
         let wrist = self.averaged(2).wrist.into();
-        Some(self.motion.advance(wrist, self.steady_speed(), self.captured))
+        Some(self.movement.advance(wrist, self.steady_speed(), self.captured))
     }
 
     /// Puts every keypoint that the frame has found in its place. False before wrist and finger tips are all known,
@@ -128,15 +145,15 @@ impl HandMemory {
         self.velocity = [0.0; 3];
         self.pitch_rate = 0.0;
         self.frames = 0;
-        self.motion = Motion::still_at(found);
+        self.movement = HandMovement::still_at(found);
     }
 
     fn filter(&mut self, found: Vector3<f64>, gap: u64) {
-        let seconds = gap as f64 * 1e-3;
-        let predicted = Vector3::from(self.wrist) + Vector3::from(self.velocity) * seconds;
+        let time = seconds(gap);
+        let predicted = Vector3::from(self.wrist) + Vector3::from(self.velocity) * time;
         let miss = found - predicted;
         self.wrist = (predicted + GAINS.0 * miss).into();
-        self.velocity = (Vector3::from(self.velocity) + miss * (GAINS.1 / seconds.max(0.005))).into();
+        self.velocity = (Vector3::from(self.velocity) + miss * (GAINS.1 / time.max(SHORTEST_GAP))).into();
     }
 
     fn remember(&mut self) {
@@ -179,9 +196,9 @@ impl HandMemory {
     /// Wrist speed over all frames that are kept, m/s; `None` while they are too few.
     pub fn steady_speed(&self) -> Option<f64> {
         let (first, last) = (self.recent[0], self.recent[FRAMES - 1]);
-        let seconds = last.cycle.saturating_sub(first.cycle) as f64 * 1e-3;
-        let full = self.frames as usize == FRAMES && seconds > 0.0;
-        full.then(|| (Vector3::from(last.wrist) - Vector3::from(first.wrist)).norm() / seconds)
+        let time = seconds(last.cycle.saturating_sub(first.cycle));
+        let full = self.frames as usize == FRAMES && time > 0.0;
+        full.then(|| (Vector3::from(last.wrist) - Vector3::from(first.wrist)).norm() / time)
     }
 
     /// Velocity of the middle between thumb and index tip over the newest frames, m/s.
@@ -192,8 +209,8 @@ impl HandMemory {
         }
         let middle = |frame: &ViewFrame| (Vector3::from(frame.thumb) + Vector3::from(frame.index)) * 0.5;
         let (first, last) = (&self.recent[frames - AVERAGED], &self.recent[frames - 1]);
-        let seconds = last.cycle.saturating_sub(first.cycle) as f64 * 1e-3;
-        (middle(last) - middle(first)) / seconds.max(0.01)
+        let time = seconds(last.cycle.saturating_sub(first.cycle));
+        (middle(last) - middle(first)) / time.max(SHORTEST_SPAN)
     }
 
     /// Middle between thumb and index tip, m: what the hand grasps lies there.
@@ -219,7 +236,8 @@ impl HandMemory {
 
     /// The pitch that the hand is turning to, rad.
     pub fn pitch_ahead(&self) -> Option<f64> {
-        self.pitch().map(|pitch| pitch + (self.pitch_rate * PITCH_AHEAD).clamp(-0.5, 0.5))
+        self.pitch()
+            .map(|pitch| pitch + (self.pitch_rate * PITCH_AHEAD).clamp(-MOST_PITCH_AHEAD, MOST_PITCH_AHEAD))
     }
 
     fn raw_pitch(&self) -> f64 {
@@ -230,7 +248,7 @@ impl HandMemory {
 
     /// Filtered wrist position, extrapolated to `tick`, m.
     pub fn wrist_at(&self, tick: u64) -> Vector3<f64> {
-        let ahead = self.age(tick).min(EXTRAPOLATED) as f64 * 1e-3;
+        let ahead = seconds(self.age(tick).min(EXTRAPOLATED));
         Vector3::from(self.wrist) + Vector3::from(self.velocity) * ahead
     }
 
@@ -242,6 +260,19 @@ impl HandMemory {
     /// Age of the newest usable frame, cycles; `u64::MAX` before the first.
     pub fn age(&self, tick: u64) -> u64 {
         if self.seen == 0 { u64::MAX } else { tick.saturating_sub(self.captured) }
+    }
+
+    /// Refuses what is no state of a hand.
+    pub fn check(&self) -> Result<(), Implausible> {
+        let near = self.keypoint.as_flattened().iter().all(|value| value.abs() < FARTHEST);
+        ensure(near, "hand.keypoint", "positions near the robot")?;
+        ensure(self.frames as usize <= FRAMES, "hand.frames", "no more frames than are kept")?;
+        cycle("hand.captured", self.captured)?;
+        finite("hand.wrist", &self.wrist)?;
+        finite("hand.velocity", &self.velocity)?;
+        finite("hand.pitch", &[self.pitch, self.pitch_rate])?;
+        self.recent.iter().try_for_each(ViewFrame::check)?;
+        self.movement.check()
     }
 
     /// Whether the newest frame is young enough to tell where the hand is now.

@@ -1,8 +1,8 @@
 use nalgebra::Vector3;
 
-/// Who could have a part in his hand: what perception knows of both hands at this instant.
+/// What perception knows at this instant of both hands, either of which may hold a part.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Surroundings {
+pub(crate) struct Hands {
     /// The person's hand, while it is tracked.
     pub person: Option<PersonHand>,
     /// The middle of the robot's hand, from its palm to its grasp point, m, when its kinematics are known.

@@ -1,32 +1,44 @@
-use crate::hand::HandMemory;
-use crate::objects::Places;
+use crate::hand::{TrackedHand, USABLE};
+use crate::objects::TaskPlaces;
+use crate::perception_state::cycle;
 use crate::preshape::ReachRecord;
 use bytemuck::{Pod, Zeroable};
 use coact_messages::SensorSample;
+use coact_period::cycles;
+use coact_stage_state::Implausible;
+use std::time::Duration;
 
-/// Age of the newest frame from which the hand is out of sight, cycles: more than one dropped frame takes.
-const OUT_OF_SIGHT: u64 = 60;
-/// Age beyond which the hand's disappearance is no longer news, cycles.
-const LATE: u64 = 150;
-/// How far ahead of the last sight the hand's way is followed, s, and in how many steps.
+/// Age of the newest frame from which the hand is out of sight: three frames at 60 Hz, more than one that was dropped
+/// takes.
+const OUT_OF_SIGHT: u64 = cycles(Duration::from_millis(60));
+/// Age beyond which the hand's disappearance is no longer news: the frame tells nothing of where the hand is now.
+const LATE: u64 = USABLE;
+/// How far ahead of the last sight the hand's way is followed, s: half a reach, which takes 0.35 to 0.9 s.
 const AHEAD: f64 = 0.3;
+/// In how many steps. Chosen by hand: at 1 m/s they are 5 cm long, and occluders are larger.
 const STEPS: usize = 6;
-/// How long a hand may stay hidden, cycles.
-const LONGEST: u64 = 4000;
+/// How long a hand may stay hidden. Chosen by hand: longer than a grasp behind a screen takes, not so long that a person
+/// who has gone keeps the robot waiting.
+const LONGEST: u64 = cycles(Duration::from_secs(4));
 
 /// A reach that has gone out of sight behind something.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub(crate) struct Hiding {
+pub(crate) struct Occlusion {
     /// Cycle since which the hand has been hidden; 0: it is not.
     since: u64,
     /// Capture of the frame after which it went out of sight.
     last_seen: u64,
 }
 
-impl Hiding {
+impl Occlusion {
     pub fn is_hidden(&self) -> bool {
         self.since > 0
+    }
+
+    /// Refuses what is no state of it.
+    pub fn check(&self) -> Result<(), Implausible> {
+        cycle("occlusion.since", self.since)
     }
 
     /// One cycle: a reach that is not seen any more, and that led behind an occluder, is hidden until it is seen again.
@@ -34,9 +46,9 @@ impl Hiding {
         &mut self,
         tick: u64,
         sample: &SensorSample,
-        hand: &HandMemory,
+        hand: &TrackedHand,
         reach: &ReachRecord,
-        places: &Places,
+        places: &TaskPlaces,
     ) {
         let age = hand.age(tick);
         if self.since > 0 {
@@ -44,7 +56,7 @@ impl Hiding {
             self.since = if over { 0 } else { self.since };
             return;
         }
-        let reaches = hand.motion.is_moving() && reach.onset > 0 && hand.motion.onset == reach.onset;
+        let reaches = hand.movement.is_moving() && reach.onset > 0 && hand.movement.onset == reach.onset;
         let vanished = reaches && (OUT_OF_SIGHT..LATE).contains(&age) && hand.captured != self.last_seen;
         if vanished && leads_behind(sample, hand, places) {
             (self.since, self.last_seen) = (tick.max(1), hand.captured);
@@ -53,7 +65,7 @@ impl Hiding {
 }
 
 /// Whether the hand's way led out of the robot's sight.
-fn leads_behind(sample: &SensorSample, hand: &HandMemory, places: &Places) -> bool {
+fn leads_behind(sample: &SensorSample, hand: &TrackedHand, places: &TaskPlaces) -> bool {
     let way = hand.velocity() * (AHEAD / STEPS as f64);
     let starts = [hand.centre(), hand.shape().wrist.into()];
     starts.iter().any(|start| {

@@ -1,61 +1,66 @@
-use super::ObjectsMemory;
-use super::holders::Body;
+use super::PartTracks;
+use super::holders::PartSize;
 use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack};
 use crate::evidence::approach;
 use coact_joint_task::{Scene, Subgoal, Task};
 use coact_messages::{MAX_SUBGOALS, PERSON, Percept, ROBOT, SceneView, WORKSPACES};
+use coact_period::cycles;
 use nalgebra::Vector3;
+use std::time::Duration;
 
 /// How near a part must be to its socket to be in it, m: parts that stand beside theirs lie farther off, and sightings
 /// of a still part, which are averaged, scatter by a few mm.
 const IN_PLACE: f64 = 0.014;
-/// A socket is empty when no part of its kind is nearer, m.
+/// A socket is empty when no part of its kind is nearer, m. Larger than the above: a part that is being inserted makes the
+/// socket neither achieved nor open.
 const EMPTY: f64 = 0.05;
-/// How far beyond its rectangle a workspace still reaches, m.
-const MARGIN: f64 = 0.03;
-/// How high above the table top a part may be and still lie on it, m.
+/// How far beyond its rectangle a workspace still reaches, m: a part that was laid down at its edge. Chosen by hand.
+const BEYOND_EDGE: f64 = 0.03;
+/// How high above the table top a part may be and still lie on it, m: on another flat one. Chosen by hand.
 const ON_TABLE: f64 = 0.05;
-/// How long a part must lie still in its socket to be mounted, cycles.
-const SETTLED: u32 = 60;
-/// The same while the person's hand is not seen, or is seen for the first time again: it may hold the part there.
-const SETTLED_UNSEEN: u32 = 2500;
-/// Age beyond which a sighting of a part tells nothing of where it is now, cycles.
-const RECENT: u64 = 300;
-/// Time in which evidence about parts rises or falls from end to end, cycles.
-const RAMP: f64 = 60.0;
+/// How long a part must lie still in its socket to be mounted: two frames of the recogniser.
+const SETTLED: u32 = cycles(Duration::from_millis(60)) as u32;
+/// The same while the person's hand is not seen, or is seen for the first time again: it may hold the part there. Longer
+/// than a person holds a part still in its socket.
+const SETTLED_UNSEEN: u32 = cycles(Duration::from_millis(2500)) as u32;
+/// Age up to which a sighting tells where the part is now: nine frames of the recogniser, which misses single ones.
+const RECENT: u64 = cycles(Duration::from_millis(300));
+/// Time in which evidence about parts rises or falls from end to end, cycles: two frames of the recogniser.
+const RAMP: f64 = cycles(Duration::from_millis(60)) as f64;
+/// What would be seen this near to the edge of an occluder may be hidden, m: the scatter of sightings, and of where the
+/// occluder is.
+const EDGE: f64 = 0.02;
 
 /// The places of the task: workspaces, sockets, and what each kind of part is like.
 #[derive(Debug, Clone)]
-pub(crate) struct Places {
+pub(crate) struct TaskPlaces {
     scene: Scene,
     subgoals: Vec<Subgoal>,
-    bodies: Vec<Body>,
+    sizes: Vec<PartSize>,
 }
 
-/// What would be seen this near to the edge of an occluder may be hidden: the scatter of sightings, m.
-const EDGE: f64 = 0.02;
-
-impl Places {
+impl TaskPlaces {
     /// Whether the robot's eye may not see what is at `place`.
     pub fn is_hidden(&self, place: [f64; 3], view: &SceneView) -> bool {
         view.hides(self.scene.eye(), place, EDGE)
     }
 
     pub fn new(task: &Task) -> Self {
-        let body = |kind: &coact_joint_task::Kind| Body { width: kind.width, height: kind.shape.height() };
+        let size =
+            |kind: &coact_joint_task::Kind| PartSize { width: kind.width, height: kind.shape.height() };
         Self {
             scene: task.scene.clone(),
             subgoals: task.subgoals.clone(),
-            bodies: task.kinds.iter().map(body).collect(),
+            sizes: task.kinds.iter().map(size).collect(),
         }
     }
 
     pub fn kinds(&self) -> usize {
-        self.bodies.len()
+        self.sizes.len()
     }
 
-    pub fn body(&self, kind: usize) -> Body {
-        self.bodies[kind]
+    pub fn size(&self, kind: usize) -> PartSize {
+        self.sizes[kind]
     }
 
     /// Whether a part of `kind` at `position` lies neither on the table nor in a socket.
@@ -79,8 +84,9 @@ impl Places {
     fn workspace_at(&self, position: [f64; 3]) -> Option<usize> {
         (0..WORKSPACES).find(|&side| {
             let [low, high] = self.scene.workspace[side];
-            let inside = (0..2)
-                .all(|axis| position[axis] >= low[axis] - MARGIN && position[axis] <= high[axis] + MARGIN);
+            let inside = (0..2).all(|axis| {
+                position[axis] >= low[axis] - BEYOND_EDGE && position[axis] <= high[axis] + BEYOND_EDGE
+            });
             inside && position[2] < self.scene.table_height + ON_TABLE
         })
     }
@@ -92,25 +98,18 @@ impl Places {
     }
 
     /// Moves all evidence about parts and places one cycle on; `followed`: what the person's hand does is known.
-    pub fn report(
-        &self,
-        tick: u64,
-        objects: &ObjectsMemory,
-        view: &SceneView,
-        followed: bool,
-        out: &mut Percept,
-    ) {
-        if !objects.is_seeing(tick) {
+    pub fn report(&self, tick: u64, parts: &PartTracks, view: &SceneView, followed: bool, out: &mut Percept) {
+        if !parts.is_seeing(tick) {
             return;
         }
         for kind in 0..self.kinds() {
-            (0..WORKSPACES).for_each(|side| self.report_workspace(tick, side, kind, objects, view, out));
-            let holds = |bit: u32| objects.parts().any(|(own, part)| own == kind && part.holder & bit != 0);
+            (0..WORKSPACES).for_each(|side| self.report_workspace(tick, side, kind, parts, view, out));
+            let holds = |bit: u32| parts.parts().any(|(own, part)| own == kind && part.holder & bit != 0);
             approach(&mut out.robot_holds[kind], holds(BY_ROBOT), RAMP);
             approach(&mut out.person_holds[kind], holds(BY_PERSON), RAMP);
         }
         (0..self.subgoals.len().min(MAX_SUBGOALS))
-            .for_each(|goal| self.report_subgoal(goal, objects, view, followed, out));
+            .for_each(|goal| self.report_subgoal(goal, parts, view, followed, out));
     }
 
     fn report_workspace(
@@ -118,13 +117,13 @@ impl Places {
         tick: u64,
         side: usize,
         kind: usize,
-        objects: &ObjectsMemory,
+        parts: &PartTracks,
         view: &SceneView,
         out: &mut Percept,
     ) {
         let here = |(own, part): &(usize, &PartTrack)| *own == kind && self.is_free_at(side, kind, part);
         let away = |part: &PartTrack| (Vector3::from(part.position) - self.owner(side)).norm();
-        let nearest = objects.parts().filter(here).min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)));
+        let nearest = parts.parts().filter(here).min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)));
         let place = &mut out.workspace[side];
         let seen = nearest.is_some_and(|(_, part)| tick.saturating_sub(part.seen) < RECENT);
         if let Some((_, part)) = nearest {
@@ -157,14 +156,14 @@ impl Places {
     fn report_subgoal(
         &self,
         goal: usize,
-        objects: &ObjectsMemory,
+        parts: &PartTracks,
         view: &SceneView,
         followed: bool,
         out: &mut Percept,
     ) {
         let Subgoal { kind, socket, .. } = self.subgoals[goal];
         let away = |part: &PartTrack| (Vector3::from(socket) - Vector3::from(part.position)).norm();
-        let own = objects.parts().filter(|(own, _)| *own == kind);
+        let own = parts.parts().filter(|(own, _)| *own == kind);
         let settled = if followed { SETTLED } else { SETTLED_UNSEEN };
         let mounted = |part: &PartTrack| away(part) < IN_PLACE && !part.is_held() && part.still >= settled;
         let achieved = own.clone().any(|(_, part)| mounted(part));

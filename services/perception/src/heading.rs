@@ -1,8 +1,9 @@
 use nalgebra::Vector3;
 
-/// Scatter of a reach's end point about the line of its present movement: at the target, and per metre of way left.
+/// Scatter of a reach's end point about the line of its present movement: at the target (m), and per metre of way left,
+/// for people reach in an arc. Chosen by hand.
 const SCATTER: (f64, f64) = (0.05, 0.30);
-/// Speed below which a movement has no direction, m/s.
+/// Speed below which a movement has no direction, m/s: the tracker's scatter alone makes some cm/s.
 const DIRECTED: f64 = 0.10;
 
 /// Where the hand is going, on the table plane.

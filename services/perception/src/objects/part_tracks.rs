@@ -1,20 +1,25 @@
 use super::part_track::{FREE, PartTrack};
-use super::{Places, Surroundings};
+use super::{Hands, TaskPlaces};
+use crate::perception_state::cycle;
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{MAX_PARTS, SceneView, Sighting};
+use coact_period::cycles;
+use coact_stage_state::{Implausible, ensure};
 use nalgebra::Vector3;
+use std::time::Duration;
 
-/// How far a part may have moved between two sightings, m.
+/// How far a part may have moved between two sightings, m: at the recogniser's 30 Hz, in a hand of 3.6 m/s.
 const GATE: f64 = 0.12;
-/// How long a place must be in view and empty before its part is taken to be gone, cycles.
-const ABSENT: u32 = 350;
-/// How far from the origin a part may be sighted, m: beyond it, the recogniser talks nonsense.
+/// How long a place must be in view and empty before its part is taken to be gone: ten frames of the recogniser, which
+/// misses single ones.
+const ABSENT: u32 = cycles(Duration::from_millis(350)) as u32;
+/// How far from the origin a part may be sighted, m: none beyond it concerns the robot, the recogniser is mistaken.
 const FARTHEST: f64 = 10.0;
 
 /// All parts that have been sighted.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub(crate) struct ObjectsMemory {
+pub(crate) struct PartTracks {
     /// Newest frame's number plus one; 0 before the first.
     seen: u64,
     /// Cycle at which it was captured.
@@ -22,7 +27,7 @@ pub(crate) struct ObjectsMemory {
     tracks: [PartTrack; MAX_PARTS],
 }
 
-impl ObjectsMemory {
+impl PartTracks {
     /// The parts that are followed now.
     pub fn parts(&self) -> impl Iterator<Item = (usize, &PartTrack)> + Clone {
         self.tracks.iter().filter_map(|track| Some((track.kind()?, track)))
@@ -40,6 +45,13 @@ impl ObjectsMemory {
         self.tracks.get(index).filter(|track| track.kind().is_some())
     }
 
+    /// Refuses what is no state of them.
+    pub fn check(&self) -> Result<(), Implausible> {
+        ensure(self.seen > 0 || self.captured == 0, "parts.captured", "0 before the first frame")?;
+        cycle("parts.captured", self.captured)?;
+        self.tracks.iter().try_for_each(PartTrack::check)
+    }
+
     /// Whether the newest frame is young enough to tell what lies where.
     pub fn is_seeing(&self, tick: u64) -> bool {
         self.seen > 0 && tick.saturating_sub(self.captured) < 2 * u64::from(ABSENT)
@@ -52,7 +64,7 @@ impl ObjectsMemory {
     }
 
     /// Takes in a new frame of the recogniser.
-    pub fn observe(&mut self, view: &SceneView, around: &Surroundings, places: &Places) {
+    pub fn observe(&mut self, view: &SceneView, around: &Hands, places: &TaskPlaces) {
         let cycles = view.captured_cycle - self.captured;
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;
@@ -62,25 +74,25 @@ impl ObjectsMemory {
     }
 
     /// Finds out who has which part: first what was let go, then what was taken.
-    fn find_holders(&mut self, around: &Surroundings, places: &Places) {
+    fn find_holders(&mut self, around: &Hands, places: &TaskPlaces) {
         let mut busy = FREE;
         for track in &mut self.tracks {
             if let Some(kind) = track.kind() {
-                track.let_go(places.body(kind), around);
+                track.let_go(places.size(kind), around);
                 busy |= track.holder;
             }
         }
         for track in &mut self.tracks {
             if let Some(kind) = track.kind() {
                 let airborne = places.is_airborne(kind, track.position);
-                track.take(!busy, places.body(kind), around, airborne);
+                track.take(!busy, places.size(kind), around, airborne);
                 busy |= track.holder;
             }
         }
     }
 
     /// Gives every sighting to the nearest track of its kind, or to a new one.
-    fn associate(&mut self, view: &SceneView, cycles: u64, places: &Places) {
+    fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces) {
         let count = (view.sightings as usize).min(MAX_PARTS);
         for sighting in view.sighting[..count].iter().filter(|sighting| is_plausible(sighting, places)) {
             match self.nearest(sighting).or_else(|| self.turned_up(sighting, view, places)) {
@@ -107,7 +119,7 @@ impl ObjectsMemory {
 
     /// The track of a part of the sighting's kind that has been out of sight: one that turns up where none was is rather
     /// that one than another.
-    fn turned_up(&self, sighting: &Sighting, view: &SceneView, places: &Places) -> Option<usize> {
+    fn turned_up(&self, sighting: &Sighting, view: &SceneView, places: &TaskPlaces) -> Option<usize> {
         let unseen = |track: &PartTrack| self.captured.saturating_sub(track.seen) > u64::from(ABSENT);
         self.tracks.iter().position(|track| {
             track.kind() == Some(sighting.kind as usize)
@@ -117,7 +129,7 @@ impl ObjectsMemory {
     }
 
     /// Gives up parts whose place has been in view and empty for long enough.
-    fn miss(&mut self, view: &SceneView, cycles: u64, places: &Places) {
+    fn miss(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces) {
         for track in &mut self.tracks {
             if track.kind().is_none() || track.seen == self.captured || places.is_hidden(track.position, view)
             {
@@ -131,7 +143,7 @@ impl ObjectsMemory {
     }
 }
 
-fn is_plausible(sighting: &Sighting, places: &Places) -> bool {
+fn is_plausible(sighting: &Sighting, places: &TaskPlaces) -> bool {
     let near = sighting.position.iter().all(|value| value.abs() < FARTHEST);
     let norm: f64 = sighting.orientation.iter().map(|value| value * value).sum();
     let upright = (0.5..2.0).contains(&norm);

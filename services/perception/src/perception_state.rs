@@ -1,0 +1,106 @@
+use crate::hand::TrackedHand;
+use crate::loss::Loss;
+use crate::objects::PartTracks;
+use crate::occlusion::Occlusion;
+use crate::preshape::PreshapeState;
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+use coact_messages::Percept;
+use coact_stage_state::{Flag, Implausible, StageState, StateError, ensure, finite};
+
+/// Everything that perception must remember and that no other field of the percept holds: the words of
+/// [`Percept::state`].
+#[repr(C)]
+#[derive(Debug, Clone, Copy, CheckedBitPattern, NoUninit, Zeroable)]
+pub(crate) struct PerceptionState {
+    /// The tracked hand and its present movement.
+    pub hand: TrackedHand,
+    /// The present reach's features, and what is known of this person's hand.
+    pub preshape: PreshapeState,
+    /// Every part that has been sighted.
+    pub parts: PartTracks,
+    /// A hand that has gone out of sight.
+    pub occlusion: Occlusion,
+    /// A part that has gone out of the robot's hand.
+    pub loss: Loss,
+    /// Cycles that the hand has lain at rest, or that nothing has been seen of it for long.
+    pub dwell: u64,
+    /// Cycles that nothing has been seen of the hand.
+    pub unseen: u64,
+    /// Pitch of the hand when it took what it holds, rad; of the empty hand, its pitch now.
+    grip_pitch: f64,
+    /// Whether that pitch could be seen.
+    grip_seen: Flag,
+}
+
+/// Why perception does not resume from a percept.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ResumeError {
+    /// Its state is none.
+    #[error(transparent)]
+    State(#[from] StateError),
+    /// A field beside the state is not what it can be.
+    #[error("{0}; the message is damaged, start without it")]
+    Field(Implausible),
+}
+
+impl StageState for PerceptionState {
+    const STAGE: &'static str = "perception";
+    const LAYOUT: u32 = 1;
+
+    fn check(&self) -> Result<(), Implausible> {
+        self.hand.check()?;
+        self.preshape.check()?;
+        self.parts.check()?;
+        self.occlusion.check()?;
+        self.loss.check()?;
+        cycle("dwell", self.dwell)?;
+        cycle("unseen", self.unseen)?;
+        finite("grip_pitch", &[self.grip_pitch])
+    }
+}
+
+impl PerceptionState {
+    /// The state that `last` holds, if that is a percept of a perception for so many `kinds` of part.
+    pub fn of(last: &Percept, kinds: usize) -> Result<Self, ResumeError> {
+        let state = Self::load(&last.state)?;
+        let known = state.parts.parts().all(|(kind, _)| kind < kinds) && state.loss.is_about(kinds);
+        ensure(known, "parts", "kinds of this task").map_err(ResumeError::Field)?;
+        evidence(last).map_err(ResumeError::Field)?;
+        Ok(state)
+    }
+
+    /// Pitch of the hand when it took what it holds, rad; `None` if it could not be seen.
+    pub fn grip_pitch(&self) -> Option<f64> {
+        self.grip_seen.is_set().then_some(self.grip_pitch)
+    }
+
+    /// Keeps the pitch of an empty hand.
+    pub fn keep_pitch(&mut self, pitch: Option<f64>) {
+        self.grip_seen = pitch.is_some().into();
+        self.grip_pitch = pitch.unwrap_or(0.0);
+    }
+}
+
+/// Refuses a cycle, or a count of cycles, that no run reaches: sums of it with a duration must not overflow.
+pub(crate) fn cycle(field: &'static str, cycle: u64) -> Result<(), Implausible> {
+    ensure(cycle < 1 << 60, field, "a cycle of a run")
+}
+
+/// Refuses evidence that is none.
+fn evidence(last: &Percept) -> Result<(), Implausible> {
+    let fractions = |field, values: &[f64]| {
+        ensure(values.iter().all(|value| (0.0..=1.0).contains(value)), field, "evidence between 0 and 1")
+    };
+    fractions("act", &last.act)?;
+    fractions("achieved", &last.achieved)?;
+    fractions("open", &last.open)?;
+    fractions("robot_holds", &last.robot_holds)?;
+    fractions("person_holds", &last.person_holds)?;
+    fractions("lost", &last.lost)?;
+    last.workspace.iter().try_for_each(|workspace| {
+        fractions("workspace.seen", &workspace.seen)?;
+        fractions("workspace.gone", &workspace.gone)?;
+        finite("workspace.position", workspace.position.as_flattened())?;
+        finite("workspace.orientation", workspace.orientation.as_flattened())
+    })
+}
