@@ -5,7 +5,8 @@ use crate::partner;
 use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
 use coact_evaluation::{
-    Ablation, Campaign, Comparison, Interval, Mind, Report, Share, Trial, draw_fluency, draw_leads,
+    Ablation, Campaign, Comparison, Estimate, EvaluationReport, NetworkVariant, Proportion, Trial,
+    draw_fluency, draw_leads,
 };
 use coact_joint_task::NetworkPlan;
 use coact_pipeline::{RunSettings, WorldMode};
@@ -96,9 +97,9 @@ struct Evaluation {
     partner: String,
     seed: u64,
     trials: u64,
-    report: Report,
+    report: EvaluationReport,
     #[serde(skip_serializing_if = "Option::is_none")]
-    baseline: Option<Report>,
+    baseline: Option<EvaluationReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     comparison: Option<Comparison>,
 }
@@ -115,14 +116,17 @@ pub fn run(args: Args) -> Result<ExitCode> {
         std::fs::create_dir_all(out)
             .with_context(|| format!("--out {}: expected a folder that can be written to", out.display()))?;
     }
-    let mind = Mind { reactive: false, without: args.ablate.iter().map(|layer| layer.ablation()).collect() };
-    let trials = assemble(&args, &settings, &mind, "assemblies")?;
+    let network = NetworkVariant {
+        reactive: false,
+        without: args.ablate.iter().map(|layer| layer.ablation()).collect(),
+    };
+    let trials = assemble(&args, &settings, &network, "assemblies")?;
     let baseline = match args.baseline {
         None => None,
         Some(Baseline::Reactive) => {
-            let mind = Mind { reactive: true, ..mind.clone() };
-            let trials = assemble(&args, &settings, &mind, "without anticipation")?;
-            Some((Report::new(&mind, &trials), trials))
+            let network = NetworkVariant { reactive: true, ..network.clone() };
+            let trials = assemble(&args, &settings, &network, "without anticipation")?;
+            Some((EvaluationReport::new(&network, &trials), trials))
         }
     };
     let evaluation = Evaluation {
@@ -130,7 +134,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         partner: settings.partner.clone(),
         seed: args.seed,
         trials: args.trials,
-        report: Report::new(&mind, &trials),
+        report: EvaluationReport::new(&network, &trials),
         comparison: baseline.as_ref().map(|(_, rivals)| Comparison::new(&trials, rivals)),
         baseline: baseline.as_ref().map(|(report, _)| report.clone()),
     };
@@ -170,12 +174,17 @@ fn settings(args: &Args) -> Result<RunSettings> {
     })
 }
 
-fn assemble(args: &Args, settings: &RunSettings, mind: &Mind, what: &'static str) -> Result<Vec<Trial>> {
+fn assemble(
+    args: &Args,
+    settings: &RunSettings,
+    network: &NetworkVariant,
+    what: &'static str,
+) -> Result<Vec<Trial>> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = args.threads.map_or(cores, usize::from);
     let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left")?;
     let bar = ProgressBar::new(args.trials).with_style(style).with_message(what);
-    let campaign = Campaign { settings, mind, trials: args.trials, threads };
+    let campaign = Campaign { settings, network, trials: args.trials, threads };
     let trials = coact_evaluation::run(&campaign, || bar.inc(1));
     bar.finish_and_clear();
     Ok(trials?)
@@ -192,9 +201,9 @@ fn write(out: &Path, evaluation: &Evaluation, trials: &[Trial], baseline: Option
         save("baseline.jsonl", lines(baseline)?)?;
     }
     draw_leads(trials, &out.join("leads.svg"))?;
-    let mut minds = vec![("with anticipation", &evaluation.report)];
-    minds.extend(evaluation.baseline.as_ref().map(|report| ("without", report)));
-    draw_fluency(&minds, &out.join("fluency.svg"))?;
+    let mut variants = vec![("with anticipation", &evaluation.report)];
+    variants.extend(evaluation.baseline.as_ref().map(|report| ("without", report)));
+    draw_fluency(&variants, &out.join("fluency.svg"))?;
     Ok(())
 }
 
@@ -240,32 +249,35 @@ fn show(evaluation: &Evaluation) {
     }
 }
 
-fn rows(report: &Report) -> Vec<(String, String)> {
+fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
     let row = |name: &str, value: String| (name.to_owned(), value);
-    let percent = |fraction: Option<Interval>| interval(fraction, 100.0, 1, " %");
+    let percent = |fraction: Option<Estimate>| interval(fraction, 100.0, 1, " %");
     let lead =
         report.lead_ms.map_or("-".into(), |lead| format!("{:.0} {:.0} {:.0}", lead.p5, lead.p50, lead.p95));
     let mut rows = vec![
-        row("completed", share(&report.completed)),
-        row("deadlocks", share(&report.deadlocks)),
+        row("completed", proportion(&report.completed)),
+        row("deadlocks", proportion(&report.deadlocks)),
         row("task time, s", interval(report.seconds, 1.0, 1, "")),
-        row("goal inferred rightly at grasp", share(&report.right)),
-        row("  wrongly", share(&report.wrong)),
-        row("  not", share(&report.absent)),
-        row("  rightly, of wrong actions", share(&report.right_of_errors)),
-        row("goal inferred rightly at grasp, hidden hands", share(&report.right_of_hidden)),
-        row("  wrongly, hidden hands", share(&report.wrong_of_hidden)),
-        row("  not, hidden hands", share(&report.absent_of_hidden)),
-        row("answer decided before grasp", share(&report.anticipated)),
+        row("goal inferred rightly at grasp", proportion(&report.right)),
+        row("  wrongly", proportion(&report.wrong)),
+        row("  not", proportion(&report.absent)),
+        row("  rightly, of wrong actions", proportion(&report.right_of_errors)),
+        row("goal inferred rightly at grasp, hidden hands", proportion(&report.right_of_hidden)),
+        row("  wrongly, hidden hands", proportion(&report.wrong_of_hidden)),
+        row("  not, hidden hands", proportion(&report.absent_of_hidden)),
+        row("answer decided before grasp", proportion(&report.anticipated)),
         row("decision lead p5 p50 p95, ms", lead),
         row("  mean", interval(report.mean_lead_ms, 1.0, 0, "")),
     ];
     for tally in &report.errors {
         let late = format!("; {} late, {} missed", tally.late.count, tally.missed.count);
-        rows.push(row(&format!("noticed in time: {}", tally.kind.name()), share(&tally.in_time) + &late));
+        rows.push(row(
+            &format!("noticed in time: {}", tally.kind.name()),
+            proportion(&tally.in_time) + &late,
+        ));
     }
     rows.extend([
-        row("false alarms per valid action", share(&report.false_alarms)),
+        row("false alarms per valid action", proportion(&report.false_alarms)),
         row("ticks with two peaks", report.double_peaks.to_string()),
         row("human idle", percent(report.human_idle)),
         row("robot idle", percent(report.robot_idle)),
@@ -277,16 +289,18 @@ fn rows(report: &Report) -> Vec<(String, String)> {
     rows
 }
 
-fn share(share: &Share) -> String {
-    let Share { count, of, share, low, high } = share;
+fn proportion(proportion: &Proportion) -> String {
+    let Proportion { count, of, fraction, low, high } = proportion;
     match of {
         0 => "none".into(),
-        _ => format!("{:.1} % ({:.1} to {:.1}), {count} of {of}", 100.0 * share, 100.0 * low, 100.0 * high),
+        _ => {
+            format!("{:.1} % ({:.1} to {:.1}), {count} of {of}", 100.0 * fraction, 100.0 * low, 100.0 * high)
+        }
     }
 }
 
-fn interval(metric: Option<Interval>, scale: f64, digits: usize, unit: &str) -> String {
-    metric.map_or("-".into(), |Interval { value, low, high, .. }| {
+fn interval(metric: Option<Estimate>, scale: f64, digits: usize, unit: &str) -> String {
+    metric.map_or("-".into(), |Estimate { value, low, high, .. }| {
         let [value, low, high] = [value, low, high].map(|value| format!("{:.digits$}", scale * value));
         format!("{value}{unit} ({low} to {high})")
     })

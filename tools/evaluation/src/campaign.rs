@@ -1,21 +1,23 @@
-use crate::observer::Observer;
-use crate::{Mind, Trial};
+use crate::trial_recorder::TrialRecorder;
+use crate::{NetworkVariant, Trial};
 use coact_lockstep::{Lockstep, LockstepError};
+use coact_period::cycles;
 use coact_pipeline::RunSettings;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
 
-/// An assembly without a new subgoal for so long is given up, ticks.
-const STALLED: u64 = 60_000;
-/// The longest assembly that is watched, ticks.
-const LONGEST: u64 = 600_000;
+/// An assembly without a new subgoal for so long is given up, ticks: about as long as the toy vehicle takes as a whole.
+const STALLED: u64 = cycles(Duration::from_secs(60));
+/// The longest assembly, ticks: ten times as long as the toy vehicle takes.
+const LONGEST: u64 = cycles(Duration::from_secs(600));
 
 /// Many assemblies.
 #[derive(Debug, Clone)]
 pub struct Campaign<'a> {
     /// Task, robot, model, partner; the seed is that of the first assembly, the next ones follow.
     pub settings: &'a RunSettings,
-    /// The robot's mind.
-    pub mind: &'a Mind,
+    /// The robot's network.
+    pub network: &'a NetworkVariant,
     /// How many assemblies.
     pub trials: u64,
     /// How many at the same time.
@@ -52,20 +54,20 @@ pub fn run(campaign: &Campaign, done: impl Fn() + Sync) -> Result<Vec<Trial>, Lo
 /// One assembly, until it is complete, nothing is achieved for a minute, or ten minutes are over.
 fn assemble(campaign: &Campaign, seed: u64) -> Result<Trial, LockstepError> {
     let settings = RunSettings { seed, ..campaign.settings.clone() };
-    let mut stages = Lockstep::with_plan(&settings, |plan| campaign.mind.of(plan))?;
+    let mut stages = Lockstep::with_plan(&settings, |plan| campaign.network.apply(plan))?;
     let (task, plan) = (stages.task().clone(), stages.plan().clone());
-    let mut observer = Observer::new(&task, &plan, seed);
+    let mut recorder = TrialRecorder::new(&task, &plan, seed);
     let (mut achieved, mut advanced) = (0, 0);
     while stages.ticks() < LONGEST && stages.ticks() < advanced + STALLED {
         stages.step();
-        observer.tick(&stages);
+        recorder.tick(&stages);
         if stages.truth.achieved != achieved {
             (achieved, advanced) = (stages.truth.achieved, stages.ticks());
         }
         if achieved.count_ones() as usize == task.subgoals.len() {
-            return Ok(observer.finish(&stages, false));
+            return Ok(recorder.finish(&stages, false));
         }
     }
     let stalled = stages.ticks() < LONGEST;
-    Ok(observer.finish(&stages, stalled))
+    Ok(recorder.finish(&stages, stalled))
 }

@@ -2,7 +2,7 @@ use crate::activity::Activity;
 use serde::Serialize;
 
 /// How fluently two agents work together, after Hoffman (2019), "Evaluating fluency in human-robot collaboration", IEEE
-/// Transactions on Human-Machine Systems 49 (3): all are shares of the task time.
+/// Transactions on Human-Machine Systems 49 (3): all are fractions of the task time.
 ///
 /// Whoever can do nothing but wait for the other is idle.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
@@ -22,7 +22,7 @@ pub struct Fluency {
 
 /// Adds up who was active when.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct FluencyAccount {
+pub(crate) struct FluencyCounter {
     ticks: u64,
     human_idle: u64,
     robot_idle: u64,
@@ -35,7 +35,7 @@ pub(crate) struct FluencyAccount {
     turn: Option<(usize, u64)>,
 }
 
-impl FluencyAccount {
+impl FluencyCounter {
     pub fn tick(&mut self, activity: Activity) {
         let Activity { active, person_waits } = activity;
         let now = self.ticks;
@@ -70,14 +70,14 @@ impl FluencyAccount {
         }
     }
 
-    pub fn shares(&self) -> Fluency {
-        let share = |ticks: f64| ticks / self.ticks.max(1) as f64;
+    pub fn fluency(&self) -> Fluency {
+        let fraction = |ticks: f64| ticks / self.ticks.max(1) as f64;
         Fluency {
-            human_idle: share(self.human_idle as f64),
-            robot_idle: share(self.robot_idle as f64),
-            concurrent: share(self.concurrent as f64),
-            functional_delay: share(self.delay as f64),
-            human_waits: share(self.human_waits as f64),
+            human_idle: fraction(self.human_idle as f64),
+            robot_idle: fraction(self.robot_idle as f64),
+            concurrent: fraction(self.concurrent as f64),
+            functional_delay: fraction(self.delay as f64),
+            human_waits: fraction(self.human_waits as f64),
         }
     }
 }
@@ -88,11 +88,11 @@ mod tests {
 
     /// Fluency of two rows of activity, a letter a tick: `#` is active.
     fn fluency(robot: &str, person: &str) -> Fluency {
-        let mut account = FluencyAccount::default();
+        let mut counter = FluencyCounter::default();
         for (robot, person) in robot.chars().zip(person.chars()) {
-            account.tick(Activity { active: [robot == '#', person == '#'], person_waits: false });
+            counter.tick(Activity { active: [robot == '#', person == '#'], person_waits: false });
         }
-        account.shares()
+        counter.fluency()
     }
 
     #[test]

@@ -1,25 +1,25 @@
 //! Whole assemblies with random partners, in lockstep and in parallel: how often and how soon the robot understood, what
-//! it noticed of the person's errors, and how fluently the two worked; with intervals, and against other minds.
+//! it noticed of the person's errors, and how fluently the two worked; with intervals, and against ablations.
 //!
-//! A [`Trial`] is what one assembly was like. [`run`] makes many of them, a [`Report`] counts them, and a
-//! [`Comparison`] sets two minds side by side that met the same partners.
+//! A [`Trial`] is what one assembly was like. [`run`] makes many of them, an [`EvaluationReport`] counts them, and a
+//! [`Comparison`] sets two [`NetworkVariant`]s side by side that had the same partners.
 
 mod activity;
 mod campaign;
 mod comparison;
+mod evaluation_report;
 mod fluency;
-mod mind;
-mod observer;
+mod network_variant;
 mod plots;
-mod report;
 mod statistics;
 mod trial;
+mod trial_recorder;
 
 pub use campaign::{Campaign, run};
 pub use comparison::Comparison;
+pub use evaluation_report::{ErrorCounts, EvaluationReport};
 pub use fluency::Fluency;
-pub use mind::{Ablation, Mind};
-pub use plots::{PlotError, draw_fluency, draw_leads};
-pub use report::{ErrorTally, Report};
-pub use statistics::{Interval, Share, Spread};
+pub use network_variant::{Ablation, NetworkVariant};
+pub use plots::{draw_fluency, draw_leads};
+pub use statistics::{Estimate, Proportion, Spread};
 pub use trial::{Alarm, Detection, DoublePeak, ErrorKind, Inference, PartnerAction, Trial};

@@ -1,7 +1,9 @@
 //! Assemblies with random partners, judged.
 #![allow(clippy::unwrap_used)]
 
-use coact_evaluation::{Ablation, Campaign, Comparison, Mind, Report, Trial, draw_fluency, draw_leads, run};
+use coact_evaluation::{
+    Ablation, Campaign, Comparison, EvaluationReport, NetworkVariant, Trial, draw_fluency, draw_leads, run,
+};
 use coact_joint_task::NetworkPlan;
 use coact_messages::LayerKind;
 use coact_pipeline::{RunSettings, WorldMode};
@@ -13,30 +15,32 @@ fn settings(partner: &str) -> RunSettings {
     RunSettings { partner: partner.into(), world: WorldMode::Kinematic, ..RunSettings::shipped(&folder) }
 }
 
-fn trials(partner: &str, mind: &Mind, trials: u64, threads: usize) -> Vec<Trial> {
-    run(&Campaign { settings: &settings(partner), mind, trials, threads }, || {}).unwrap()
+fn trials(partner: &str, network: &NetworkVariant, trials: u64, threads: usize) -> Vec<Trial> {
+    run(&Campaign { settings: &settings(partner), network, trials, threads }, || {}).unwrap()
 }
 
 #[test]
 fn same_seeds_give_the_same_trials_with_any_number_of_threads() {
     let done = AtomicUsize::new(0);
-    let (settings, mind) = (settings("random:goal=0.2"), Mind::default());
-    let campaign = Campaign { settings: &settings, mind: &mind, trials: 3, threads: 2 };
+    let (settings, network) = (settings("random:goal=0.2"), NetworkVariant::default());
+    let campaign = Campaign { settings: &settings, network: &network, trials: 3, threads: 2 };
     let one = run(&campaign, || _ = done.fetch_add(1, Ordering::Relaxed)).unwrap();
     assert_eq!(done.into_inner(), 3);
     assert_eq!(one.iter().map(|trial| trial.seed).collect::<Vec<_>>(), [1, 2, 3]);
-    assert_eq!(one, trials("random:goal=0.2", &mind, 3, 1));
-    assert!(one.iter().all(|trial| trial.actions.len() >= 3), "every action is written down: {one:?}");
+    assert_eq!(one, trials("random:goal=0.2", &network, 3, 1));
+    assert!(one.iter().all(|trial| trial.actions.len() >= 3), "every action is recorded: {one:?}");
     assert!(one.iter().flat_map(|trial| &trial.actions).any(|action| action.error.is_some()));
 }
 
 #[test]
-fn a_robot_that_waits_for_the_deed_decides_later_and_lets_the_person_wait_longer() {
-    let reactive = Mind { reactive: true, ..Mind::default() };
-    let (one, other) = (trials("synthetic", &Mind::default(), 4, 2), trials("synthetic", &reactive, 4, 2));
-    let (with, without) = (Report::new(&Mind::default(), &one), Report::new(&reactive, &other));
-    assert!(with.anticipated.share > 0.8, "{:?}", with.anticipated);
-    assert!(without.anticipated.share < 0.3, "{:?}", without.anticipated);
+fn a_robot_without_anticipation_decides_later_and_lets_the_person_wait_longer() {
+    let reactive = NetworkVariant { reactive: true, ..NetworkVariant::default() };
+    let (one, other) =
+        (trials("synthetic", &NetworkVariant::default(), 4, 2), trials("synthetic", &reactive, 4, 2));
+    let (with, without) =
+        (EvaluationReport::new(&NetworkVariant::default(), &one), EvaluationReport::new(&reactive, &other));
+    assert!(with.anticipated.fraction > 0.8, "{:?}", with.anticipated);
+    assert!(without.anticipated.fraction < 0.3, "{:?}", without.anticipated);
     let waiting = Comparison::new(&one, &other).waiting_ratio.unwrap();
     assert!(waiting.value < 1.0, "{waiting:?}");
     let folder = tempfile::tempdir().unwrap();
@@ -48,8 +52,8 @@ fn a_robot_that_waits_for_the_deed_decides_later_and_lets_the_person_wait_longer
 
 #[test]
 fn hidden_actions_have_rows_of_their_own() {
-    let trials = trials("random:hidden=0.5,words=0", &Mind::default(), 3, 2);
-    let report = Report::new(&Mind::default(), &trials);
+    let trials = trials("random:hidden=0.5,words=0", &NetworkVariant::default(), 3, 2);
+    let report = EvaluationReport::new(&NetworkVariant::default(), &trials);
     let valid = |hidden: bool| {
         let actions = trials.iter().flat_map(|trial| &trial.actions).filter(|own| own.hidden == hidden);
         actions.filter(|own| own.error.is_none() && own.grasp_ms.is_some()).count()
@@ -57,15 +61,17 @@ fn hidden_actions_have_rows_of_their_own() {
     assert!(valid(true) >= 3 && valid(false) >= 3, "{trials:?}");
     assert_eq!((report.right.of, report.anticipated.of), (valid(false), valid(false)));
     let inferred = [report.right_of_hidden, report.wrong_of_hidden, report.absent_of_hidden];
-    assert_eq!(inferred.map(|share| share.of), [valid(true); 3]);
-    assert_eq!(inferred.iter().map(|share| share.count).sum::<usize>(), valid(true));
+    assert_eq!(inferred.map(|proportion| proportion.of), [valid(true); 3]);
+    assert_eq!(inferred.iter().map(|proportion| proportion.count).sum::<usize>(), valid(true));
     assert_eq!(report.false_alarms.of, valid(true) + valid(false));
 }
 
 #[test]
-fn what_is_taken_away_is_silent_and_all_else_stays() {
+fn an_ablated_layer_has_no_synapses_and_all_others_stay() {
     let (_, plan) = NetworkPlan::load(&settings("synthetic").task).unwrap();
-    let without = |ablation| Mind { without: vec![ablation], ..Mind::default() }.of(plan.clone());
+    let without = |ablation| {
+        NetworkVariant { without: vec![ablation], ..NetworkVariant::default() }.apply(plan.clone())
+    };
     let quiet = without(Ablation::Eml);
     let row = quiet.layer(LayerKind::ErrorMonitoring).populations.clone();
     assert!(quiet.synapses.iter().all(|own| !row.contains(&own.from) && !row.contains(&own.to)));
@@ -73,13 +79,14 @@ fn what_is_taken_away_is_silent_and_all_else_stays() {
     let calm = without(Ablation::Noise);
     assert!(calm.layers.iter().all(|layer| layer.noise == 0.0));
     assert_eq!(calm.synapses, plan.synapses);
-    assert_eq!(Mind::default().of(plan.clone()), plan);
+    assert_eq!(NetworkVariant::default().apply(plan.clone()), plan);
 }
 
 #[test]
-fn without_common_subgoals_nothing_is_achieved_and_that_is_told_as_a_deadlock() {
-    let mind = Mind { without: vec![Ablation::Csgl, Ablation::Oml], ..Mind::default() };
-    let found = trials("random:idle=1,goal=0,request=0,means=0,hidden=0,words=0", &mind, 1, 1);
+fn without_common_subgoals_nothing_is_achieved_and_that_is_reported_as_a_deadlock() {
+    let network =
+        NetworkVariant { without: vec![Ablation::Csgl, Ablation::Oml], ..NetworkVariant::default() };
+    let found = trials("random:idle=1,goal=0,request=0,means=0,hidden=0,words=0", &network, 1, 1);
     assert!(found[0].stalled && found[0].completed_ms.is_none(), "{:?}", found[0]);
     assert_eq!(found[0].ended_ms, 60_000);
     assert!(found[0].actions.is_empty());

@@ -17,7 +17,8 @@ pub struct PlotError {
 }
 
 impl PlotError {
-    fn new(path: &std::path::Path, cause: impl std::fmt::Display) -> Self {
+    /// Of the picture at `path`; `cause` is what the drawing library or the system said.
+    pub fn new(path: &std::path::Path, cause: impl std::fmt::Display) -> Self {
         Self { path: path.to_owned(), cause: cause.to_string() }
     }
 }

@@ -2,26 +2,25 @@ use coact_joint_task::{Channel, NetworkPlan, Pool, Role, Synapse};
 use coact_messages::LayerKind;
 use serde::Serialize;
 
-/// How the robot's network differs from the one that the task's files make.
+/// How the robot's network differs from the one that the task's files make: without anticipation, or with ablations.
 ///
-/// The reactive robot is the baseline: the links from predicted goals are cut, all else is the same. It is the
-/// strictest robot that can still do its part, for it answers what the person *has* done:
-/// - A grip counts from the moment at which the part is in the person's hand. The shape and the way of a hand that
-///   still reaches are kept from AOL: evidence of a grip passes a gate that sight of the held part opens.
-/// - A gesture counts once the hand is no longer on its way.
-/// - A hand that is hidden shows nothing, so that nothing is inferred from it.
+/// The reactive robot is the baseline. It answers what the person *has* done, and is otherwise the same:
+/// - A grip counts once the part is in the person's hand. Evidence of a grip reaches AOL through a gate that opens when
+///   the part is seen in the hand; the shape and the path of a hand that still reaches do not pass it.
+/// - A gesture counts once the hand has stopped.
+/// - Nothing is inferred from a hand that is hidden.
 /// - An inferred goal does not count as achieved before it is: synapses from IL to CSGL are removed.
 ///
-/// What the person says, what lies where and the robot's own initiative are no predictions and stay.
+/// What the person says, what lies where and the robot's own initiative are no predictions, and stay.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
-pub struct Mind {
+pub struct NetworkVariant {
     /// Without anticipation.
     pub reactive: bool,
-    /// Layers, or the noise, that are taken away.
+    /// Layers, or the noise, that are removed.
     pub without: Vec<Ablation>,
 }
 
-/// What can be taken away from the network.
+/// What can be removed from the network.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Ablation {
@@ -35,11 +34,11 @@ pub enum Ablation {
     Noise,
 }
 
-impl Mind {
-    /// The network of this mind.
-    pub fn of(&self, mut plan: NetworkPlan) -> NetworkPlan {
+impl NetworkVariant {
+    /// The network of this variant, made from the whole one.
+    pub fn apply(&self, mut plan: NetworkPlan) -> NetworkPlan {
         if self.reactive {
-            await_the_deed(&mut plan);
+            remove_anticipation(&mut plan);
         }
         for ablation in &self.without {
             match ablation {
@@ -58,7 +57,7 @@ impl Mind {
     }
 }
 
-/// Removes every synapse of the layers: they stay at rest and say nothing.
+/// Removes every synapse of the layers: they stay at rest, and nothing depends on them.
 fn silence(plan: &mut NetworkPlan, kinds: &[LayerKind]) {
     let rows: Vec<_> = kinds.iter().map(|kind| plan.layer(*kind).populations.clone()).collect();
     let apart =
@@ -66,8 +65,8 @@ fn silence(plan: &mut NetworkPlan, kinds: &[LayerKind]) {
     plan.synapses.retain(apart);
 }
 
-/// Cuts what runs ahead of the person's deeds.
-fn await_the_deed(plan: &mut NetworkPlan) {
+/// Removes what anticipates: synapses that predict, and evidence of acts that are not completed.
+fn remove_anticipation(plan: &mut NetworkPlan) {
     let rows = |kind: LayerKind| plan.layer(kind).populations.clone();
     let (acts, goals) = (rows(LayerKind::ActionObservation), rows(LayerKind::Intention));
     let subgoals = [rows(LayerKind::SubgoalsAchieved), rows(LayerKind::SubgoalsAvailable)];
@@ -76,8 +75,8 @@ fn await_the_deed(plan: &mut NetworkPlan) {
     let predicted = |synapse: &Synapse| {
         goals.contains(&synapse.from) && subgoals.iter().any(|row| row.contains(&synapse.to))
     };
-    let kept = plan.synapses.iter().filter(|synapse| !hidden(synapse) && !predicted(synapse));
-    let mut synapses: Vec<Synapse> = kept.copied().collect();
+    let others = plan.synapses.iter().filter(|synapse| !hidden(synapse) && !predicted(synapse));
+    let mut synapses: Vec<Synapse> = others.copied().collect();
     let rule = plan.reasons.len();
     let mut gate = |from: Option<usize>, to: usize, weight: f64| {
         synapses.extend(from.map(|from| Synapse { from, to, weight, rule }));
@@ -98,7 +97,7 @@ fn await_the_deed(plan: &mut NetworkPlan) {
         }
     }
     plan.synapses = synapses;
-    plan.reasons.push("a robot that does not anticipate waits for the deed".into());
+    plan.reasons.push("without anticipation, the robot waits until the person has acted".into());
     plan.pools.push(Pool::Sum);
 }
 
@@ -112,7 +111,7 @@ fn evidence(plan: &NetworkPlan, act: usize) -> f64 {
     plan.synapses.iter().filter(from_acts).map(|synapse| synapse.weight).sum()
 }
 
-/// Place of a channel in the row of populations and channels.
+/// Index of a channel, which follow the populations.
 fn channel(plan: &NetworkPlan, is_it: impl Fn(Channel, Role) -> bool) -> Option<usize> {
     let index = plan.channels.iter().position(|own| is_it(own.channel, own.meaning.role))?;
     Some(plan.populations.len() + index)

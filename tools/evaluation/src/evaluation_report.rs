@@ -1,76 +1,76 @@
-use crate::statistics::{Interval, Share, Spread};
-use crate::{Detection, ErrorKind, Inference, Mind, PartnerAction, Trial};
+use crate::statistics::{Estimate, Proportion, Spread};
+use crate::{Detection, ErrorKind, Inference, NetworkVariant, PartnerAction, Trial};
 use serde::Serialize;
 
-/// What came of all assemblies. Actions count from the moment at which their grasp was complete.
+/// What came of all assemblies. Actions count if their grasp was completed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Report {
-    /// The robot's mind.
-    pub mind: Mind,
+pub struct EvaluationReport {
+    /// The robot's network.
+    pub network: NetworkVariant,
     /// Assemblies that were completed.
-    pub completed: Share,
-    /// Assemblies that came to a standstill.
-    pub deadlocks: Share,
+    pub completed: Proportion,
+    /// Assemblies that came to a deadlock: see [`Trial::stalled`].
+    pub deadlocks: Proportion,
     /// Time of the completed ones, s.
-    pub seconds: Option<Interval>,
+    pub seconds: Option<Estimate>,
     /// Valid actions in full view whose goal stood rightly in IL at grasp completion.
-    pub right: Share,
+    pub right: Proportion,
     /// ... for which another one stood.
-    pub wrong: Share,
+    pub wrong: Proportion,
     /// ... for which none stood.
-    pub absent: Share,
+    pub absent: Proportion,
     /// Valid actions of hidden hands whose goal stood rightly in IL at grasp completion.
-    pub right_of_hidden: Share,
+    pub right_of_hidden: Proportion,
     /// ... for which another one stood.
-    pub wrong_of_hidden: Share,
+    pub wrong_of_hidden: Proportion,
     /// ... for which none stood.
-    pub absent_of_hidden: Share,
+    pub absent_of_hidden: Proportion,
     /// Wrong actions whose goal stood rightly in IL at grasp completion.
-    pub right_of_errors: Share,
+    pub right_of_errors: Proportion,
     /// Valid actions in full view whose complementary action was decided before grasp completion.
-    pub anticipated: Share,
+    pub anticipated: Proportion,
     /// Decision lead of all of them that were answered rightly, ms.
     pub lead_ms: Option<Spread>,
     /// Its mean.
-    pub mean_lead_ms: Option<Interval>,
+    pub mean_lead_ms: Option<Estimate>,
     /// Errors by kind.
-    pub errors: Vec<ErrorTally>,
+    pub errors: Vec<ErrorCounts>,
     /// False alarms against valid actions, hidden ones among them.
-    pub false_alarms: Share,
+    pub false_alarms: Proportion,
     /// Ticks with two peaks in one decision layer, in all assemblies.
     pub double_peaks: u64,
-    /// Shares of the task time, of completed assemblies: see [`Fluency`](crate::Fluency).
-    pub human_idle: Option<Interval>,
+    /// Fractions of the task time, of completed assemblies: see [`Fluency`](crate::Fluency).
+    pub human_idle: Option<Estimate>,
     /// R-IDLE.
-    pub robot_idle: Option<Interval>,
+    pub robot_idle: Option<Estimate>,
     /// C-ACT.
-    pub concurrent: Option<Interval>,
+    pub concurrent: Option<Estimate>,
     /// F-DEL.
-    pub functional_delay: Option<Interval>,
+    pub functional_delay: Option<Estimate>,
     /// Functional delay of dependent turns, ms: see [`Trial::answer_delay_ms`].
-    pub answer_delay_ms: Option<Interval>,
+    pub answer_delay_ms: Option<Estimate>,
     /// Waiting of the person within actions.
-    pub human_waits: Option<Interval>,
+    pub human_waits: Option<Estimate>,
 }
 
 /// How often one kind of error was noticed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct ErrorTally {
+pub struct ErrorCounts {
     /// Which.
     pub kind: ErrorKind,
     /// Before grasp completion.
-    pub in_time: Share,
+    pub in_time: Proportion,
     /// Later in the same action.
-    pub late: Share,
+    pub late: Proportion,
     /// Not at all.
-    pub missed: Share,
+    pub missed: Proportion,
 }
 
-impl Report {
+impl EvaluationReport {
     /// Counts what `trials` were like.
-    pub fn new(mind: &Mind, trials: &[Trial]) -> Self {
+    pub fn new(network: &NetworkVariant, trials: &[Trial]) -> Self {
         let of_trials = |is_so: &dyn Fn(&Trial) -> bool| {
-            Share::new(trials.iter().filter(|trial| is_so(trial)).count(), trials.len())
+            Proportion::new(trials.iter().filter(|trial| is_so(trial)).count(), trials.len())
         };
         let actions: Vec<&PartnerAction> = trials.iter().flat_map(|trial| &trial.actions).collect();
         let grasped = || actions.iter().copied().filter(|action| action.grasp_ms.is_some());
@@ -78,16 +78,16 @@ impl Report {
             grasped().filter(|action| action.error.is_none()).partition(|action| action.hidden);
         let wrong: Vec<_> = grasped().filter(|action| action.error.is_some()).collect();
         let inferred = |among: &[&PartnerAction], what: Inference| {
-            Share::new(among.iter().filter(|action| action.inference == Some(what)).count(), among.len())
+            Proportion::new(among.iter().filter(|action| action.inference == Some(what)).count(), among.len())
         };
         let leads: Vec<f64> =
             valid.iter().filter_map(|action| action.lead_ms).map(|lead| lead as f64).collect();
         let completed: Vec<&Trial> = trials.iter().filter(|trial| trial.completed_ms.is_some()).collect();
-        let mean = |figure: &dyn Fn(&Trial) -> f64| {
-            Interval::mean(&completed.iter().map(|trial| figure(trial)).collect::<Vec<_>>())
+        let mean = |metric: &dyn Fn(&Trial) -> f64| {
+            Estimate::mean(&completed.iter().map(|trial| metric(trial)).collect::<Vec<_>>())
         };
         Self {
-            mind: mind.clone(),
+            network: network.clone(),
             completed: of_trials(&|trial| trial.completed_ms.is_some()),
             deadlocks: of_trials(&|trial| trial.stalled),
             seconds: mean(&|trial| trial.ended_ms as f64 / 1e3),
@@ -98,11 +98,11 @@ impl Report {
             wrong_of_hidden: inferred(&hidden, Inference::Wrong),
             absent_of_hidden: inferred(&hidden, Inference::Absent),
             right_of_errors: inferred(&wrong, Inference::Right),
-            anticipated: Share::new(leads.iter().filter(|lead| **lead > 0.0).count(), valid.len()),
-            mean_lead_ms: Interval::mean(&leads),
+            anticipated: Proportion::new(leads.iter().filter(|lead| **lead > 0.0).count(), valid.len()),
+            mean_lead_ms: Estimate::mean(&leads),
             lead_ms: Spread::new(leads),
-            errors: ErrorKind::ALL.iter().map(|kind| ErrorTally::new(*kind, &wrong)).collect(),
-            false_alarms: Share::new(
+            errors: ErrorKind::ALL.iter().map(|kind| ErrorCounts::new(*kind, &wrong)).collect(),
+            false_alarms: Proportion::new(
                 trials.iter().map(|trial| trial.false_alarms.len()).sum(),
                 valid.len() + hidden.len(),
             ),
@@ -117,13 +117,13 @@ impl Report {
     }
 }
 
-impl ErrorTally {
+impl ErrorCounts {
     fn new(kind: ErrorKind, wrong: &[&PartnerAction]) -> Self {
         let own: Vec<_> = wrong.iter().filter(|action| action.error == Some(kind)).collect();
-        let share = |what: Detection| {
-            Share::new(own.iter().filter(|action| action.detection == Some(what)).count(), own.len())
+        let proportion = |what: Detection| {
+            Proportion::new(own.iter().filter(|action| action.detection == Some(what)).count(), own.len())
         };
-        let (in_time, late) = (share(Detection::InTime), share(Detection::Late));
-        Self { kind, in_time, late, missed: share(Detection::Missed) }
+        let (in_time, late) = (proportion(Detection::InTime), proportion(Detection::Late));
+        Self { kind, in_time, late, missed: proportion(Detection::Missed) }
     }
 }

@@ -1,5 +1,5 @@
 use crate::activity::Activity;
-use crate::fluency::FluencyAccount;
+use crate::fluency::FluencyCounter;
 use crate::trial::{Alarm, Detection, DoublePeak, ErrorKind, Inference, PartnerAction, Trial};
 use coact_joint_task::{Act, NetworkPlan, Population, Role, Task};
 use coact_lockstep::Lockstep;
@@ -14,18 +14,19 @@ const DECISIONS: [LayerKind; 4] = [
     LayerKind::ErrorMonitoring,
     LayerKind::ActionExecution,
 ];
-/// A peak whose signal is above this has formed; two below it are a change from one to the other.
+/// Signal above which a peak has formed: half of what a full peak gives. Two lower ones are a change from one decision to
+/// the next.
 const FORMED: f64 = 0.5;
-/// Signals from which a population is worth telling.
+/// Signal above which a population is named in a trial. Chosen by hand, above the noise of a field at rest; for reading only.
 const SHOWN: f64 = 0.05;
 
-/// Watches one assembly, tick by tick, and writes down what it was like.
+/// Records one assembly, tick by tick.
 #[derive(Debug)]
-pub(crate) struct Observer<'a> {
+pub(crate) struct TrialRecorder<'a> {
     task: &'a Task,
     plan: &'a NetworkPlan,
     anticipation: Anticipation,
-    fluency: FluencyAccount,
+    fluency: FluencyCounter,
     trial: Trial,
     open: Option<OpenAction>,
     /// Populations of EML whose peaks stand.
@@ -40,11 +41,11 @@ struct OpenAction {
     errors: Vec<usize>,
 }
 
-impl<'a> Observer<'a> {
+impl<'a> TrialRecorder<'a> {
     pub fn new(task: &'a Task, plan: &'a NetworkPlan, seed: u64) -> Self {
         Self {
             anticipation: Anticipation::new(task, Intentions::from(plan)),
-            fluency: FluencyAccount::default(),
+            fluency: FluencyCounter::default(),
             trial: Trial {
                 seed,
                 completed_ms: None,
@@ -65,13 +66,13 @@ impl<'a> Observer<'a> {
         }
     }
 
-    /// Takes notice of one tick.
+    /// Adds one tick.
     pub fn tick(&mut self, stages: &Lockstep) {
         let (truth, frame) = (&*stages.truth, &*stages.frame);
         self.fluency.tick(Activity::now(self.task, truth, &stages.command));
         let mut events = Vec::new();
         self.anticipation.observe(truth, frame, &mut events);
-        self.keep(&events);
+        self.add_answers(&events);
         self.follow_action(truth, frame);
         self.look_for_alarms(truth, frame);
         self.look_for_doubles(frame);
@@ -81,7 +82,7 @@ impl<'a> Observer<'a> {
     pub fn finish(mut self, stages: &Lockstep, stalled: bool) -> Trial {
         let mut events = Vec::new();
         self.anticipation.finish(&mut events);
-        self.keep(&events);
+        self.add_answers(&events);
         self.close();
         let achieved = stages.truth.achieved;
         let done = |goal: &usize| achieved & (1 << goal) != 0;
@@ -96,13 +97,13 @@ impl<'a> Observer<'a> {
             stalled,
             last_fields,
             achieved,
-            fluency: self.fluency.shares(),
+            fluency: self.fluency.fluency(),
             ..self.trial
         }
     }
 
-    /// Writes down how an action was answered.
-    fn keep(&mut self, events: &[Event]) {
+    /// Adds how actions were answered.
+    fn add_answers(&mut self, events: &[Event]) {
         for answer in events.iter().filter_map(Event::as_action) {
             let own = self.trial.actions.iter_mut().find(|own| own.number == answer.action);
             if let Some(own) = own.filter(|own| own.error.is_none()) {
@@ -130,7 +131,7 @@ impl<'a> Observer<'a> {
         let rose = open.errors.iter().map(|&error| frame.since[error]).filter(|&since| since > 0).min();
         action.detected_ms = action.detected_ms.or(rose.map(|since| since.max(action.onset_ms)));
         if grasped {
-            // A step whose turn has come on the way is no mistake any more.
+            // A step whose turn came during the reach is no error any more.
             action.error = action.error.filter(|_| truth.error != PartnerError::None as u32);
             action.grasp_ms = Some(truth.grasp_cycle);
             action.inference = Some(match inferred {
@@ -156,15 +157,15 @@ impl<'a> Observer<'a> {
             error if error == PartnerError::Done as u32 => Some(ErrorKind::Done),
             _ => Some(ErrorKind::Early),
         };
-        let told = |meaning: &Population| match error {
+        let counts = |meaning: &Population| match error {
             None => false,
-            // A gesture names no part: that something is wrong with it is all that can be told.
+            // A gesture names no part, so that any error counts.
             Some(ErrorKind::AtHand | ErrorKind::Asked) => meaning.role != Role::Loss,
             Some(ErrorKind::Early) => meaning.role == Role::Goal && meaning.subgoal == Some(subgoal),
             Some(ErrorKind::Done) => meaning.role == Role::Done && meaning.subgoal == Some(subgoal),
         };
         let row = self.plan.layer(LayerKind::ErrorMonitoring).populations.clone();
-        let errors = row.filter(|&index| told(&self.plan.populations[index])).collect();
+        let errors = row.filter(|&index| counts(&self.plan.populations[index])).collect();
         self.open = Some(OpenAction { goal: self.plan.goal(chain, subgoal), errors });
         self.trial.actions.push(PartnerAction {
             number: truth.actions,
@@ -195,7 +196,7 @@ impl<'a> Observer<'a> {
         });
     }
 
-    /// A peak in EML that rises while the person does nothing wrong; a part that the robot lost is its own affair.
+    /// A peak in EML that rises while the person does nothing wrong; a part that the robot lost is no error of the person's.
     fn look_for_alarms(&mut self, truth: &Truth, frame: &FieldFrame) {
         let row = self.plan.layer(LayerKind::ErrorMonitoring).populations.clone();
         for index in row.filter(|&index| self.plan.populations[index].role != Role::Loss) {
@@ -237,14 +238,14 @@ impl<'a> Observer<'a> {
 
     /// All populations that are active: layer, name, signal.
     fn shown(&self, frame: &FieldFrame) -> Vec<String> {
-        let tell = |layer: &coact_joint_task::LayerPlan| {
+        let active_of = |layer: &coact_joint_task::LayerPlan| {
             let (name, row) = (layer.kind.name(), layer.populations.clone());
             let active = row.filter(|&index| frame.signal[index] > SHOWN);
-            let told = |index: usize| {
+            let described = |index: usize| {
                 format!("{name} {} {:.2}", self.plan.populations[index].label, frame.signal[index])
             };
-            active.map(told).collect::<Vec<_>>()
+            active.map(described).collect::<Vec<_>>()
         };
-        self.plan.layers.iter().flat_map(tell).collect()
+        self.plan.layers.iter().flat_map(active_of).collect()
     }
 }

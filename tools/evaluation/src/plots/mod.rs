@@ -1,0 +1,16 @@
+//! Pictures of an evaluation, as SVG.
+
+mod fluency;
+mod leads;
+
+pub use fluency::draw_fluency;
+pub use leads::draw_leads;
+
+use plotters::prelude::RGBColor;
+
+/// Pixels.
+const SIZE: (u32, u32) = (900, 480);
+/// Right answers in time; the first of two variants.
+const BLUE: RGBColor = RGBColor(0x1f, 0x5f, 0xa8);
+/// Answers that came too late; the second variant.
+const ORANGE: RGBColor = RGBColor(0xd0, 0x6a, 0x1c);
