@@ -2,7 +2,7 @@
 
 use crate::installation::Installation;
 use anyhow::{Result, bail};
-use coact_learning::{Mapping, MappingFile, Provenance};
+use coact_learning::{Connection, Mapping, MappingFile, Provenance};
 use coact_lockstep::Lockstep;
 use coact_period::cycles;
 use coact_pipeline::{RunSettings, WorldMode};
@@ -42,34 +42,42 @@ pub struct Args {
 pub fn run(args: Args) -> Result<ExitCode> {
     let shipped = RunSettings::shipped(&Installation::find()?.configuration);
     let task = absolute(args.task.unwrap_or_else(|| shipped.task.clone()))?;
-    let settings =
-        |seed: u64| RunSettings { task: task.clone(), seed, world: WorldMode::Kinematic, ..shipped.clone() };
-    let first = Lockstep::new(&settings(args.seed))?;
-    let mut mapping = Mapping::new(first.task(), first.plan())?;
-    let name = first.task().name.clone();
+    let first = RunSettings { task, seed: args.seed, world: WorldMode::Kinematic, ..shipped };
+    let stages = Lockstep::new(&first)?;
+    let mut mapping = Mapping::new(stages.task(), stages.plan())?;
     for trial in 0..args.trials {
-        let mut stages = Lockstep::new(&settings(args.seed.wrapping_add(u64::from(trial))))?;
-        mapping.begin();
-        while !stages.complete() && stages.ticks() < LONGEST {
-            stages.step();
-            mapping.watch(stages.ticks(), &stages.frame, &stages.percept);
-        }
+        let seed = args.seed.wrapping_add(u64::from(trial));
+        watch(&mut mapping, &RunSettings { seed, ..first.clone() })?;
         eprintln!("assembly {}: {} successes so far", trial + 1, mapping.successes());
     }
-    if mapping.successes() == 0 {
+    let (task, successes) = (stages.task().name.clone(), mapping.successes());
+    if successes == 0 {
         bail!("no action of the partner succeeded in {} assemblies; try more with --trials", args.trials);
     }
     let connections = mapping.connections();
-    for connection in &connections {
-        let source = match connection.successes {
-            0 => "as with other kinds".into(),
-            count => format!("{count} successes"),
-        };
-        println!("{:<28} -> {:<24} {:.2}  {source}", connection.act, connection.chain, connection.weight);
-    }
-    let provenance =
-        Provenance { task: name, trials: args.trials, seed: args.seed, successes: mapping.successes() };
+    connections.iter().for_each(print);
+    let provenance = Provenance { task, trials: args.trials, seed: args.seed, successes };
     MappingFile { provenance, connections }.write(&args.out)?;
     println!("written to {}", args.out.display());
     Ok(ExitCode::SUCCESS)
+}
+
+/// Learns from one assembly.
+fn watch(mapping: &mut Mapping, settings: &RunSettings) -> Result<()> {
+    let mut stages = Lockstep::new(settings)?;
+    mapping.begin();
+    while !stages.complete() && stages.ticks() < LONGEST {
+        stages.step();
+        mapping.watch(stages.ticks(), &stages.frame, &stages.percept);
+    }
+    Ok(())
+}
+
+fn print(connection: &Connection) {
+    let Connection { act, chain, weight, successes } = connection;
+    let source = match successes {
+        0 => "as with other kinds".into(),
+        count => format!("{count} successes"),
+    };
+    println!("{act:<28} -> {chain:<24} {weight:.2}  {source}");
 }

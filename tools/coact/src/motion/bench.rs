@@ -2,7 +2,7 @@
 
 use super::robot::RobotArgs;
 use anyhow::{Result, bail};
-use coact_motion_suite::{Measurement, Scenario, measure};
+use coact_motion_suite::{Measurement, Scenario, Setting, measure};
 use comfy_table::{CellAlignment, Table, presets};
 use indicatif::{ProgressBar, ProgressStyle};
 use owo_colors::{OwoColorize, Stream};
@@ -43,20 +43,7 @@ pub struct Args {
 /// A robot or task that is refused, or a scenario that does not exist.
 pub fn run(args: Args) -> Result<ExitCode> {
     let setting = args.robot.setting(args.task.as_ref())?;
-    let known = Scenario::ALL.map(Scenario::name);
-    if let Some(unknown) = args.only.iter().find(|name| !known.contains(&name.as_str())) {
-        bail!("--only {unknown}: no such scenario; there are {}", known.join(", "));
-    }
-    let wanted =
-        |scenario: &Scenario| args.only.is_empty() || args.only.iter().any(|name| name == scenario.name());
-    let able = |scenario: &Scenario| setting.hand.is_some() || !scenario.needs_hand();
-    let scenarios: Vec<Scenario> = Scenario::ALL.into_iter().filter(wanted).filter(able).collect();
-    if scenarios.is_empty() {
-        bail!(
-            "--only {}: needs a robot file (.toml) with its own hand: a URDF does not say how a hand grips",
-            args.only.join(", ")
-        );
-    }
+    let scenarios = scenarios(&args.only, &setting)?;
     let count = u64::from(args.cases);
     let bar = ProgressBar::new(count * scenarios.len() as u64)
         .with_style(ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}")?);
@@ -76,6 +63,24 @@ pub fn run(args: Args) -> Result<ExitCode> {
         print(&measured);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The scenarios of these names, or all; without those that this robot cannot do.
+fn scenarios(names: &[String], setting: &Setting) -> Result<Vec<Scenario>> {
+    let known = Scenario::ALL.map(Scenario::name);
+    if let Some(unknown) = names.iter().find(|name| !known.contains(&name.as_str())) {
+        bail!("--only {unknown}: no such scenario; there are {}", known.join(", "));
+    }
+    let chosen = |scenario: &Scenario| names.is_empty() || names.iter().any(|name| name == scenario.name());
+    let able = |scenario: &Scenario| setting.hand.is_some() || !scenario.needs_hand();
+    let scenarios: Vec<Scenario> = Scenario::ALL.into_iter().filter(chosen).filter(able).collect();
+    if scenarios.is_empty() {
+        bail!(
+            "--only {}: needs a robot file (.toml) with its own hand: a URDF does not say how a hand grips",
+            names.join(", ")
+        );
+    }
+    Ok(scenarios)
 }
 
 fn print(measured: &[(Scenario, Measurement)]) {
