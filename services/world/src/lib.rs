@@ -25,6 +25,7 @@ mod error;
 mod palm;
 mod parts;
 mod replay;
+mod resume_error;
 mod robot_hand;
 mod robot_hand_state;
 mod scenario;
@@ -36,6 +37,7 @@ mod world;
 
 pub use error::WorldError;
 pub use replay::{METRES_PER_PIXEL, Replay, Span, has_part_for};
+pub use resume_error::ResumeError;
 pub use scenario::Scenario;
 pub use settings::{Partner, Settings};
 pub use world::World;

@@ -116,7 +116,9 @@ fn simulate(mut process: Process) -> anyhow::Result<()> {
     let mut truth: Output<Truth> = process.bus().output(topic::TRUTH)?;
     let mut state: Output<WorldState> = process.bus().output(topic::WORLD_STATE)?;
     if let Some(last) = process.checkpoint(&mut state)? {
-        world.resume(&last);
+        if let Err(reason) = world.resume(&last) {
+            tracing::warn!("the world starts anew: {reason}");
+        }
         sample.continue_after(&last.header);
         truth.continue_after(&last.header);
     }

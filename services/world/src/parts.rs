@@ -1,6 +1,7 @@
 use coact_joint_task::{Fit, Task};
 use coact_messages::{MAX_PARTS, NONE, PartState};
 use coact_person::{Holder, PartsView};
+use coact_stage_state::{Implausible, ensure, finite};
 use glam::{DQuat, DVec3};
 
 /// From how far before its socket on a part that stands true to it fits into what it is mounted in, m.
@@ -47,8 +48,18 @@ impl Parts {
         }
     }
 
-    pub fn restore(&mut self, state: &[PartState; MAX_PARTS]) {
+    /// Takes over where the parts were, unless one of them is where or what it cannot be.
+    pub fn restore(&mut self, state: &[PartState; MAX_PARTS], task: &Task) -> Result<(), Implausible> {
+        for (part, laid) in state.iter().zip(&task.parts) {
+            finite("part: place", &[&part.position[..], &part.orientation, &part.velocity].concat())?;
+            ensure(part.kind as usize == laid.kind, "part.kind", "that of the task")?;
+            ensure(part.state <= Holder::Socket as u32, "part.state", "0, 1, 2 or 3")?;
+            let is_somewhere =
+                part.state != Holder::Socket as u32 || (part.subgoal as usize) < task.subgoals.len();
+            ensure(is_somewhere, "part.subgoal", "a subgoal of the task for a mounted part")?;
+        }
         self.state = *state;
+        Ok(())
     }
 
     pub fn all(&self) -> &[PartState] {

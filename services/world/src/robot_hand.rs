@@ -4,8 +4,9 @@ use crate::robot_hand_state::RobotHandState;
 use crate::simulated_robot::MeasuredGrip;
 use coact_joint_task::Task;
 use coact_messages::{ARM_JOINTS, JOINTS};
-use coact_person::{Holder, Slot};
+use coact_person::Holder;
 use coact_robot::{HAND_JOINTS, Hand, Robot};
+use coact_stage_state::{Flag, Slot};
 use glam::{DQuat, DVec3};
 
 /// How near a part's axis must be to that of the hand, between palm and grasp point, for the fingers to get hold of it, m.
@@ -193,10 +194,10 @@ impl RobotHand {
             (true, 0) => tick.max(1),
             (true, since) => since,
         };
-        state.brought = u64::from(!empty && (state.brought == 1 || !at_handover));
+        state.brought = Flag::from(!empty && (state.brought.is_set() || !at_handover));
         state.requesting_since =
             since(at_handover && empty && palm.finger_closure < self.open, state.requesting_since);
-        state.giving_since = since(at_handover && state.brought == 1, state.giving_since);
+        state.giving_since = since(at_handover && state.brought.is_set(), state.giving_since);
         state.steadying_since = since(at_base && empty, state.steadying_since);
         let between = |part: &usize| {
             parts.is(*part, Holder::Person) && self.distance(*part, palm, parts, task) <= REACH

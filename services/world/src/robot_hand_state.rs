@@ -1,9 +1,11 @@
-use bytemuck::{Pod, Zeroable};
-use coact_person::{RobotHandView, Slot};
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+use coact_messages::MAX_PARTS;
+use coact_person::RobotHandView;
+use coact_stage_state::{Flag, Implausible, Slot, ensure, finite};
 
 /// What the robot's hand remembers, and since when it has stood where the person pays attention to it (ticks, 0: not).
 #[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, PartialEq, CheckedBitPattern, NoUninit, Zeroable)]
 pub(crate) struct RobotHandState {
     pub held: Slot,
     /// Pose of the held part in the palm frame.
@@ -16,8 +18,8 @@ pub(crate) struct RobotHandState {
     pub giving_since: u64,
     /// At the place where the base is steadied.
     pub steadying_since: u64,
-    /// 1 once the held part has been away from the place where parts change hands: not received there just now.
-    pub brought: u64,
+    /// Set once the held part has been away from the place where parts change hands: not received there just now.
+    pub brought: Flag,
     /// Where the palm was when it took the held part.
     pub taken_at: [f64; 3],
     /// Ticks for which it has been carried, away from there.
@@ -35,6 +37,22 @@ pub(crate) struct RobotHandState {
 }
 
 impl RobotHandState {
+    /// Refuses what no hand can have come to up to tick `now`.
+    pub fn check(&self, now: u64) -> Result<(), Implausible> {
+        let parts = [self.held, self.slipped, self.receiving];
+        ensure(parts.iter().all(|part| part.is_below(MAX_PARTS)), "robot: part", "one that there is")?;
+        let since = [self.requesting_since, self.giving_since, self.steadying_since];
+        ensure(since.iter().all(|tick| *tick <= now.max(1)), "robot: tick", "one that has been")?;
+        let counts = [self.carried, self.changing];
+        ensure(
+            counts.iter().all(|count| *count <= now.saturating_add(1)),
+            "robot: count",
+            "no more than the ticks so far",
+        )?;
+        finite("robot: grip", &[&self.offset[..], &self.turn, &self.taken_at].concat())?;
+        finite("robot: fingers", &[self.finger_closure, self.wanted, self.tightest])
+    }
+
     /// What the person sees and feels of the hand.
     pub fn view(&self) -> RobotHandView {
         RobotHandView {

@@ -1,72 +1,51 @@
 use crate::robot_hand_state::RobotHandState;
 use crate::sensors::TrackerState;
-use bytemuck::{Pod, Zeroable};
-use coact_messages::{Heard, MAX_PARTS, SceneView, WorldState};
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+use coact_messages::{Heard, MAX_PARTS, SceneView};
 use coact_person::PersonState;
+use coact_stage_state::{Flag, Implausible, StageState, ensure};
 
-/// Everything that a world remembers beside joints and parts: the opaque words of [`WorldState`].
+/// The world's state beside joints and parts: the opaque words of [`WorldState`](coact_messages::WorldState).
 ///
 /// Random generators need none: their numbers depend on seed and tick alone.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, CheckedBitPattern, NoUninit, Zeroable)]
 pub(crate) struct SimulationState {
     /// Tick of the last step.
     pub tick: u64,
-    /// 1 once a step was made.
-    pub started: u64,
+    /// Whether a step was made.
+    pub started: Flag,
     /// Tick since which the assembly has been complete; 0 while it is not.
     pub complete_since: u64,
     /// Completed assemblies before the present one.
     pub assemblies: u64,
-    /// Ticks for which each part has lain where nobody can take it from.
+    /// Cycles for which each part has lain where nobody can take it from.
     pub stray: [u64; MAX_PARTS],
     pub person: PersonState,
     pub robot: RobotHandState,
     pub tracker: TrackerState,
-    pub scene: SceneFrame,
+    /// The recogniser's newest frame.
+    pub scene: SceneView,
     /// Bit i set: the scene's i-th slip has happened.
     pub slipped: u64,
     /// What the person said last.
-    pub heard: HeardSentence,
+    pub heard: Heard,
 }
 
-/// The newest sentence.
-#[repr(transparent)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub(crate) struct HeardSentence(pub Heard);
+impl StageState for SimulationState {
+    const STAGE: &'static str = "world";
+    const LAYOUT: u32 = 1;
 
-impl PartialEq for HeardSentence {
-    fn eq(&self, other: &Self) -> bool {
-        bytemuck::bytes_of(self) == bytemuck::bytes_of(other)
-    }
-}
-
-/// The recogniser's newest frame.
-#[repr(transparent)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
-pub(crate) struct SceneFrame(pub SceneView);
-
-impl PartialEq for SceneFrame {
-    fn eq(&self, other: &Self) -> bool {
-        bytemuck::bytes_of(self) == bytemuck::bytes_of(other)
-    }
-}
-
-const WORDS: usize = size_of::<SimulationState>() / 8;
-const _: () = assert!(
-    size_of::<SimulationState>().is_multiple_of(8) && WORDS <= 768,
-    "memory outgrew WorldState::memory"
-);
-
-impl SimulationState {
-    pub fn save(&self, state: &mut WorldState) {
-        state.memory[..WORDS].copy_from_slice(bytemuck::cast_slice(std::slice::from_ref(self)));
-        state.memory[WORDS..].fill(0.0);
-    }
-
-    pub fn load(state: &WorldState) -> Self {
-        let mut memory = Self::zeroed();
-        bytemuck::cast_slice_mut(std::slice::from_mut(&mut memory)).copy_from_slice(&state.memory[..WORDS]);
-        memory
+    fn check(&self) -> Result<(), Implausible> {
+        let counts = [self.assemblies, self.scene.frame, self.heard.sentences, self.tick >> 16];
+        let counts = counts.iter().chain(&self.stray).all(|count| *count <= u64::from(u32::MAX));
+        ensure(counts, "tick or count", "one that can be reached in a run")?;
+        let complete = self.complete_since <= self.tick.max(1);
+        ensure(complete, "complete_since", "a tick that has been")?;
+        let sightings = self.scene.sightings as usize <= self.scene.sighting.len()
+            && self.scene.occluders as usize <= self.scene.occluder.len();
+        ensure(sightings, "scene", "as many sightings and occluders as there is room for")?;
+        self.tracker.check()?;
+        self.robot.check(self.tick)
     }
 }

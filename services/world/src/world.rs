@@ -7,17 +7,18 @@ use crate::simulated_robot::{
     FingerStop, Influence, Joints, KinematicRobot, PhysicsSimulation, SimulatedRobot,
 };
 use crate::simulation_state::SimulationState;
-use crate::{Partner, Settings, WorldError};
+use crate::{Partner, ResumeError, Settings, WorldError};
 use bytemuck::Zeroable;
 use coact_joint_task::{Fit, Task};
 use coact_messages::{
     ARM_JOINTS, Command, JOINTS, NONE, PartnerPhase, SensorSample, Truth, WorldState, is_blocked,
 };
-use coact_period::cycles;
-use coact_person::{Holder, Manipulation, Person, Policy, Slot, Surroundings};
+use coact_period::{CYCLES_PER_SECOND, cycles};
+use coact_person::{Holder, Manipulation, Person, Policy, Surroundings};
 use coact_pipeline::WorldMode;
 use coact_random::RandomStreams;
 use coact_robot::Robot;
+use coact_stage_state::{Flag, Slot, StageState, finite};
 use glam::DVec3;
 use std::time::Duration;
 
@@ -97,7 +98,7 @@ impl World {
             self.simulation.robot.wanted = coact_messages::finger_closure(&command.position);
         }
         let influence = Influence {
-            elapsed: self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, 1000)),
+            elapsed: self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, CYCLES_PER_SECOND)),
             command,
             task: &self.task,
             stop: FingerStop { hand: self.hand.stop(&self.simulation.robot, &self.parts) },
@@ -111,7 +112,7 @@ impl World {
         self.live(tick, &palm);
         self.sense(tick, out);
         self.simulation.tick = tick;
-        self.simulation.started = 1;
+        self.simulation.started = Flag::Set;
         self.tell(truth);
         self.write(checkpoint);
     }
@@ -119,7 +120,7 @@ impl World {
     /// The person has said something: the next sample tells it.
     pub fn hear(&mut self, sentence: &str) {
         let next = self.last_tick().map_or(0, |last| last + 1);
-        self.simulation.heard.0.hear(next, sentence);
+        self.simulation.heard.hear(next, sentence);
     }
 
     /// Actions of the script that were given up because there was no part to carry them out with.
@@ -128,25 +129,33 @@ impl World {
     }
 
     fn last_tick(&self) -> Option<u64> {
-        (self.simulation.started == 1).then_some(self.simulation.tick)
+        self.simulation.started.is_set().then_some(self.simulation.tick)
     }
 
     /// Goes on from the newest message of a world that was killed: parts stay where they are, held ones stay held,
-    /// and the person carries on. A state of another task is not resumed from.
-    pub fn resume(&mut self, last: &WorldState) {
-        if last.task != self.task.fingerprint || last.parts != self.task.parts.len() as u64 {
-            return;
+    /// and the person carries on.
+    ///
+    /// # Errors
+    /// [`ResumeError`] for the state of another task, and for a damaged one. The world then stays as it was.
+    pub fn resume(&mut self, last: &WorldState) -> Result<(), ResumeError> {
+        let (found, expected) = (last.task, self.task.fingerprint);
+        if found != expected || last.parts != self.task.parts.len() as u64 {
+            return Err(ResumeError::OtherTask { found, expected });
         }
+        let simulation = SimulationState::load(&last.state)?;
+        self.person.check(&simulation.person, &self.task, simulation.tick)?;
+        finite("joints", &[last.position, last.velocity].concat())?;
+        self.parts.restore(&last.part, &self.task)?;
         self.joints = Joints { position: last.position, velocity: last.velocity };
-        self.parts.restore(&last.part);
-        self.simulation = SimulationState::load(last);
+        self.simulation = simulation;
         self.robot.resume(&self.joints, &self.parts);
+        Ok(())
     }
 
     /// Hands and parts: who grasps, carries and lets go of what.
     fn live(&mut self, tick: u64, palm: &Palm) {
         let Self { task, hand, person, robot, parts, simulation, staging, .. } = self;
-        if simulation.started == 0 {
+        if !simulation.started.is_set() {
             person.start(tick, &mut simulation.person);
         }
         hand.advance(palm, robot.grip(), &mut simulation.robot, simulation.person.held, parts, task);
@@ -161,7 +170,7 @@ impl World {
         let done = person.advance(&mut simulation.person, &around);
         handle(&done, simulation.robot.held, parts, task);
         if let Some(sentence) = person.speak(&mut simulation.person, task) {
-            simulation.heard.0.hear(tick, sentence);
+            simulation.heard.hear(tick, sentence);
         }
         self.tidy();
         self.begin_again(tick, palm);
@@ -226,17 +235,17 @@ impl World {
         track(tick, last, random, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
         out.hand = simulation.tracker.delivered;
         if !staging.is_blind(Sense::Objects, tick) {
-            recognise(tick, last, random, parts, (eye, occluders), &mut simulation.scene.0);
+            recognise(tick, last, random, parts, (eye, occluders), &mut simulation.scene);
         }
-        out.scene = simulation.scene.0;
-        out.heard = simulation.heard.0;
+        out.scene = simulation.scene;
+        out.heard = simulation.heard;
     }
 
     fn tell(&self, truth: &mut Truth) {
         let person = &self.simulation.person;
         truth.actions = person.actions as u32;
         let phase = person.phase().as_told();
-        let of_action = |index: Slot| if phase == PartnerPhase::Idle { NONE } else { index.message() };
+        let of_action = |index: Slot| if phase == PartnerPhase::Idle { NONE } else { index.or(NONE) };
         truth.phase = phase as u32;
         truth.chain = of_action(person.chain);
         truth.subgoal = of_action(person.subgoal);
@@ -256,7 +265,7 @@ impl World {
         checkpoint.velocity = self.joints.velocity;
         checkpoint.parts = self.parts.all().len() as u64;
         checkpoint.part = *self.parts.row();
-        self.simulation.save(checkpoint);
+        self.simulation.store(&mut checkpoint.state);
     }
 }
 

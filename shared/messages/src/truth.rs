@@ -1,5 +1,5 @@
 use crate::{Header, WORKSPACES};
-use bytemuck::{Pod, Zeroable};
+use bytemuck::{CheckedBitPattern, NoUninit, Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
 /// What really happens, for the monitor alone: no other service may subscribe to this topic (1 kHz).
@@ -40,7 +40,7 @@ pub struct Truth {
 }
 
 /// What is wrong with one of the person's actions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, CheckedBitPattern, NoUninit, Zeroable)]
 #[repr(u32)]
 pub enum PartnerError {
     /// Nothing.

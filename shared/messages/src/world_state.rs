@@ -2,7 +2,7 @@ use crate::{Header, JOINTS, MAX_PARTS};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
-/// The world's own memory: what a restarted world resumes from. Read by the supervisor alone (1 kHz), which
+/// The world's own state: what a restarted world resumes from. Read by the supervisor alone (1 kHz), which
 /// keeps it as a checkpoint.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
@@ -20,8 +20,8 @@ pub struct WorldState {
     pub parts: u64,
     /// Every part of the scene.
     pub part: [PartState; MAX_PARTS],
-    /// Opaque words: partner, random generators, sensors; `services/world` says what each holds.
-    pub memory: [f64; 768],
+    /// The simulation state in opaque words: partner, robot's hand, sensors; `services/world` says what each holds.
+    pub state: [f64; 768],
 }
 
 /// Where one part is and who has it.

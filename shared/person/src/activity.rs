@@ -1,5 +1,7 @@
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+
 /// What the person's present activity is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, CheckedBitPattern, NoUninit, Zeroable)]
 #[repr(u64)]
 pub enum Activity {
     /// Take a part of one's own workspace and mount it.
@@ -10,9 +12,4 @@ pub enum Activity {
     Request = 2,
     /// Take the part that the robot gives, and mount it.
     Receive = 3,
-}
-
-impl Activity {
-    /// All of them, by their words.
-    pub(crate) const ALL: [Self; 4] = [Self::Insert, Self::Give, Self::Request, Self::Receive];
 }

@@ -1,7 +1,8 @@
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::PartnerPhase;
 
 /// Phase of the person's activity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, CheckedBitPattern, NoUninit, Zeroable)]
 #[repr(u64)]
 pub enum ActivityPhase {
     /// The hand lies at rest.
@@ -31,22 +32,6 @@ pub enum ActivityPhase {
 }
 
 impl ActivityPhase {
-    /// All of them, by their words.
-    pub(crate) const ALL: [Self; 12] = [
-        Self::Rest,
-        Self::Prepare,
-        Self::Reach,
-        Self::Dwell,
-        Self::Carry,
-        Self::AwaitSteadying,
-        Self::Mount,
-        Self::Give,
-        Self::Return,
-        Self::Show,
-        Self::AwaitRelease,
-        Self::Withdraw,
-    ];
-
     /// What the monitor is told.
     pub fn as_told(self) -> PartnerPhase {
         match self {

@@ -1,8 +1,9 @@
 //! At rest: what to do next, and what it will be like.
 
 use crate::person::error;
-use crate::{ActivityPhase, Choice, Intention, Person, PersonState, Slot, Surroundings};
+use crate::{ActivityPhase, Choice, Intention, Person, PersonState, Surroundings};
 use coact_random::Stream;
+use coact_stage_state::Slot;
 use rand::RngExt;
 
 impl Person {
@@ -36,7 +37,7 @@ impl Person {
         state.chain = Slot::of(intention.chain);
         state.subgoal = intention.subgoal.map_or(Slot::EMPTY, Slot::of);
         state.part = intention.part.map_or(Slot::EMPTY, Slot::of);
-        state.set_activity(intention.activity);
+        state.activity = intention.activity;
         state.variation = intention.variation;
         state.recording = self.choose_recording(intention, around);
         state.movement = self.reach_movement(state, around);
@@ -58,7 +59,7 @@ impl Person {
         state.onset = around.tick;
         state.grasped = 0;
         state.gives_up = 0;
-        state.error = error(state, around) as u64;
+        state.error = error(state, around);
         if state.variation.phrase != Slot::EMPTY {
             state.to_say = state.variation.phrase;
         }

@@ -40,6 +40,11 @@ impl HandMovement {
         tick >= self.end
     }
 
+    /// Whether its times stand in their order, far from overflow.
+    pub(crate) fn is_ordered(&self) -> bool {
+        self.start <= self.onset && self.onset <= self.end && self.end <= u64::from(u32::MAX) << 16
+    }
+
     /// The hand at `tick`.
     pub(crate) fn pose(&self, tick: u64) -> HandPose {
         let time = self.time(tick);

@@ -2,10 +2,11 @@
 
 use crate::person::error;
 use crate::random_policy::notices_after;
-use crate::{Activity, ActivityPhase, Holder, Manipulation, Person, PersonState, Slot, Surroundings};
+use crate::{Activity, ActivityPhase, Holder, Manipulation, Person, PersonState, Surroundings};
 use coact_messages::PartnerError;
 use coact_period::cycles;
 use coact_random::Stream;
+use coact_stage_state::Slot;
 use rand::RngExt;
 use std::ops::Range;
 use std::time::Duration;
@@ -71,9 +72,9 @@ impl Person {
     fn see_mistake(&self, state: &mut PersonState, around: &Surroundings) {
         let tick = around.tick;
         if error(state, around) == PartnerError::None {
-            state.error = PartnerError::None as u64;
+            state.error = PartnerError::None;
         }
-        let mistaken = self.policy.behaviour().is_some() && state.error != PartnerError::None as u64;
+        let mistaken = self.policy.behaviour().is_some() && state.error != PartnerError::None;
         state.gives_up = match state.variation.gives_up_after {
             0 if mistaken => tick + notices_after(&mut self.random.at(Stream::Mistake, tick)),
             0 => 0,

@@ -19,7 +19,7 @@ impl Person {
     /// The occluder before the part of the present activity: centre and half extents, m. It hides the part, and the hand from
     /// the end of the reach on. None for an activity in full view, and where the hand would not be seen as it sets out.
     pub(crate) fn occluder(&self, state: &PersonState, around: &Surroundings) -> Option<[f64; 6]> {
-        let part = state.part.get().filter(|_| state.variation.hidden == 1)?;
+        let part = state.part.get().filter(|_| state.variation.hidden.is_set())?;
         let HandMovement { start, end, .. } = state.movement;
         let arriving = |step: u32| {
             let before = ARRIVAL * f64::from(step) / f64::from(STEPS) * (end - start) as f64;

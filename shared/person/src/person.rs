@@ -1,10 +1,10 @@
 use crate::{
-    ActivityPhase, HandModel, Manipulation, PersonState, Policy, RecordedReaches, Slot, Surroundings,
-    random_policy,
+    ActivityPhase, HandModel, Manipulation, PersonState, Policy, RecordedReaches, Surroundings, random_policy,
 };
 use coact_joint_task::{Scene, Task};
 use coact_messages::PartnerError;
 use coact_random::{RandomStreams, Stream};
+use coact_stage_state::{Implausible, Slot};
 use glam::DVec3;
 
 /// The human partner: carries out one intention after the other, phase by phase.
@@ -33,6 +33,15 @@ impl Person {
         state.hand = self.model.rest();
         state.enter(ActivityPhase::Rest, tick + self.policy.pause(&self.random, tick));
         state.ended = tick;
+    }
+
+    /// Refuses a state that this person cannot be in at tick `now`: a damaged one, or one of another task.
+    ///
+    /// # Errors
+    /// The field that is not what it can be.
+    pub fn check(&self, state: &PersonState, task: &Task, now: u64) -> Result<(), Implausible> {
+        let recordings = self.recorded.as_ref().map_or(0, |recorded| recorded.reaches.len());
+        state.check(task, recordings, now)
     }
 
     /// One tick: moves the hand, and what it holds, and goes on to the next phase when the present one is over.

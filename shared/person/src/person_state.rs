@@ -1,16 +1,17 @@
-use crate::{Activity, ActivityPhase, HandMovement, HandPose, Intention, Slot, Variation};
-use bytemuck::{Pod, Zeroable};
+use crate::{Activity, ActivityPhase, HandMovement, HandPose, Intention, Variation};
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+use coact_joint_task::Task;
+use coact_messages::PartnerError;
+use coact_stage_state::{Implausible, Slot, ensure, finite};
 
 /// Everything about the person that changes from tick to tick.
 ///
 /// Ticks and cycles are those of the run.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, PartialEq, CheckedBitPattern, NoUninit, Zeroable)]
 pub struct PersonState {
-    /// [`ActivityPhase`].
-    phase: u64,
-    /// [`Activity`].
-    activity: u64,
+    phase: ActivityPhase,
+    pub(crate) activity: Activity,
     /// Tick at which the present phase ends by itself, or patience with it.
     pub until: u64,
     /// Activities begun so far.
@@ -33,9 +34,10 @@ pub struct PersonState {
     pub onset: u64,
     /// Tick of its grasp completion; 0: not yet.
     pub grasped: u64,
-    /// [`coact_messages::PartnerError`] of the present activity, as things were at its onset; none once its turn has come
-    /// before the grasp is complete.
-    pub error: u64,
+    /// What is wrong with the present activity, as things were at its onset; nothing once its turn has come before the
+    /// grasp is complete.
+    pub error: PartnerError,
+    reserved: u32,
     /// Tick at which the person gives the present activity up, as soon as that is possible; 0: never.
     pub gives_up: u64,
     /// Tick at which the robot was first felt to pull, or to let go; 0: not yet.
@@ -69,25 +71,21 @@ pub struct PersonState {
 }
 
 impl PersonState {
-    /// The present phase; words that are none mean rest.
+    /// The present phase.
     pub fn phase(&self) -> ActivityPhase {
-        ActivityPhase::ALL.get(self.phase as usize).copied().unwrap_or(ActivityPhase::Rest)
+        self.phase
     }
 
     /// The present activity.
     pub fn activity(&self) -> Activity {
-        Activity::ALL.get(self.activity as usize).copied().unwrap_or(Activity::Insert)
+        self.activity
     }
 
     /// Goes over to another phase, which ends at tick `until` at the latest.
     pub fn enter(&mut self, phase: ActivityPhase, until: u64) {
-        self.phase = phase as u64;
+        self.phase = phase;
         self.until = until;
         self.felt_since = 0;
-    }
-
-    pub(crate) fn set_activity(&mut self, activity: Activity) {
-        self.activity = activity as u64;
     }
 
     /// What the person means by the present activity.
@@ -105,5 +103,32 @@ impl PersonState {
 
     pub(crate) fn set_occluder(&mut self, occluder: Option<[f64; 6]>) {
         self.occluder = occluder.unwrap_or_default();
+    }
+
+    /// Refuses a state that nobody can be in who builds `task` with `recordings` recorded reaches, and has lived up to
+    /// tick `now`.
+    pub(crate) fn check(&self, task: &Task, recordings: usize, now: u64) -> Result<(), Implausible> {
+        let indices = self.chain.is_below(task.chains.len())
+            && self.subgoal.is_below(task.subgoals.len())
+            && self.part.is_below(task.parts.len())
+            && self.held.is_below(task.parts.len())
+            && self.recording.is_below(recordings);
+        ensure(indices, "person: chain, subgoal, part or recording", "one that there is")?;
+        let since =
+            [self.ended, self.onset, self.grasped, self.felt_since, self.waiting_since, self.contact_since];
+        ensure(since.iter().all(|tick| *tick <= now.max(1)), "person: tick", "one that has been")?;
+        ensure(self.movement.is_ordered(), "person.movement", "a start before its end")?;
+        let counts =
+            [self.ended >> 16, self.actions, self.skipped, self.script_done, self.variation.gives_up_after];
+        ensure(counts.iter().all(|count| *count <= u64::from(u32::MAX)), "person: count", "32 bits at most")?;
+        let Self { hand, movement, .. } = self;
+        finite("person.hand", bytemuck::cast_slice(&[*hand, movement.from, movement.to]))?;
+        finite("person.movement", &[movement.arch, movement.peak_aperture, movement.peak_time])?;
+        let carried = [&self.turn_from[..], &self.turn_to, &self.offset, &self.home].concat();
+        finite("person: carried part", &carried)?;
+        finite(
+            "person: occluder, force or blur",
+            &[&self.occluder[..], &self.force, &[self.variation.blur]].concat(),
+        )
     }
 }

@@ -1,10 +1,11 @@
 //! A partner as people are: mostly right, in any order that the plan allows, at times idle or out of sight, at times with
 //! words, and now and then wrong.
 
-use crate::{Activity, Choice, Intention, RandomBehaviour, Slot, Surroundings, Variation, synthetic_policy};
+use crate::{Activity, Choice, Intention, RandomBehaviour, Surroundings, Variation, synthetic_policy};
 use coact_joint_task::{Act, Agent};
 use coact_messages::PartnerError;
 use coact_period::{PERIOD_S, cycles};
+use coact_stage_state::{Flag, Slot};
 use rand::{Rng, RngExt};
 use std::ops::RangeInclusive;
 use std::time::Duration;
@@ -57,8 +58,10 @@ fn hidden<R: Rng>(
     can_hide: &dyn Fn(&Intention) -> bool,
     rng: &mut R,
 ) -> Option<Intention> {
-    let behind =
-        |taking: Intention| Intention { variation: Variation { hidden: 1, ..taking.variation }, ..taking };
+    let behind = |taking: Intention| Intention {
+        variation: Variation { hidden: Flag::Set, ..taking.variation },
+        ..taking
+    };
     synthetic_policy::draw(around, rng, |intention| can_hide(&behind(*intention))).map(behind)
 }
 

@@ -1,5 +1,6 @@
-use crate::{Activity, Choice, Intention, PersonState, Slot, Surroundings, Variation};
+use crate::{Activity, Choice, Intention, PersonState, Surroundings, Variation};
 use coact_period::cycles;
+use coact_stage_state::Slot;
 use std::time::Duration;
 
 /// How soon the person looks again whether the scripted part has come within reach, cycles.

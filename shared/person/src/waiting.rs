@@ -1,8 +1,9 @@
 //! The phases in which the person waits for the robot.
 
-use crate::{Manipulation, Person, PersonState, Slot, Surroundings};
+use crate::{Manipulation, Person, PersonState, Surroundings};
 use coact_period::cycles;
 use coact_random::Stream;
+use coact_stage_state::Slot;
 use rand::RngExt;
 use std::ops::RangeInclusive;
 use std::time::Duration;

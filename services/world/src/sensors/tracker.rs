@@ -1,7 +1,8 @@
 use super::is_frame_due;
-use bytemuck::{Pod, Zeroable};
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::{HandView, Keypoint, KeypointName};
 use coact_random::{RandomStreams, Stream};
+use coact_stage_state::{Flag, Implausible, ensure};
 use glam::DVec3;
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -17,19 +18,25 @@ const LOST_KEYPOINTS: f64 = 0.005;
 
 /// The frame that was delivered last, and the one that is still being processed.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, CheckedBitPattern, NoUninit, Zeroable)]
 pub(crate) struct TrackerState {
     pub delivered: HandView,
     pending: HandView,
-    /// 1 if the pending frame will be delivered.
-    is_pending: u64,
-    /// 1 once a frame was delivered.
-    has_delivered: u64,
+    /// Whether the pending frame will be delivered.
+    is_pending: Flag,
+    /// Set once a frame was delivered.
+    has_delivered: Flag,
 }
 
-impl PartialEq for TrackerState {
-    fn eq(&self, other: &Self) -> bool {
-        bytemuck::bytes_of(self) == bytemuck::bytes_of(other)
+impl TrackerState {
+    /// Refuses frames that no camera has counted so far.
+    pub fn check(&self) -> Result<(), Implausible> {
+        let frames = [self.delivered.frame, self.pending.frame];
+        ensure(
+            frames.iter().all(|frame| *frame <= u64::from(u32::MAX)),
+            "tracker: frame",
+            "a frame of this run",
+        )
     }
 }
 
@@ -49,17 +56,17 @@ pub(crate) fn track(
     tick: u64,
     last: Option<u64>,
     random: &RandomStreams,
-    memory: &mut TrackerState,
+    state: &mut TrackerState,
     capture: impl FnOnce() -> Capture,
     hides: impl Fn([f64; 3]) -> bool,
 ) {
     if !is_frame_due(RATE, last, tick) {
         return;
     }
-    if memory.is_pending == 1 {
-        memory.pending.frame = memory.delivered.frame + memory.has_delivered;
-        memory.delivered = memory.pending;
-        memory.has_delivered = 1;
+    if state.is_pending.is_set() {
+        state.pending.frame = state.delivered.frame + u64::from(state.has_delivered.is_set());
+        state.delivered = state.pending;
+        state.has_delivered = Flag::Set;
     }
     let (came, mut keypoints) = match capture() {
         Capture::Nothing => (false, [Keypoint::default(); 9]),
@@ -70,9 +77,9 @@ pub(crate) fn track(
         *point = Keypoint::default();
     }
     let hand = &keypoints[KeypointName::Wrist as usize..];
-    memory.is_pending = u64::from(came && hand.iter().any(|point| point.confidence > 0.0));
-    memory.pending.captured_cycle = tick;
-    memory.pending.keypoints = keypoints;
+    state.is_pending = Flag::from(came && hand.iter().any(|point| point.confidence > 0.0));
+    state.pending.captured_cycle = tick;
+    state.pending.keypoints = keypoints;
 }
 
 /// The tracker's own noise and gaps. The flag says whether the frame came through.

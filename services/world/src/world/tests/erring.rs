@@ -142,7 +142,7 @@ fn same_seed_gives_the_same_person_also_after_a_restart() {
         assert!(bytes_of(&*out.sample) == bytes_of(&*other_out.sample), "tick {tick}");
         if tick % 977 == 0 {
             other = world(4, rates);
-            other.resume(&other_out.state);
+            other.resume(&other_out.state).unwrap();
         }
     }
 }

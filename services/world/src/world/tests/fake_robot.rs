@@ -4,6 +4,7 @@ use crate::palm::Palm;
 use coact_joint_task::{Agent, Task};
 use coact_person::ActivityPhase;
 use coact_person::Holder;
+use coact_stage_state::Flag;
 use glam::{DQuat, DVec3};
 
 /// A robot hand without an arm: it is where it wants to be at once, and obeys the world's rules of grasping.
@@ -50,7 +51,7 @@ impl FakeRobot {
         world.live(tick, &palm);
         world.sense(tick, &mut out.sample);
         world.simulation.tick = tick;
-        world.simulation.started = 1;
+        world.simulation.started = Flag::Set;
         world.tell(&mut out.truth);
         world.write(&mut out.state);
     }

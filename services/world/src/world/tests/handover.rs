@@ -5,10 +5,10 @@ use super::{Out, robot, task};
 use crate::palm::Palm;
 use crate::{Partner, Scenario, Settings, World};
 use coact_person::Holder;
-use coact_person::Slot;
 use coact_person::{ActivityPhase, Person, Policy, RandomBehaviour};
 use coact_pipeline::WorldMode;
 use coact_random::RandomStreams;
+use coact_stage_state::{Flag, Slot};
 use glam::{DQuat, DVec3};
 use std::io::Write;
 
@@ -66,7 +66,7 @@ impl Meeting {
             self.world.live(self.tick, &self.palm);
             self.world.sense(self.tick, &mut self.out.sample);
             self.world.simulation.tick = self.tick;
-            self.world.simulation.started = 1;
+            self.world.simulation.started = Flag::Set;
         }
     }
 

@@ -52,7 +52,7 @@ fn hand_and_part_are_not_seen_until_the_hand_comes_out_again() {
             takings += u64::from(before == ActivityPhase::Reach && person.phase() == ActivityPhase::Dwell);
             assert_eq!(
                 person.occluder().is_some(),
-                person.variation.hidden == 1 && person.phase() != ActivityPhase::Rest
+                person.variation.hidden.is_set() && person.phase() != ActivityPhase::Rest
             );
             let shown = person.occluder().is_some() && out.truth.chain != NONE;
             assert_eq!(out.truth.hidden, u32::from(shown), "seed {seed}, tick {tick}");

@@ -287,7 +287,7 @@ impl Manipulator {
     pub fn kill(&mut self) {
         let task = self.world.task.clone();
         self.world = World::new(&task, &self.robot, settings(&self.scenario)).unwrap();
-        self.world.resume(&self.out.state);
+        self.world.resume(&self.out.state).unwrap();
     }
 }
 

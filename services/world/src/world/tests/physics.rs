@@ -87,7 +87,7 @@ fn resumed_parts_and_joints_stay_where_they_were() {
     }
     let before = out.state.clone();
     let mut successor = self::world(6);
-    successor.resume(&before);
+    successor.resume(&before).unwrap();
     let command = sway(9001);
     successor.step(9001, Some(&command), &mut out.sample, &mut out.truth, &mut out.state);
     for part in 0..before.parts as usize {

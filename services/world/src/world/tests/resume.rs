@@ -1,6 +1,10 @@
 use super::fake_robot::FakeRobot;
 use super::{Out, robot, swaying, world};
+use crate::ResumeError;
 use bytemuck::bytes_of;
+use coact_messages::WorldState;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 
 #[test]
 fn same_seed_gives_the_same_bits_and_another_seed_does_not() {
@@ -34,7 +38,7 @@ fn resumed_world_goes_on_as_if_it_had_not_died() {
             let command = swaying(tick, &robot);
             world.step(tick, Some(&command), &mut out.sample, &mut out.truth, &mut out.state);
             if tick == killed_at {
-                other.resume(&out.state);
+                other.resume(&out.state).unwrap();
             }
             if tick > killed_at {
                 other.step(
@@ -59,7 +63,7 @@ fn a_world_that_is_killed_over_and_over_still_finishes_its_assemblies() {
         robot.step(tick, &mut world, &mut out);
         if tick % 777 == 0 {
             world = super::world(5);
-            world.resume(&out.state);
+            world.resume(&out.state).unwrap();
         }
     }
     assert!(out.truth.assemblies >= 1);
@@ -72,7 +76,59 @@ fn state_of_another_task_is_not_resumed_from() {
     let mut foreign = out.state.clone();
     foreign.task ^= 1;
     foreign.part[0].position = [9.0; 3];
-    world.resume(&foreign);
+    assert!(matches!(world.resume(&foreign), Err(ResumeError::OtherTask { .. })));
     world.step(2, None, &mut out.sample, &mut out.truth, &mut out.state);
     assert!(out.state.part[0].position[0] < 9.0);
+}
+
+#[test]
+fn damaged_state_is_refused_with_a_reason_and_leaves_the_world_as_it_was() {
+    let (mut first, mut out) = (world(1), Out::new());
+    for tick in 1..=5000 {
+        first.step(tick, None, &mut out.sample, &mut out.truth, &mut out.state);
+    }
+    let good = out.state.clone();
+    let damages: [(&str, fn(&mut WorldState)); 6] = [
+        ("no state of world", |state| state.state[0] = 0.0),
+        ("no value", |state| state.state[2] = f64::from_bits(7)),
+        ("joints", |state| state.position[3] = f64::NAN),
+        ("part.kind", |state| state.part[0].kind = 77),
+        ("part.state", |state| state.part[1].state = 9),
+        ("part: place", |state| state.part[2].position[1] = f64::INFINITY),
+    ];
+    for (expected, damage) in damages {
+        let mut state = good.clone();
+        damage(&mut state);
+        let mut successor = world(1);
+        let reason = successor.resume(&state).unwrap_err().to_string();
+        assert!(reason.contains(expected), "{expected}: {reason}");
+        assert_eq!(successor.simulation.tick, 0);
+    }
+}
+
+#[test]
+fn no_damage_of_a_state_makes_the_resumed_world_panic() {
+    let (mut first, mut hand, mut out) = (world(5), FakeRobot::new(), Out::new());
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let (mut refused, mut taken) = (0, 0);
+    for tick in 1..=60_000 {
+        hand.step(tick, &mut first, &mut out);
+        if tick % 100 != 0 {
+            continue;
+        }
+        let mut state = out.state.clone();
+        let word = random.random_range(0..200);
+        let value = [0, 1, 99, 1 << 40, u64::MAX, f64::NAN.to_bits(), 1e3_f64.to_bits()];
+        state.state[word] = f64::from_bits(value[random.random_range(0..value.len())]);
+        let (mut successor, mut own) = (world(5), Out::new());
+        if successor.resume(&state).is_err() {
+            refused += 1;
+            continue;
+        }
+        taken += 1;
+        for next in tick + 1..tick + 30 {
+            FakeRobot::new().step(next, &mut successor, &mut own);
+        }
+    }
+    assert!(refused > 50 && taken > 50, "{refused} states were refused, {taken} were taken");
 }
