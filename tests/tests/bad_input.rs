@@ -55,31 +55,25 @@ fn a_malformed_task_is_refused_with_file_and_line() {
     );
 }
 
-#[test]
-fn a_malformed_pipeline_is_refused_with_file_and_line() {
+/// Makes a mistake in the process table; returns its place, and what was printed.
+fn refused_pipeline(from: &str, to: &str) -> (String, String) {
     let folder = configuration();
     let pipeline = folder.path().join("rt-config/pipeline.toml");
-    let place = make_mistake(pipeline.clone(), "priority = 83", "priority = 183");
-    let finished = refused(&["--pipeline", pipeline.to_str().unwrap()]);
-    assert!(
-        finished.stderr.contains(&place) && finished.stderr.contains("183"),
-        "{place}: {}",
-        finished.stderr
-    );
+    let place = make_mistake(pipeline.clone(), from, to);
+    (place, refused(&["--pipeline", pipeline.to_str().unwrap()]).stderr)
+}
+
+#[test]
+fn a_malformed_pipeline_is_refused_with_file_and_line() {
+    let (place, printed) = refused_pipeline("priority = 83", "priority = 183");
+    assert!(printed.contains(&place) && printed.contains("183"), "{place}: {printed}");
 }
 
 #[test]
 fn a_pipeline_with_a_period_is_refused_with_the_reason() {
-    let folder = configuration();
-    let pipeline = folder.path().join("rt-config/pipeline.toml");
-    let place = make_mistake(pipeline.clone(), "[restart]", "period_us = 500\n[restart]");
-    let finished = refused(&["--pipeline", pipeline.to_str().unwrap()]);
-    assert!(
-        finished.stderr.contains(&format!("{place}: period_us: is not a setting")),
-        "{}",
-        finished.stderr
-    );
-    assert!(finished.stderr.contains("the period is 1 ms, a constant"), "{}", finished.stderr);
+    let (place, printed) = refused_pipeline("[restart]", "period_us = 500\n[restart]");
+    assert!(printed.contains(&format!("{place}: period_us: is not a setting")), "{printed}");
+    assert!(printed.contains("the period is 1 ms, a constant"), "{printed}");
 }
 
 #[test]
@@ -90,11 +84,8 @@ fn the_cause_of_an_error_is_printed_once() {
 
 #[test]
 fn a_program_that_is_not_there_is_named() {
-    let folder = configuration();
-    let pipeline = folder.path().join("rt-config/pipeline.toml");
-    make_mistake(pipeline.clone(), "program = \"coact-voice\"", "program = \"coact-choir\"");
-    let finished = refused(&["--pipeline", pipeline.to_str().unwrap()]);
-    assert!(finished.stderr.contains("coact-choir does not exist"), "{}", finished.stderr);
+    let (_, printed) = refused_pipeline("program = \"coact-voice\"", "program = \"coact-choir\"");
+    assert!(printed.contains("coact-choir does not exist"), "{printed}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ pub struct Injection {
     pub process: String,
     /// What is done to it.
     pub fault: Fault,
-    /// When, counted from the moment at which the whole set was ready.
+    /// When, counted from tick 0.
     pub at: Duration,
 }
 

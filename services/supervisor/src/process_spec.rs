@@ -5,11 +5,11 @@ use std::time::Duration;
 /// How one process of the set is started, and how it is known to be ready and alive.
 #[derive(Debug, Clone)]
 pub struct ProcessSpec {
-    /// Its name in the pipeline.
+    /// Its name in the process table.
     pub name: String,
     /// Started in ascending order, stopped in descending order; equal ones together.
     pub order: u32,
-    /// Started before all ordinary load, as the supervisor itself runs; it finds its own place when it is up.
+    /// Started in the supervisor's scheduling class, before all ordinary load; it changes to its own class when it runs.
     pub realtime: bool,
     /// The program to run.
     pub program: PathBuf,
@@ -19,7 +19,7 @@ pub struct ProcessSpec {
     pub ready_directory: PathBuf,
     /// How long it may take until then.
     pub ready_within: Duration,
-    /// Silence (no pulse) after which it counts as hung and is killed; `None` for a process without pulses.
+    /// Silence (no pulse) after which the watchdog takes it for hung and kills it; `None` for a process without pulses.
     pub hung_after: Option<Duration>,
     /// How long it may take to end after SIGTERM.
     pub stop_grace: Duration,

@@ -30,7 +30,7 @@ struct DeadlineMisses {
 const ACHIEVED: f64 = 0.5;
 
 impl Progress {
-    /// Of a run with this task, at its beginning.
+    /// Of a run of this task, at its beginning.
     pub fn new(task: &Task) -> Self {
         Self {
             subgoals: task.subgoals.iter().map(|subgoal| subgoal.name.clone()).collect(),

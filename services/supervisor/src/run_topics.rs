@@ -18,7 +18,7 @@ impl RunTopics {
     /// From a replacement's readiness to the cleaning up after its predecessor. It takes up to 9 ms for each dead
     /// process, and must not delay the replacement's first cycles. Chosen by hand.
     const CLEANUP_DELAY: Duration = Duration::from_millis(100);
-    /// From a death to the cleaning up, when no replacement gets ready before.
+    /// From a death to the cleaning up, when no replacement gets ready before. Chosen by hand.
     const CLEANUP_WITHOUT_RECOVERY: Duration = Duration::from_secs(1);
 
     /// Creates all topics of the run.

@@ -5,7 +5,7 @@ use std::path::Path;
 #[derive(Debug)]
 pub struct SupervisorLog {
     log: RunLog<SupervisorEvent>,
-    /// A write failed and was reported: the run goes on, but not in silence.
+    /// A write failed and was reported; the run goes on.
     failed: bool,
 }
 

@@ -10,7 +10,7 @@ pub struct Terminal {
     writer: Option<JoinHandle<()>>,
 }
 
-/// A clonable way to show notes.
+/// Shows notes from elsewhere, as long as the terminal is open; clonable.
 #[derive(Debug, Clone)]
 pub struct Notes(Sender<Line>);
 
@@ -36,7 +36,7 @@ impl Terminal {
         Self { lines, writer: Some(writer) }
     }
 
-    /// A way to show notes from elsewhere, as long as the terminal is open.
+    /// To show notes from elsewhere.
     pub fn notes(&self) -> Notes {
         Notes(self.lines.clone())
     }

@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 /// most; the others are for operators' tools and for replacements beside their dead predecessors. More would only cost
 /// shared memory.
 const MAX_READERS: usize = 8;
-/// Writers of one topic: the living one, and dead ones until the supervisor has cleaned up after them. It
-/// does so before each restart but the first: more than two dead ones at a time do not occur.
+/// Writers of one topic: the living one, and dead ones until the supervisor has cleaned up after them. It does so
+/// before each restart but the first, so there are two dead ones at most; one more is reserve.
 const MAX_WRITERS: usize = 4;
 /// Processes that may have one topic open: the set (7 with the supervisor), replacements beside their dead predecessors
 /// (as many), and operators' tools. Chosen by hand; more would only cost shared memory.
