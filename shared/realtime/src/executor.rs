@@ -122,3 +122,64 @@ impl Executor {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::{Bus, Input};
+    use allocation_counter::measure;
+    use coact_messages::{Command, SensorSample, topic};
+    use coact_pipeline::{Pipeline, Run, RunSettings};
+
+    /// Cycles in which connections are made and buffers reach their size.
+    const WARM_UP: u64 = 20;
+    const CYCLES: u64 = 200;
+    /// The cycle's own output, and its pulse: iceoryx2 makes one allocation for each loan.
+    const LOANS: u64 = 2;
+
+    struct Source {
+        command: Input<Command>,
+        sample: Output<SensorSample>,
+    }
+
+    impl Cycle for Source {
+        type Trigger = Command;
+
+        fn trigger(&mut self) -> &mut Input<Command> {
+            &mut self.command
+        }
+
+        fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
+            self.sample.loan()?.send(tick.cycle, tick.started_ns)
+        }
+    }
+
+    /// Allocations of each cycle, from its wait to its pulse.
+    fn allocations(run: &Run) -> Vec<u64> {
+        let table = "[[process]]\nname = \"world\"\nprogram = \"none\"\norder = 1\ntrigger = \"timer\"\n";
+        let pipeline = Pipeline::parse(table, "table".as_ref()).unwrap();
+        let bus = Bus::open(run, "world", 0).unwrap();
+        let mut work = Source {
+            command: bus.input(topic::COMMAND).unwrap(),
+            sample: bus.output(topic::SENSORS).unwrap(),
+        };
+        let pulse = bus.output(&topic::pulse("world")).unwrap();
+        let schedule = Schedule { start_ns: now() };
+        let mut executor = Executor::new(&pipeline.processes[0], schedule, false, pulse);
+        let signals = Signals::install().unwrap();
+        let mut cycle = |cycle| {
+            let scheduled_ns = executor.wait(cycle, &mut work, &signals).unwrap();
+            executor.run_cycle(cycle, scheduled_ns, &mut work).unwrap();
+        };
+        (1..=WARM_UP + CYCLES).map(|tick| measure(|| cycle(tick)).count_total).collect()
+    }
+
+    #[test]
+    fn steady_cycle_allocates_once_for_each_loan() {
+        let run = Run::create(RunSettings::default()).unwrap();
+        let counts = allocations(&run);
+        run.remove().unwrap();
+        assert_eq!(counts[WARM_UP as usize..], [LOANS; CYCLES as usize]);
+    }
+}
