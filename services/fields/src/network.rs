@@ -2,12 +2,23 @@ use crate::Projections;
 use coact_joint_task::{Channel, LayerPlan, NetworkPlan, Synapse};
 use coact_messages::{Decision, FieldFrame, LayerKind, NONE, Percept};
 use coact_neural_field::{Field, ParameterError, forget};
+use coact_period::{PERIOD, cycles};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
+use std::time::Duration;
 
-/// A percept older than this says nothing about now, ms: memories stay, everything else loses its input.
-const PERCEPT_LIFETIME: u64 = 200;
+/// Age up to which a percept tells what is now; beyond it, memories stay and everything else loses its input. Chosen by
+/// hand: it bridges gaps of some frames, and is short beside a reach of 350 to 900 ms.
+const PERCEPT_LIFETIME: u64 = cycles(Duration::from_millis(200));
+/// Step of the integration in ms, the unit in which layers give their tau.
+const STEP_MS: f64 = PERIOD.as_millis() as f64;
+/// Signal of a population above which its peak has formed: half of a full peak's.
+const DECIDED: f64 = 0.5;
+
+/// 2^64 divided by the golden ratio: neighbouring ticks, multiplied by it, become seeds far apart (Fibonacci hashing,
+/// Knuth, *The Art of Computer Programming* 3, 6.4).
+const GOLDEN_RATIO: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The network stage: percept in, field frame out, one period at a time.
 pub struct Network {
@@ -60,7 +71,7 @@ impl Network {
         out.since.fill(0);
         out.decision = Decision { action: NONE, reserved: 0, since: 0 };
         for layer in &self.plan.layers {
-            let Range { first, last } = sites(layer, width);
+            let SiteRange { first, last } = sites(layer, width);
             out.activity[first..last].fill(layer.resting);
             out.resting[layer.populations.clone()].fill(layer.resting);
         }
@@ -71,7 +82,7 @@ impl Network {
         frame.task == self.task && frame.layers.count as usize == self.plan.layers.len()
     }
 
-    /// Integrates one period of 1 ms from `previous` into `out`.
+    /// Integrates one period from `previous` into `out`.
     ///
     /// Costs about 14 multiplications per site, one exponential per site and one multiplication per synapse.
     pub fn step(
@@ -106,7 +117,7 @@ impl Network {
         out.layers.count = self.plan.layers.len() as u32;
         out.layers.reserved = 0;
         for (index, layer) in self.plan.layers.iter().enumerate() {
-            let Range { first, last } = sites(layer, width);
+            let SiteRange { first, last } = sites(layer, width);
             out.layers.kind[index] = layer.kind as u32;
             out.layers.first_site[index] = first as u32;
             out.layers.sites[index] = (last - first) as u32;
@@ -132,7 +143,7 @@ impl Network {
     fn transmit(&mut self, tick: u64) {
         self.projections.gather(&self.sources, &mut self.strength);
         // The generator is made anew from seed and tick, so that a restarted network makes the same noise.
-        let mut random = Pcg64Mcg::seed_from_u64(self.seed ^ tick.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let mut random = Pcg64Mcg::seed_from_u64(self.seed ^ tick.wrapping_mul(GOLDEN_RATIO));
         for layer in &self.plan.layers {
             for strength in &mut self.strength[layer.populations.clone()] {
                 if layer.noise > 0.0 {
@@ -152,20 +163,20 @@ impl Network {
         let layer = &self.plan.layers[index];
         let field = &mut self.fields[index];
         let rows = layer.populations.clone();
-        let Range { first, last } = sites(layer, self.plan.sites_per_population);
+        let SiteRange { first, last } = sites(layer, self.plan.sites_per_population);
         for population in rows.clone() {
             out.resting[population] = match &layer.forgetting {
                 None => layer.resting,
                 Some(forgetting) => {
                     let c = self.gone[population] * f64::from(self.sources[population] > 0.0);
-                    forget(previous.resting[population], c, 1.0, forgetting)
+                    forget(previous.resting[population], c, STEP_MS, forgetting)
                 }
             };
         }
         let input = &mut out.input[first..last];
         field.spread(&self.strength[rows.clone()], input);
         let next = &mut out.activity[first..last];
-        field.step(1.0, &previous.activity[first..last], input, &out.resting[rows.clone()], next);
+        field.step(STEP_MS, &previous.activity[first..last], input, &out.resting[rows.clone()], next);
         field.signals(next, &mut out.signal[rows]);
     }
 
@@ -184,17 +195,14 @@ impl Network {
     }
 }
 
-/// A peak whose signal is above this has formed.
-const DECIDED: f64 = 0.5;
-
 /// Sites of one layer in the frame's rows.
-struct Range {
+struct SiteRange {
     first: usize,
     last: usize,
 }
 
-fn sites(layer: &LayerPlan, width: usize) -> Range {
-    Range { first: layer.populations.start * width, last: layer.populations.end * width }
+fn sites(layer: &LayerPlan, width: usize) -> SiteRange {
+    SiteRange { first: layer.populations.start * width, last: layer.populations.end * width }
 }
 
 fn read(percept: &Percept, channel: Channel) -> f64 {

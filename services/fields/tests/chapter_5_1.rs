@@ -33,7 +33,7 @@ fn robot_requests_a_wheel_while_the_person_idles() {
 }
 
 #[test]
-fn grip_from_above_makes_the_robot_give_up_its_own_intention_and_hold_the_base() {
+fn grip_from_above_makes_the_robot_give_up_its_own_intention_and_steady_the_base() {
     let mut robot = start();
     robot.act("idle", 0.9);
     robot.run(300);

@@ -27,7 +27,7 @@ fn start() -> Harness {
 }
 
 #[test]
-fn grip_from_above_means_insertion_and_the_base_is_held() {
+fn grip_from_above_means_insertion_and_the_base_is_steadied() {
     let mut robot = start();
     robot.act("top grip: wheel", 1.0);
     robot.run(150);

@@ -1,13 +1,15 @@
 use crate::{Goal, Meanings, Mistake, sentence};
 use coact_joint_task::Task;
 use coact_messages::{FieldFrame, LayerKind};
+use coact_period::cycles;
+use std::time::Duration;
 
-/// How long a decision must have stood before it is spoken of, cycles: a change of mind is not worth a sentence.
-const STANDING: u64 = 150;
-/// A decision that is older than this in the first frame was spoken of by a predecessor, cycles.
-const OLD_NEWS: u64 = 1000;
-/// The same sentence is not said again for so long, cycles.
-const NO_REPEAT: u64 = 5000;
+/// How long a decision must have stood before it is spoken of: a change of mind is not worth a sentence. Chosen by hand.
+const STANDING: u64 = cycles(Duration::from_millis(150));
+/// Age of a decision in the first frame beyond which a predecessor has spoken of it already. Chosen by hand.
+const OLD_NEWS: u64 = cycles(Duration::from_secs(1));
+/// The same sentence is not said again for so long. Chosen by hand: about two sentences' length.
+const NO_REPEAT: u64 = cycles(Duration::from_secs(5));
 
 /// Watches the fields and finds the words.
 #[derive(Debug)]

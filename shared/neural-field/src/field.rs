@@ -1,5 +1,8 @@
 use crate::{ParameterError, Parameters, sigmoid};
 
+/// Standard deviations of the excitation beyond which it is cut off: there it is 4e-6 of its amplitude.
+const CUT_OFF: f64 = 5.0;
+
 /// One layer: a row of sites, divided into populations of equal width, each centred on its input.
 ///
 /// Activity lives with the caller, in slices of [`Field::sites`] values; populations' values in slices of
@@ -29,7 +32,7 @@ impl Field {
         let Parameters { spacing, input_sigma, kernel, .. } = parameters;
         let gauss = |d: f64, sigma: f64| (-d * d / (2.0 * sigma * sigma)).exp();
         // A layer without interaction has no taps to pay for.
-        let excited = if kernel.amplitude > 0.0 { 5.0 * kernel.sigma } else { 0.0 };
+        let excited = if kernel.amplitude > 0.0 { CUT_OFF * kernel.sigma } else { 0.0 };
         let reach = (excited.max(kernel.range.unwrap_or(0.0)) / spacing).ceil() as usize;
         let interaction = |site: usize| {
             let d = site as f64 * spacing;

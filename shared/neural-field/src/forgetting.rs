@@ -1,4 +1,5 @@
-/// Own dynamics of a resting level: how a memory is given up and becomes ready again (Bicho, Mallet, Schoener 2000).
+/// Dynamics of a resting level: how a memory is given up and becomes ready again (E. Bicho, P. Mallet, G. Schöner, Int. J.
+/// Robotics Research 19, 2000).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Forgetting {
     /// Resting level of a bistable field: peaks sustain themselves.

@@ -3,11 +3,12 @@ use crate::Kernel;
 /// Constants of one field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameters {
-    /// Time scale tau, in the unit of the step (ms here).
+    /// Time scale tau, in the unit of the step (coact: ms). Steps of at most a twentieth of it follow the equation closely
+    /// for slopes of about 5; slopes above 100 need steps of a fiftieth.
     pub tau: f64,
-    /// Slope beta of the threshold function.
+    /// Slope beta of the sigmoid (chapter, eq. 3).
     pub slope: f64,
-    /// Threshold u0 of the threshold function.
+    /// Threshold u0 of the sigmoid: activation at which a site takes part in the interaction.
     pub threshold: f64,
     /// Distance of two sites, dx.
     pub spacing: f64,

@@ -1,4 +1,4 @@
-//! The threshold function, written so that a compiler can do several sites at once.
+//! The sigmoid of a field, written so that a compiler can do several sites at once.
 
 /// Exponents beyond this are cut: 1/(1+e^40) is 4e-18, far below what one sum of outputs can resolve, and no
 /// denormal number ever enters a field at rest.

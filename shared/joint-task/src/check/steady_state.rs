@@ -2,8 +2,8 @@ use crate::{Channel, LayerPlan, NetworkPlan, Pool, Synapse};
 use coact_messages::LayerKind;
 use coact_neural_field::sigmoid;
 
-/// Passes over all layers until feedback has settled: the longest way through the layers, from object memory over the
-/// subgoals, simulation, intention and errors to the action, has six steps; two more for what feeds back.
+/// Passes over all layers until feedback has settled. Each carries signals through the layers in their order; what feeds
+/// back takes one more for each step. Chosen by hand.
 const PASSES: usize = 8;
 /// Layers in which one peak stands.
 const DECIDE: [LayerKind; 4] = [
