@@ -64,7 +64,7 @@ impl Bus {
     /// A reader of `topic`.
     ///
     /// # Errors
-    /// [`PortError::Refused`], or [`PortError::TruthIsForTheMonitor`].
+    /// [`PortError::Refused`], or [`PortError::Closed`].
     pub fn input<T: Message>(&self, topic: &str) -> Result<Input<T>, PortError> {
         self.may_read(topic)?;
         Input::new(topic, &self.service(topic)?, None)
@@ -118,13 +118,10 @@ impl Bus {
     }
 
     fn may_read(&self, topic: &str) -> Result<(), PortError> {
-        if topic == topic::TRUTH && self.process != "monitor" {
-            return Err(PortError::TruthIsForTheMonitor {
-                process: self.process.clone(),
-                topic: topic.to_owned(),
-            });
+        match topic::may_read(topic, &self.process) {
+            true => Ok(()),
+            false => Err(PortError::closed(topic, &self.process)),
         }
-        Ok(())
     }
 
     /// The topic itself; every process asks for the same properties.

@@ -1,4 +1,4 @@
-use coact_messages::{Header, LAYOUT};
+use coact_messages::{Header, LAYOUT, topic};
 use std::fmt::Debug;
 
 /// Why a port could not be opened or used.
@@ -25,15 +25,15 @@ pub enum PortError {
         /// iceoryx2's reason.
         problem: String,
     },
-    /// Only the monitor may read the truth.
-    #[error(
-        "process {process} may not read {topic}; expected the process \"monitor\": no other may read the truth"
-    )]
-    TruthIsForTheMonitor {
+    /// The topic is closed to the process: `coact_messages::topic::ALL` says who may read it.
+    #[error("process {process} may not read {topic}; expected {readers}: no other may read it")]
+    Closed {
         /// The process that tried to.
         process: String,
         /// The topic.
         topic: String,
+        /// The processes that may read it.
+        readers: String,
     },
     /// The sender was built from other message layouts.
     #[error(
@@ -52,6 +52,11 @@ pub enum PortError {
 impl PortError {
     pub(crate) fn refused(topic: &str, operation: &'static str, problem: impl Debug) -> Self {
         Self::Refused { topic: topic.to_owned(), operation, problem: format!("{problem:?}") }
+    }
+
+    pub(crate) fn closed(topic: &str, process: &str) -> Self {
+        let readers = topic::find(topic).map_or(String::new(), |entry| entry.readers.join(" or "));
+        Self::Closed { process: process.to_owned(), topic: topic.to_owned(), readers }
     }
 
     /// For a message with this header.

@@ -4,7 +4,7 @@
 mod support;
 
 use bytemuck::Zeroable;
-use coact_messages::{FieldFrame, LAYOUT, Percept, Pulse, Truth, topic};
+use coact_messages::{FieldFrame, LAYOUT, Percept, Pulse, Truth, WorldState, topic};
 use coact_realtime::{Bus, Input, PortError};
 use iceoryx2::prelude::*;
 use support::{TABLE, TestRun};
@@ -159,13 +159,16 @@ fn message_of_another_layout_is_refused() {
 }
 
 #[test]
-fn truth_is_for_the_monitor_alone() {
+fn closed_topics_are_for_their_readers_alone() {
     let run = TestRun::new(TABLE);
     for process in ["world", "perception", "fields", "control", "voice", "supervisor"] {
         let bus = Bus::open(&run.0, process, 0).unwrap();
-        assert!(matches!(bus.input::<Truth>(topic::TRUTH), Err(PortError::TruthIsForTheMonitor { .. })));
-        assert!(matches!(bus.trigger::<Truth>(topic::TRUTH), Err(PortError::TruthIsForTheMonitor { .. })));
+        assert!(matches!(bus.input::<Truth>(topic::TRUTH), Err(PortError::Closed { .. })));
+        assert!(matches!(bus.trigger::<Truth>(topic::TRUTH), Err(PortError::Closed { .. })));
     }
+    let fields = Bus::open(&run.0, "fields", 0).unwrap();
+    let error = fields.input::<WorldState>(topic::WORLD_STATE).unwrap_err().to_string();
+    assert!(error.contains("fields may not read coact/world-state; expected supervisor"), "{error}");
     let world = Bus::open(&run.0, "world", 0).unwrap();
     let monitor = Bus::open(&run.0, "monitor", 0).unwrap();
     let mut truth: Input<Truth> = monitor.input(topic::TRUTH).unwrap();
