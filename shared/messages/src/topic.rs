@@ -135,7 +135,7 @@ pub const ALL: [TopicEntry; 10] = [
     },
     TopicEntry {
         name: "coact/*/resume",
-        message: "as checkpointed",
+        message: "the checkpoint",
         writers: &["supervisor"],
         readers: STAGES,
         ..PLAIN

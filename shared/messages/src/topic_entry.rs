@@ -3,7 +3,7 @@
 pub struct TopicEntry {
     /// Its name. In the name of a family of topics `*` stands for what tells its members apart.
     pub name: &'static str,
-    /// Name of the message's type in this crate.
+    /// Name of the message's type in this crate; checkpoints have that of the topic that they are of.
     pub message: &'static str,
     /// The processes that write it; [`ANYONE`](crate::topic::ANYONE) for programs outside the set.
     pub writers: &'static [&'static str],

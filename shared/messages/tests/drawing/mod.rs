@@ -10,7 +10,7 @@ use std::fmt::Write;
 /// The processes from left to right, and what stands below their names.
 const COLUMNS: [(&str, &str); 8] = [
     (ANYONE, "coact say, ..."),
-    ("world", "hardware"),
+    ("world", "simulation"),
     ("perception", "evidence"),
     ("fields", "the mind"),
     ("control", "the arm"),
@@ -26,8 +26,8 @@ const BLOCKS: [(usize, &str); 3] = [
 ];
 
 // Sizes in px: chosen so that the text is legible at the width of a page (about 900 px).
-const LABELS: usize = 178;
-const COLUMN: usize = 98;
+const LABELS: usize = 150;
+const COLUMN: usize = 104;
 const HEAD: usize = 84;
 const ROW: usize = 44;
 const HEADING: usize = 30;
@@ -152,15 +152,15 @@ fn draw_legend(svg: &mut String, y: usize) {
         "message",
         352,
         y,
-        "open topics may be read by anyone beside; each process of the chain has a pulse and a resume topic",
+        "anyone else may read the open topics; each stage has a pulse and a resume topic of its own",
     );
 }
 
 /// The chain has a colour for each topic; what is beside it has one by its first writer.
 fn colour_of(entry: &TopicEntry) -> usize {
     match entry.writers[0] {
-        "world" => 0,
         _ if entry.writers.len() > 1 => 4,
+        "world" => 0,
         "perception" => 1,
         "fields" => 2,
         "control" => 3,
