@@ -150,7 +150,7 @@ fn draw_legend(svg: &mut String, y: usize) {
     text(
         svg,
         "message",
-        352,
+        392,
         y,
         "anyone else may read the open topics; each stage has a pulse and a resume topic of its own",
     );
