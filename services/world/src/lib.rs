@@ -21,6 +21,7 @@
 //! touch it again once they have been opened. Parts that lie 3 mm aside of where they are thought to be, and are taken 3
 //! degrees aslant, are lifted, turned, carried and put down in 19 of 20 trials or more.
 
+mod dynamics;
 mod error;
 mod palm;
 mod parts;
@@ -31,7 +32,6 @@ mod robot_hand_state;
 mod scenario;
 mod sensors;
 mod settings;
-mod simulated_robot;
 mod simulation_state;
 mod world;
 

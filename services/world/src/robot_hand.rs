@@ -1,7 +1,7 @@
+use crate::dynamics::MeasuredGrip;
 use crate::palm::Palm;
 use crate::parts::Parts;
 use crate::robot_hand_state::RobotHandState;
-use crate::simulated_robot::MeasuredGrip;
 use coact_joint_task::Task;
 use coact_messages::{ARM_JOINTS, JOINTS};
 use coact_person::Holder;

@@ -1,11 +1,9 @@
+use crate::dynamics::{FingerStop, Influence, Joints, KinematicRobot, PhysicsSimulation, SimulatedRobot};
 use crate::palm::Palm;
 use crate::parts::Parts;
 use crate::robot_hand::RobotHand;
 use crate::scenario::{Sense, Staging};
 use crate::sensors::{Capture, read_joints, recognise, track};
-use crate::simulated_robot::{
-    FingerStop, Influence, Joints, KinematicRobot, PhysicsSimulation, SimulatedRobot,
-};
 use crate::simulation_state::SimulationState;
 use crate::{Partner, ResumeError, Settings, WorldError};
 use bytemuck::Zeroable;

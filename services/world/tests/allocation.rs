@@ -1,36 +1,15 @@
 //! A step of the kinematic world asks the heap for nothing.
 #![allow(clippy::unwrap_used)]
 
+use allocation_counter::measure;
 use bytemuck::zeroed_box;
 use coact_joint_task::Task;
 use coact_messages::{Command, SensorSample, Truth, WorldState};
+use coact_period::{CYCLES_PER_SECOND, seconds};
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
 use coact_world::{Partner, Settings, World};
-use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-struct Counting;
-
-static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
-
-// SAFETY: every call is passed on unchanged to the system's allocator, which keeps the contract.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: the caller keeps the contract of `alloc`.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller keeps the contract of `dealloc`.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn steps_of_a_minute_allocate_nothing() {
@@ -46,12 +25,13 @@ fn steps_of_a_minute_allocate_nothing() {
             (zeroed_box(), zeroed_box(), zeroed_box());
         let mut command: Box<Command> = zeroed_box();
         command.position[..7].copy_from_slice(&robot.park);
-        let before = ALLOCATIONS.load(Ordering::Relaxed);
-        for tick in 1..=60_000 {
-            command.position[8..11].fill(0.5 + 0.5 * (tick as f64 * 1e-3).sin());
-            world.step(tick, Some(&command), &mut sample, &mut truth, &mut state);
-        }
-        assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0);
+        let allocations = measure(|| {
+            for tick in 1..=60 * CYCLES_PER_SECOND {
+                command.position[8..11].fill(0.5 + 0.5 * seconds(tick).sin());
+                world.step(tick, Some(&command), &mut sample, &mut truth, &mut state);
+            }
+        });
+        assert_eq!(allocations.count_total, 0);
         assert!(truth.actions > 0, "nothing happened that could have allocated");
     }
 }

@@ -1,4 +1,4 @@
-use crate::simulated_robot::Joints;
+use crate::dynamics::Joints;
 use coact_messages::JointReading;
 use coact_random::{RandomStreams, Stream};
 use glam::DVec3;

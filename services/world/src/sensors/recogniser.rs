@@ -1,4 +1,4 @@
-use super::is_frame_due;
+use super::frame_rate::is_frame_due;
 use crate::parts::Parts;
 use coact_messages::{SceneView, Sighting};
 use coact_random::{RandomStreams, Stream};

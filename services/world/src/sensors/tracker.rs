@@ -1,4 +1,4 @@
-use super::is_frame_due;
+use super::frame_rate::is_frame_due;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::{HandView, Keypoint, KeypointName};
 use coact_random::{RandomStreams, Stream};

@@ -1,6 +1,6 @@
 use super::{Out, config};
+use crate::dynamics::SimulatedRobot;
 use crate::scenario::Staging;
-use crate::simulated_robot::SimulatedRobot;
 use crate::{Partner, Scenario, Settings, World};
 use bytemuck::zeroed_box;
 use coact_joint_task::{Agent, Part, Subgoal, Task};

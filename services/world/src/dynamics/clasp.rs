@@ -1,6 +1,6 @@
-use super::MeasuredGrip;
 use super::articulation::Articulation;
 use super::contacts::pushes;
+use super::measured_grip::MeasuredGrip;
 use rapier3d::prelude::*;
 
 /// For how many steps a load must exceed what friction can carry before the part slips, and must not before it sticks

@@ -1,10 +1,13 @@
 use super::articulation::Articulation;
 use super::clasp::Clasp;
+use super::colliders::part_collider;
 use super::contacts::Contacts;
 use super::fixtures::insert_fixtures;
 use super::force_sensor::ForceSensor;
-use super::shapes::{Layer, part_collider};
-use super::{Influence, Joints, MeasuredGrip};
+use super::influence::Influence;
+use super::joints::Joints;
+use super::layer::Layer;
+use super::measured_grip::MeasuredGrip;
 use crate::WorldError;
 use crate::parts::Parts;
 use coact_joint_task::Task;

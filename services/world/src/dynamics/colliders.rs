@@ -5,44 +5,6 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
-/// What touches what.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Layer {
-    /// Table, base and mounted parts.
-    Fixture,
-    /// Parts: touch everything but the person's hand, whose grasps follow rules.
-    Part,
-    /// A part that enters its socket: fits into what it is mounted in.
-    Entering,
-    /// A part that slips out of closed fingers.
-    Slipping,
-    /// The robot's arm.
-    Arm,
-    /// Palm and fingers: touch what the arm does, but not the person's hand, with which they meet on a part.
-    Hand,
-    /// The person's hand.
-    Person,
-}
-
-impl Layer {
-    pub fn groups(self) -> InteractionGroups {
-        let group = |layer: Self| Group::from_bits_truncate(1 << layer as u32);
-        let any = |layers: &[Self]| layers.iter().fold(Group::NONE, |groups, layer| groups | group(*layer));
-        let others = match self {
-            Self::Fixture => any(&[Self::Part, Self::Slipping, Self::Arm, Self::Hand]),
-            Self::Part => {
-                any(&[Self::Fixture, Self::Part, Self::Entering, Self::Slipping, Self::Arm, Self::Hand])
-            }
-            Self::Slipping => any(&[Self::Fixture, Self::Part]),
-            Self::Entering => any(&[Self::Part, Self::Arm, Self::Hand]),
-            Self::Arm => any(&[Self::Fixture, Self::Part, Self::Entering, Self::Person]),
-            Self::Hand => any(&[Self::Fixture, Self::Part, Self::Entering]),
-            Self::Person => any(&[Self::Arm]),
-        };
-        InteractionGroups::new(group(self), others, InteractionTestMode::And)
-    }
-}
-
 /// Turns the engine's y axis onto our z axis.
 pub(super) fn upright() -> Isometry3<f64> {
     let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);

@@ -1,4 +1,5 @@
-use super::{Influence, Joints};
+use super::influence::Influence;
+use super::joints::Joints;
 use crate::parts::Parts;
 use coact_robot::ROBOT_JOINTS;
 

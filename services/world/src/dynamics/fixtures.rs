@@ -1,4 +1,5 @@
-use super::shapes::{Layer, part_collider, pose};
+use super::colliders::{part_collider, pose};
+use super::layer::Layer;
 use crate::WorldError;
 use coact_joint_task::{FixtureForm, Task};
 use glam::{DVec2, DVec3};

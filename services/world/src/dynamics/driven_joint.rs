@@ -1,0 +1,87 @@
+use super::colliders::pose;
+use crate::WorldError;
+use coact_messages::ARM_JOINTS;
+use coact_robot::{ROBOT_JOINTS, Robot};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use rapier3d::prelude::*;
+
+/// Stiffness, 1/s², and damping, 1/s, of the arm's motors, which are acceleration based and critically damped: a natural
+/// frequency of 200 rad/s, several times what the setpoints contain. The velocity is fed forward.
+const ARM: (f32, f32) = (40_000.0, 400.0);
+/// The same of the fingers: soft enough that a part stops them before their effort is spent.
+const HAND: (f32, f32) = (10_000.0, 200.0);
+
+/// A revolute joint with its motor, or one that is geared to another.
+#[derive(Debug, Clone)]
+pub(super) struct DrivenJoint {
+    pub handle: MultibodyJointHandle,
+    pub name: String,
+    /// Joint (message order) that it is, or that it mimics.
+    pub source: usize,
+    /// Whether it is that joint itself.
+    pub is_source: bool,
+    /// Largest torque of its motor, Nm.
+    pub effort: f32,
+    /// The URDF joint that it is geared to, and its angle for each rad of that.
+    pub gear: Option<(String, f64)>,
+}
+
+impl DrivenJoint {
+    /// Makes a revolute joint, with its motor unless it is geared to another.
+    pub fn build(
+        world: &mut PhysicsWorld,
+        robot: &Robot,
+        joint: &urdf_rs::Joint,
+        (parent, child): (RigidBodyHandle, RigidBodyHandle),
+        origin: Isometry3<f64>,
+    ) -> Result<Self, WorldError> {
+        let fault =
+            |message: &str| WorldError::Robot { joint: joint.name.clone(), message: message.to_owned() };
+        let named = |name: &str| (0..ROBOT_JOINTS).find(|&index| name_of(robot, index) == name);
+        let own = named(&joint.name);
+        let gear = robot.urdf.mimicked(&joint.name).map(|(other, factor, _)| (other, factor));
+        let mimicked = gear.as_ref().and_then(|(name, _)| named(name));
+        let source = own.or(mimicked).ok_or_else(|| {
+            fault("is not fixed, not in the robot file, and mimics no joint that is; name it there")
+        })?;
+        let axis = Vector3::from(joint.axis.xyz.0);
+        let align = UnitQuaternion::rotation_between(&Vector3::x(), &axis)
+            .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI));
+        let effort = joint.limit.effort as f32;
+        let data = GenericJointBuilder::new(JointAxesMask::LOCKED_REVOLUTE_AXES)
+            .local_frame1(pose(&(origin * align)))
+            .local_frame2(pose(&Isometry3::from_parts(Default::default(), align)));
+        let motor = |data: GenericJointBuilder| {
+            data.motor_model(JointAxis::AngX, MotorModel::AccelerationBased)
+                .set_motor(JointAxis::AngX, 0.0, 0.0, ARM.0, ARM.1)
+                .motor_max_force(JointAxis::AngX, effort)
+        };
+        let data = if gear.is_none() { motor(data) } else { data };
+        let handle = world
+            .insert_multibody_joint(parent, child, data.build())
+            .ok_or_else(|| fault("closes a loop; expected a tree of links"))?;
+        Ok(Self { handle, name: joint.name.clone(), source, is_source: own.is_some(), effort, gear })
+    }
+
+    /// Stiffness, 1/s², and damping, 1/s, of its motor.
+    pub fn gains(&self) -> (f32, f32) {
+        if self.source < ARM_JOINTS { ARM } else { HAND }
+    }
+
+    /// The finger whose base or tip it is.
+    pub fn finger(&self) -> Option<usize> {
+        self.source.checked_sub(ARM_JOINTS + 1).map(|joint| joint % 3)
+    }
+
+    /// Angle for each rad of its source.
+    pub fn factor(&self) -> f64 {
+        if self.is_source { 1.0 } else { self.gear.as_ref().map_or(1.0, |(_, factor)| *factor) }
+    }
+}
+
+fn name_of(robot: &Robot, index: usize) -> &str {
+    match index.checked_sub(7) {
+        None => &robot.arm().joints[index].name,
+        Some(index) => &robot.hand.joints[index].name,
+    }
+}
