@@ -1,8 +1,8 @@
 use crate::ending::EndCondition;
 use crate::run_loop::{RunLoop, RunParts};
 use crate::{
-    Ending, Injection, LaunchError, Note, NoteKind, Notes, ProcessSet, ProcessSpec, Progress, SupervisorLog,
-    Terminal,
+    Ending, Injection, LaunchError, Note, NoteKind, Notes, ProcessSet, ProcessSpec, RunProgress,
+    SupervisorLog, Terminal,
 };
 use coact_joint_task::Task;
 use coact_pipeline::{Pipeline, ProcessEntry, Run, RunSettings, Trigger};
@@ -73,7 +73,7 @@ impl Launch {
             pipeline: &self.pipeline,
             terminal: &terminal,
             set: self.process_set(&run.0, log, terminal.notes()),
-            progress: Progress::new(&self.task),
+            progress: RunProgress::new(&self.task),
             injections: self.injections.clone(),
             end: EndCondition::new(self.duration),
         })?;

@@ -3,7 +3,7 @@ use crate::ending::EndCondition;
 use crate::run_topics::RunTopics;
 use crate::topic_reader::TopicReader;
 use crate::{
-    Ending, Injection, InjectionRefusal, LaunchError, Note, NoteKind, ProcessSet, Progress, Terminal,
+    Ending, Injection, InjectionRefusal, LaunchError, Note, NoteKind, ProcessSet, RunProgress, Terminal,
 };
 use coact_pipeline::{Pipeline, Run};
 use coact_realtime::{SchedulingClass, monotonic_time};
@@ -18,7 +18,7 @@ pub(crate) struct RunParts<'a> {
     pub(crate) pipeline: &'a Pipeline,
     pub(crate) terminal: &'a Terminal,
     pub(crate) set: ProcessSet,
-    pub(crate) progress: Progress,
+    pub(crate) progress: RunProgress,
     pub(crate) injections: Vec<Injection>,
     pub(crate) end: EndCondition,
 }
@@ -33,7 +33,7 @@ pub(crate) struct RunLoop<'a> {
     reader: TopicReader,
     topics: RunTopics,
     socket: ControlSocket,
-    progress: Progress,
+    progress: RunProgress,
     /// Faults that are still to come, the next one last.
     injections: Vec<Injection>,
     end: EndCondition,

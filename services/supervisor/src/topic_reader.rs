@@ -1,4 +1,4 @@
-use crate::{ProcessSet, Progress};
+use crate::{ProcessSet, RunProgress};
 use coact_messages::{FieldFrame, Pulse, Speech, topic};
 use coact_pipeline::{Pipeline, Trigger};
 use coact_realtime::{Bus, Input, PortError};
@@ -27,14 +27,14 @@ impl TopicReader {
     }
 
     /// Tells `set` who published a pulse, and `progress` what has changed.
-    pub(crate) fn poll(&mut self, set: &mut ProcessSet, progress: &mut Progress) {
+    pub(crate) fn poll(&mut self, set: &mut ProcessSet, progress: &mut RunProgress) {
         if let (Err(error), false) = (self.read(set, progress), self.failed) {
             self.failed = true;
             tracing::warn!("the progress shown is incomplete: {error}");
         }
     }
 
-    fn read(&mut self, set: &mut ProcessSet, progress: &mut Progress) -> Result<(), PortError> {
+    fn read(&mut self, set: &mut ProcessSet, progress: &mut RunProgress) -> Result<(), PortError> {
         for (process, input) in &mut self.pulses {
             if input.refresh()?
                 && let Some(pulse) = input.latest()

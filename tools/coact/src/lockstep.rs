@@ -3,7 +3,7 @@
 use anyhow::Result;
 use coact_monitor::Monitor;
 use coact_period::{CYCLES_PER_SECOND, PERIOD_NS, seconds};
-use coact_supervisor::{Launch, Note, NoteKind, Progress, Terminal};
+use coact_supervisor::{Launch, Note, NoteKind, RunProgress, Terminal};
 use std::time::Duration;
 
 /// Runs all stages to the end of the run.
@@ -14,7 +14,7 @@ pub fn run(launch: &Launch) -> Result<()> {
     let Launch { settings, task, duration, .. } = launch;
     Monitor::clear(&settings.report)?;
     let terminal = Terminal::open();
-    let mut progress = Progress::new(task);
+    let mut progress = RunProgress::new(task);
     let finished = coact_lockstep::run(settings, *duration, |stages, sentence| {
         let at = Duration::from_nanos(stages.ticks() * PERIOD_NS);
         progress.frame(&stages.frame);

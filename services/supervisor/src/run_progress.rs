@@ -7,7 +7,7 @@ use std::time::Duration;
 
 /// The state of the run, as the person at the terminal sees it; each change becomes a [`Note`].
 #[derive(Debug)]
-pub struct Progress {
+pub struct RunProgress {
     subgoals: Vec<String>,
     actions: Vec<String>,
     achieved: Vec<bool>,
@@ -29,7 +29,7 @@ struct DeadlineMisses {
 /// A population whose signal is above this stands for an achieved subgoal: the middle between rest (0) and a full peak (1).
 const ACHIEVED: f64 = 0.5;
 
-impl Progress {
+impl RunProgress {
     /// Of a run of this task, at its beginning.
     pub fn new(task: &Task) -> Self {
         Self {
@@ -150,9 +150,9 @@ mod tests {
     use super::*;
     use coact_messages::NONE;
 
-    fn progress() -> Progress {
+    fn progress() -> RunProgress {
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/tasks/toy-vehicle.toml");
-        Progress::new(&Task::load(file.as_ref()).unwrap())
+        RunProgress::new(&Task::load(file.as_ref()).unwrap())
     }
 
     /// A frame whose subgoal populations have these signals.
@@ -166,7 +166,7 @@ mod tests {
         frame
     }
 
-    fn texts(progress: &mut Progress) -> Vec<String> {
+    fn texts(progress: &mut RunProgress) -> Vec<String> {
         progress.take_notes().into_iter().map(|note| note.text).collect()
     }
 
