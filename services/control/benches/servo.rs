@@ -5,31 +5,31 @@
 #[path = "../tests/kinematic_world/mod.rs"]
 mod kinematic_world;
 
-use coact_control::{Control, Settings};
+use coact_control::Control;
+use coact_period::{CYCLES_PER_SECOND, PERIOD, seconds};
 use hdrhistogram::Histogram;
 use kinematic_world::KinematicWorld;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-const CYCLE: Duration = Duration::from_millis(1);
 /// A decision changes after so many cycles.
 const CHANGES: u64 = 1_300;
 
 fn main() {
-    let seconds = std::env::args().find_map(|argument| argument.parse().ok()).unwrap_or(60u64);
+    let duration = std::env::args().find_map(|argument| argument.parse().ok()).unwrap_or(60u64);
     let mut world = KinematicWorld::new();
-    let (control, planner) =
-        Control::in_real_time(world.robot.clone(), &world.task, Settings::default()).unwrap();
+    let limits = kinematic_world::limits();
+    let (control, planner) = Control::in_real_time(world.robot.clone(), &world.task, &limits).unwrap();
     world.control = control;
     std::thread::spawn(move || planner.run());
     let actions = world.task.actions.len() as u64;
     let mut times = Histogram::<u64>::new_with_max(1_000_000_000, 3).unwrap();
     let (mut command, mut moving) = (world.command.clone(), 0);
     let start = Instant::now();
-    for cycle in 0..1000 * seconds {
+    for cycle in 0..CYCLES_PER_SECOND * duration {
         if cycle % CHANGES == 0 {
             world.decide(Some((cycle / CHANGES % (actions + 1)) as u32));
         }
-        let at = cycle as f64 * 1e-3;
+        let at = seconds(cycle);
         world.hand_at([-0.75 + 0.25 * (0.7 * at).sin(), 0.35 + 0.25 * (0.5 * at).cos(), 1.0]);
         world.sense();
         let before = Instant::now();
@@ -45,12 +45,12 @@ fn main() {
         *world.command = *command;
         moving += u64::from(command.velocity[..7].iter().any(|velocity| velocity.abs() > 0.05));
         world.tick += 1;
-        std::thread::sleep((start + CYCLE * (cycle as u32 + 1)).saturating_duration_since(Instant::now()));
+        std::thread::sleep((start + PERIOD * (cycle as u32 + 1)).saturating_duration_since(Instant::now()));
     }
     let at = |share| times.value_at_quantile(share) as f64 * 1e-3;
     println!(
-        "servo step over {seconds} s, in motion {} %: p50 {:.1}, p99 {:.1}, p99.9 {:.1}, max {:.1} µs",
-        100 * moving / (1000 * seconds),
+        "servo step over {duration} s, in motion {} %: p50 {:.1}, p99 {:.1}, p99.9 {:.1}, max {:.1} µs",
+        100 * moving / (CYCLES_PER_SECOND * duration),
         at(0.5),
         at(0.99),
         at(0.999),

@@ -1,35 +1,28 @@
-use crate::body::Body;
-use crate::choice::{self, Choice};
-use crate::errand::{Errand, Leg};
 use crate::guard::Guard;
-use crate::places::Places;
-use crate::planner::{GUIDE, Planner};
-use crate::planning::Planning;
-use crate::senses::Senses;
+use crate::inputs::Inputs;
+use crate::planning::{HandGoals, PlannerLink, PlanningThread, SkillPlanner};
+use crate::robot::{CollisionModels, RobotModel};
 use crate::servo::Servo;
-use crate::{ControlError, Memory, PlanningThread, Settings};
-use coact_joint_task::{Action, ActionType, Task};
+use crate::state::{ControlState, SkillPhase};
+use crate::{ControlError, reachability};
+use coact_joint_task::{Action, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
-use coact_robot::{NextUse, Robot};
+use coact_robot::Robot;
+use coact_safety::SafetyLimits;
+use coact_stage_state::StageState;
 
-/// Pace below which the person is in the way: less than that at which the arm gets away from somebody.
-const SLOW: f64 = 0.3;
-
-/// Cycles without a decision after which an errand is given up: between one decision and the next there is none for some.
-const HESITATION: u64 = 120;
-
-/// The control stage: decisions in, setpoints out, one period of 1 ms at each step.
+/// The control stage: decisions in, setpoints out, one period at each step.
 #[derive(Debug)]
 pub struct Control {
-    pub(crate) body: Body,
-    pub(crate) places: Places,
+    pub(crate) robot: RobotModel,
+    pub(crate) goals: HandGoals,
     pub(crate) actions: Vec<Action>,
-    pub(crate) settings: Settings,
+    pub(crate) limits: SafetyLimits,
     pub(crate) servo: Servo,
     pub(crate) guard: Guard,
-    pub(crate) planning: Planning,
-    pub(crate) memory: Memory,
-    /// Whether setpoints have been sent, or recalled: then they go on from there.
+    pub(crate) planner: PlannerLink,
+    pub(crate) state: ControlState,
+    /// Whether setpoints have been sent, or resumed from: then they go on from there.
     started: bool,
 }
 
@@ -38,9 +31,10 @@ impl Control {
     ///
     /// # Errors
     /// [`ControlError::Unreachable`] when the robot cannot reach a place that the task's actions need,
-    /// [`ControlError::Robot`] when its collision geometry cannot be used.
-    pub fn new(robot: Robot, task: &Task, settings: Settings) -> Result<Self, ControlError> {
-        Ok(Self::with(robot, task, settings, |planner| (Planning::at_once(planner), ()))?.0)
+    /// [`ControlError::Ungraspable`] when its hand cannot grasp a part, [`ControlError::Robot`] when its collision geometry
+    /// cannot be used.
+    pub fn new(robot: Robot, task: &Task, limits: &SafetyLimits) -> Result<Self, ControlError> {
+        Ok(Self::with(robot, task, limits, |planner| (PlannerLink::within(planner), ()))?.0)
     }
 
     /// Control for real time: its movements are planned by the thread that is returned, beside the servo.
@@ -50,48 +44,51 @@ impl Control {
     pub fn in_real_time(
         robot: Robot,
         task: &Task,
-        settings: Settings,
+        limits: &SafetyLimits,
     ) -> Result<(Self, PlanningThread), ControlError> {
-        Self::with(robot, task, settings, Planning::beside)
+        Self::with(robot, task, limits, PlannerLink::beside)
     }
 
     fn with<T>(
         robot: Robot,
         task: &Task,
-        settings: Settings,
-        planning: impl FnOnce(Planner) -> (Planning, T),
+        limits: &SafetyLimits,
+        link: impl FnOnce(SkillPlanner) -> (PlannerLink, T),
     ) -> Result<(Self, T), ControlError> {
-        let body = Body::new(robot, task)?;
-        let places = Places::new(&body, task);
-        let planner = Planner::new(body.clone(), places.clone(), task)?;
-        check(&planner, &places, task)?;
-        let guard = Guard::new(&body, &places, &planner)?;
-        let park = body.park();
-        let (planning, thread) = planning(planner);
+        let robot = RobotModel::new(robot, task)?;
+        let goals = HandGoals::new(&robot, task);
+        let models = CollisionModels::new(&robot.robot, task)?;
+        let guard = Guard::new(&robot, &models, limits.guard)?;
+        let planner = SkillPlanner::new(robot.clone(), models, goals.clone(), task, *limits);
+        reachability::check(&planner, &goals, task)?;
+        let park = robot.park();
+        let (planner, thread) = link(planner);
         let control = Self {
-            servo: Servo::new(body.limits(), park),
-            memory: Memory::at_rest(park),
+            servo: Servo::new(robot.limits(), park),
+            state: ControlState::at_rest(park),
             guard,
-            planning,
+            planner,
             actions: task.actions.clone(),
-            body,
-            places,
-            settings,
+            robot,
+            goals,
+            limits: *limits,
             started: false,
         };
         Ok((control, thread))
     }
 
-    /// Continues from the last command of a predecessor: its setpoints, its movement, its errand.
+    /// Goes on from the last command of a predecessor: its setpoints, its trajectory, its skill. A command without such a
+    /// state is ignored.
     pub fn resume(&mut self, last: &Command) {
-        self.recall(last);
+        self.take_over(last);
     }
 
     /// One period: the setpoints of cycle `tick` into `out`, from the newest messages known. `previous` is the command
     /// of the cycle before; without it the stage goes on from what it sent, or was resumed from. The very first
     /// setpoints are the measured joint positions (the park posture when nothing was measured yet).
     ///
-    /// Whatever the messages hold, setpoints keep the limits of position, velocity, acceleration and jerk.
+    /// The skill under way is pursued before a decision may begin another one: a phase that ends in this cycle ends with its
+    /// skill. Whatever the messages hold, setpoints keep the limits of position, velocity, acceleration and jerk.
     pub fn step(
         &mut self,
         tick: u64,
@@ -101,146 +98,106 @@ impl Control {
         previous: Option<&Command>,
         out: &mut Command,
     ) {
-        let recalled = previous.is_some_and(|previous| self.recall(previous));
-        if !(recalled || self.started) {
-            self.start(sample);
-        }
+        self.begin(sample, previous);
         let before = self.servo.position();
-        let senses = Senses::new(&self.settings, tick, sample, percept, frame);
-        if !senses.blind() {
-            self.pursue(&senses);
-            self.decide(&senses);
+        let inputs = Inputs::new(&self.limits.stale, tick, sample, percept, frame);
+        if !inputs.blind() {
+            self.pursue(&inputs);
+            self.decide(&inputs);
         }
-        let pace = self.pace(&senses);
-        self.servo.advance(&mut self.memory, !senses.blind(), pace);
-        self.report(&senses, out);
+        self.serve(&inputs);
+        self.report(&inputs, out);
         let measured = sample.map(|sample| sample.joints.position);
         out.tracking_error = std::array::from_fn(|joint| tracking_error(measured, before, joint));
     }
 
-    fn recall(&mut self, command: &Command) -> bool {
-        let Some(memory) = Memory::recall(command) else { return false };
-        let sound = self.servo.recall(command);
-        if sound {
-            self.memory = memory;
+    /// Goes on from the previous command, or from where the joints are.
+    fn begin(&mut self, sample: Option<&SensorSample>, previous: Option<&Command>) {
+        let resumed = previous.is_some_and(|previous| self.take_over(previous));
+        if resumed || self.started {
+            return;
+        }
+        let position =
+            sample.map_or_else(|| self.robot.park(), |s| self.robot.start_from(&s.joints.position));
+        self.servo = Servo::new(self.robot.limits(), position);
+        self.state = ControlState::at_rest(position);
+        self.started = true;
+    }
+
+    /// Takes over state and setpoints of a command; `false`, and nothing changed, when they are not sound.
+    fn take_over(&mut self, command: &Command) -> bool {
+        let (actions, kinds, grips) =
+            (self.actions.len(), self.robot.part_capsules.len(), self.robot.grips.all().len());
+        let state = ControlState::load(&command.state).ok();
+        let state = state.filter(|state| state.is_of_task(actions, kinds, grips));
+        let sound = state.is_some() && self.servo.resume(command);
+        if let Some(state) = state.filter(|_| sound) {
+            self.state = state;
             self.started = true;
         }
         sound
     }
 
-    fn start(&mut self, sample: Option<&SensorSample>) {
-        let position = sample.map_or_else(|| self.body.park(), |s| self.body.start_from(&s.joints.position));
-        self.servo = Servo::new(self.body.limits(), position);
-        self.memory = Memory::at_rest(position);
-        self.started = true;
-    }
-
-    /// Begins another errand when the decision asks for one, as soon as the present leg allows it.
-    fn decide(&mut self, senses: &Senses) {
-        choice::age(&mut self.memory, senses, &self.actions, &self.settings);
-        let posture = self.servo.posture();
-        let robot = &self.body.robot;
-        choice::feel(&mut self.memory, senses, || (robot.palm(&posture), robot.grasp_point(&posture)));
-        if let Some(decision) = senses.decision().filter(|d| u64::from(d.action) == self.memory.action) {
-            self.memory.since = decision.since;
-        }
-        let choice = Choice::of(&self.memory, senses, &self.actions, &self.settings);
-        let leg = self.memory.leg();
-        let resting = leg == Leg::Rest && self.memory.errand() != Errand::Park;
-        let hesitates = choice.errand == Errand::Park && (1..HESITATION).contains(&self.memory.silent);
-        if leg.is_firm() || (choice.is_under_way(&self.memory) && !resting) || (hesitates && !resting) {
-            return;
-        }
-        if choice::can_begin(&choice, senses) {
-            self.memory.decided = senses.tick();
-            self.begin(&choice, senses);
-        } else if self.memory.errand() != Errand::Park || resting {
-            self.begin(&Choice { errand: Errand::Park, ..choice }, senses);
+    /// The setpoints of this cycle: along the trajectory as fast as the guard allows. Without fresh inputs the joints brake.
+    fn serve(&mut self, inputs: &Inputs) {
+        let speed_override = self.speed_override(inputs);
+        let ControlState { arm, fingers, .. } = &mut self.state;
+        if inputs.blind() {
+            self.servo.brake(arm, fingers);
+        } else {
+            self.servo.advance(arm, fingers, speed_override);
         }
     }
 
     /// How fast the arm may go on: slower, or not at all, where the person comes near.
-    fn pace(&mut self, senses: &Senses) -> f64 {
-        if self.memory.arrived() {
+    fn speed_override(&mut self, inputs: &Inputs) -> f64 {
+        if self.state.arm_has_arrived() {
             return 1.0;
         }
-        let Some(person) = senses.person_arm(&self.body.hulls) else { return 1.0 };
-        let (hold, closing) = (self.hold(), coact_messages::finger_closure(&self.servo.position()));
-        let pace = self.guard.pace(&self.memory, hold, closing, &person);
-        let blocked = self.memory.blocked;
-        self.memory.blocked = if pace < SLOW { blocked + 1 } else { blocked.saturating_sub(1) };
-        pace
+        let Some(person) = inputs.person(&self.robot.part_capsules, &self.limits.person) else { return 1.0 };
+        let (grip, closure) = (self.held_in(), coact_messages::finger_closure(&self.servo.position()));
+        let speed_override = self.guard.speed_override(&self.state, grip, closure, &person);
+        let is_blocked = speed_override < self.limits.guard.blocked_override;
+        let blocked = self.state.arm.blocked;
+        self.state.arm.blocked =
+            if is_blocked { blocked.saturating_add(1) } else { blocked.saturating_sub(1) };
+        speed_override
     }
 
-    /// How the part in the hand is held: index of a hold.
-    pub(crate) fn hold(&self) -> Option<usize> {
-        self.memory.held().map(|kind| self.body.holds.known(self.memory.hold, kind))
+    /// The grip in which the held part is held: index into the grip table.
+    pub(crate) fn held_in(&self) -> Option<usize> {
+        let hand = &self.state.hand;
+        hand.held().map(|kind| self.robot.grips.known(hand.grip.get(), kind))
     }
 
-    /// Notes how long after the decision its movement begins.
-    pub(crate) fn note_reaction(&mut self, senses: &Senses) {
-        if self.memory.decided > 0 {
-            self.memory.reaction = senses.tick() - self.memory.decided.min(senses.tick());
-            self.memory.begun += 1;
-            self.memory.decided = 0;
+    fn report(&self, inputs: &Inputs, out: &mut Command) {
+        for (joint, setpoint) in self.servo.joints.iter().enumerate() {
+            out.position[joint] = setpoint.position;
+            out.velocity[joint] = setpoint.velocity;
+            out.acceleration[joint] = setpoint.acceleration;
+        }
+        let ControlState { skill, decisions, .. } = &self.state;
+        out.action = if skill.is_parking() { NONE } else { skill.action.or(NONE) };
+        out.phase = if inputs.blind() { MotionPhase::Brake } else { self.motion_phase() } as u32;
+        out.begun = decisions.begun as u32;
+        out.reaction = u32::try_from(decisions.reaction).unwrap_or(u32::MAX);
+        self.state.store(&mut out.state);
+    }
+
+    /// The phase as others see it.
+    fn motion_phase(&self) -> MotionPhase {
+        let ControlState { arm, skill, hand, .. } = &self.state;
+        match skill.phase() {
+            SkillPhase::Idle => MotionPhase::Rest,
+            SkillPhase::Move if arm.is_approaching() => MotionPhase::Approach,
+            SkillPhase::Plan | SkillPhase::Move if !hand.is_empty() => MotionPhase::Transport,
+            SkillPhase::Plan | SkillPhase::Move if skill.is_parking() => MotionPhase::Retreat,
+            SkillPhase::Plan | SkillPhase::Move => MotionPhase::Reach,
+            SkillPhase::Wait | SkillPhase::Dwell => MotionPhase::Dwell,
+            SkillPhase::Close | SkillPhase::Verify => MotionPhase::Grasp,
+            SkillPhase::Open => MotionPhase::Release,
         }
     }
-
-    fn report(&self, senses: &Senses, out: &mut Command) {
-        for (joint, state) in self.servo.joints.iter().enumerate() {
-            out.position[joint] = state.position;
-            out.velocity[joint] = state.velocity;
-            out.acceleration[joint] = state.acceleration;
-        }
-        let idle = self.memory.errand() == Errand::Park;
-        out.action = if idle { NONE } else { u32::try_from(self.memory.action).unwrap_or(NONE) };
-        let phase = if senses.blind() { MotionPhase::Brake } else { self.phase() };
-        out.phase = phase as u32;
-        out.begun = self.memory.begun as u32;
-        out.reaction = u32::try_from(self.memory.reaction).unwrap_or(u32::MAX);
-        self.memory.store(out);
-    }
-
-    fn phase(&self) -> MotionPhase {
-        let empty = self.memory.held().is_none();
-        match self.memory.leg() {
-            Leg::Rest => MotionPhase::Rest,
-            Leg::Move if self.memory.course.is_approach(self.memory.elapsed) => MotionPhase::Approach,
-            Leg::Plan | Leg::Move if !empty => MotionPhase::Transport,
-            Leg::Plan | Leg::Move if self.memory.errand() == Errand::Park => MotionPhase::Retreat,
-            Leg::Plan | Leg::Move => MotionPhase::Reach,
-            Leg::Await | Leg::Stay => MotionPhase::Dwell,
-            Leg::Close | Leg::Feel => MotionPhase::Grasp,
-            Leg::Open => MotionPhase::Release,
-        }
-    }
-}
-
-/// Refuses a task with a place that the hand needs and cannot reach.
-fn check(planner: &Planner, places: &Places, task: &Task) -> Result<(), ControlError> {
-    for action in &task.actions {
-        let goals = match (action.action_type, action.kind, action.subgoal) {
-            (ActionType::Insert, Some(kind), Some(subgoal)) => {
-                places.takes(kind, NextUse::Insert { depth: GUIDE }, &places.socket(subgoal))
-            }
-            (ActionType::Receive | ActionType::Give, Some(kind), _) => {
-                places.takes(kind, NextUse::Anything, &places.meeting())
-            }
-            (ActionType::Request, ..) => vec![(places.held_out(), None)],
-            (ActionType::Steady, ..) => vec![(places.steadying(), None)],
-            _ => continue,
-        };
-        let Some((goal, _)) = goals.first().copied() else { continue };
-        if !planner.reaches(goals.into_iter().map(|(goal, _)| goal).collect())? {
-            let [x, y, z]: [f64; 3] = goal.approach.into();
-            return Err(ControlError::Unreachable {
-                what: format!("the place for \"{}\"", action.name),
-                place: goal.point.coords.into(),
-                towards: format!("pointing along ({x:.2}, {y:.2}, {z:.2}) and {:.2} m before it", goal.back),
-            });
-        }
-    }
-    Ok(())
 }
 
 /// Measured minus commanded position, rad; 0 when nothing usable was measured.

@@ -1,88 +1,134 @@
-use crate::body::{self, Fingers};
-use crate::memory::Memory;
-use crate::person::PersonArm;
-use crate::places::Places;
-use crate::planner::Planner;
+use crate::person_capsules::PersonCapsules;
+use crate::robot::{CollisionModels, FingerShape, RobotModel};
+use crate::state::ControlState;
 use coact_motion::{Capsule, CollisionModel, Mechanism};
-use coact_robot::{JointLimits, NextUse, RobotError};
-use nalgebra::Isometry3;
+use coact_robot::{JointLimits, RobotError};
+use coact_safety::GuardLimits;
 
-/// Keeps arm, hand and held part clear of the person: says how fast the movement under way may go on.
+/// Keeps the protective separation between the robot, with what it holds, and the person: says how fast the trajectory
+/// under way may go on.
 #[derive(Debug)]
 pub(crate) struct Guard {
+    limits: GuardLimits,
     mechanism: Mechanism,
-    /// Bodies with an empty hand, the fingers ever farther closed; then with a part in it in each of the holds.
-    bodies: Vec<CollisionModel>,
+    /// Arm and empty hand, the fingers ever farther closed.
+    empty: Vec<CollisionModel>,
+    /// Arm and hand with a part in it, in each grip of the table.
+    holding: Vec<CollisionModel>,
     /// Limits of the fingers' bases.
     bases: JointLimits,
     /// Where the person is at the moment looked at.
     person: Vec<Capsule>,
 }
 
-/// Distance that is kept, m.
-pub(crate) const MARGIN: f64 = 0.04;
-/// Shapes of the empty hand.
+/// Finger shapes of the empty hand for which there is a collision model. Chosen by hand, between memory and how far the
+/// fingers are from the nearest of them; not sensitive: the hand moves among people with its fingers in a shape at rest.
 const SHAPES: usize = 13;
-/// How far ahead the movement is looked at, s, and in how many steps.
-const AHEAD: (f64, u32) = (0.4, 8);
-/// Time within which the arm stands, s: with less to go it may not move on.
-const STANDING: f64 = 0.1;
-/// Pace at which the arm may get away from somebody who is too near.
-const ESCAPE: f64 = 0.4;
-/// It gets away if it is at last farther from the person than if it stood, by this, and on the way hardly nearer, m.
-const GAIN: f64 = 1e-3;
-const LOSS: f64 = 1e-5;
+/// Steps ahead at which leaving is compared with standing still, besides the last one: close together at first, where the
+/// arm is nearest to the person.
+const COMPARED: [u32; 3] = [1, 2, 4];
 
 impl Guard {
     /// # Errors
     /// [`RobotError`] when the robot's collision geometry cannot be used.
-    pub fn new(own: &body::Body, places: &Places, planner: &Planner) -> Result<Self, RobotError> {
-        let (hand, bases) = (&own.robot.hand, own.robot.hand.joints[1].limits);
+    pub fn new(
+        robot: &RobotModel,
+        models: &CollisionModels,
+        limits: GuardLimits,
+    ) -> Result<Self, RobotError> {
+        let (hand, bases) = (&robot.robot.hand, robot.robot.hand.joints[1].limits);
         let base =
             |shape: usize| bases.lower + (bases.upper - bases.lower) * shape as f64 / (SHAPES - 1) as f64;
-        let empty = (0..SHAPES).map(|shape| planner.figure(&[hand.posture(base(shape))], None));
-        let holding = own.holds.all().iter().enumerate().map(|(index, hold)| {
-            let mut goals = places.takes(hold.kind, NextUse::Anything, &Isometry3::identity()).into_iter();
-            let goal = goals.find(|(_, of)| *of == Some(index)).map(|(goal, _)| goal);
-            let palm = goal.map(|goal| hand.palm_at(&goal.point, &goal.approach, &goal.closing_axis, 0.0));
-            let in_palm = palm.map_or_else(Isometry3::identity, |palm| palm.inverse());
-            planner.figure(&[own.fingers(Fingers::On(index))], Some((hold.kind, in_palm)))
+        let empty = (0..SHAPES).map(|shape| models.of(&[hand.posture(base(shape))], None));
+        let holding = robot.grips.all().iter().enumerate().map(|(index, grip)| {
+            let closed = robot.hand_angles(FingerShape::Closed(index));
+            models.of(&[closed], Some((grip.kind, grip.in_palm)))
         });
-        let bodies: Vec<CollisionModel> = empty.chain(holding).collect::<Result<_, _>>()?;
-        let person = Vec::with_capacity(PersonArm::CAPSULES);
-        Ok(Self { mechanism: planner.mechanism().clone(), bodies, bases, person })
+        Ok(Self {
+            limits,
+            mechanism: models.mechanism.clone(),
+            empty: empty.collect::<Result<_, _>>()?,
+            holding: holding.collect::<Result<_, _>>()?,
+            bases,
+            person: Vec::with_capacity(PersonCapsules::MOST),
+        })
     }
 
-    /// Share of its own speed at which the movement under way may go on, 0 to 1, with a part in `hold`, or with the
-    /// fingers' bases of an empty hand at `closing` rad.
-    pub fn pace(&mut self, memory: &Memory, hold: Option<usize>, closing: f64, person: &PersonArm) -> f64 {
-        let shape = hold.map_or_else(|| self.shape(closing), |hold| SHAPES + hold);
-        let body = &self.bodies[shape.min(self.bodies.len() - 1)];
-        let (horizon, steps) = AHEAD;
-        let ahead = |step: u32| horizon / f64::from(steps) * f64::from(step);
-        // Distance after this time when the movement goes on, or stops, now, without the hand where the hands shall meet;
-        // `most` when it is more.
-        let mut distance = |ahead: f64, goes_on: bool, most: f64| {
-            let t = memory.elapsed + if goes_on { ahead } else { 0.0 };
-            self.person.clear();
-            self.person.extend(person.after(ahead));
-            body.distance(&self.mechanism, &memory.course.posture(t), &self.person, !memory.meets(t), most)
+    /// Speed override at which the trajectory under way may go on, with a part held in `grip`, or with an empty hand whose
+    /// finger closure is `closure` rad.
+    ///
+    /// Where the protective separation will be violated within the horizon, the arm slows down in proportion to the time that
+    /// is left, and stands when that is the time that it takes to stop. Where it is violated already, the arm stands, unless
+    /// it leaves the person.
+    pub fn speed_override(
+        &mut self,
+        state: &ControlState,
+        grip: Option<usize>,
+        closure: f64,
+        person: &PersonCapsules,
+    ) -> f64 {
+        let GuardLimits { protective_separation, horizon_steps, .. } = self.limits;
+        let (horizon, stopped) =
+            (self.limits.horizon.as_secs_f64(), self.limits.stopped_within.as_secs_f64());
+        let ahead = |step: u32| horizon / f64::from(horizon_steps) * f64::from(step);
+        let mut violates = |ahead: f64| {
+            let t = state.arm.elapsed + ahead;
+            self.separation(state, grip, closure, person, (t, ahead), protective_separation)
+                < protective_separation
         };
-        if distance(0.0, true, MARGIN) < MARGIN {
-            let gains = [1, 2, 4, steps]
-                .map(ahead)
-                .map(|ahead| distance(ahead, true, f64::INFINITY) - distance(ahead, false, f64::INFINITY));
-            let (least, last) =
-                gains.into_iter().fold((0.0, 0.0), |(least, _): (f64, f64), gain| (least.min(gain), gain));
-            return if least > -LOSS && last > GAIN { ESCAPE } else { 0.0 };
+        if violates(0.0) {
+            let leaves = self.leaves(state, grip, closure, person, ahead);
+            return if leaves { self.limits.escape_override } else { 0.0 };
         }
-        let blocked = (1..=steps).map(ahead).find(|ahead| distance(*ahead, true, MARGIN) < MARGIN);
-        blocked.map_or(1.0, |ahead| ((ahead - STANDING) / (horizon - STANDING)).clamp(0.0, 1.0))
+        let violated = (1..=horizon_steps).map(ahead).find(|ahead| violates(*ahead));
+        violated.map_or(1.0, |ahead| ((ahead - stopped) / (horizon - stopped)).clamp(0.0, 1.0))
     }
 
-    /// The body with an empty hand that is most like one with the fingers' bases at this angle, rad.
-    fn shape(&self, closing: f64) -> usize {
-        let share = (closing - self.bases.lower) / (self.bases.upper - self.bases.lower);
-        (share * (SHAPES - 1) as f64).round().clamp(0.0, (SHAPES - 1) as f64) as usize
+    /// Whether going on brings the arm away from a person who is too near: at the horizon it is farther away than if it
+    /// stood still, and nowhere on the way is it nearer than that. The person moves on in both cases.
+    fn leaves(
+        &mut self,
+        state: &ControlState,
+        grip: Option<usize>,
+        closure: f64,
+        person: &PersonCapsules,
+        ahead: impl Fn(u32) -> f64,
+    ) -> bool {
+        let now = state.arm.elapsed;
+        let steps = COMPARED.into_iter().chain([self.limits.horizon_steps]);
+        let gains = steps.map(ahead).map(|ahead| {
+            let mut separation =
+                |t: f64| self.separation(state, grip, closure, person, (t, ahead), f64::INFINITY);
+            separation(now + ahead) - separation(now)
+        });
+        let (least, last) = gains.fold((0.0, 0.0), |(least, _): (f64, f64), gain| (least.min(gain), gain));
+        least > -self.limits.escape_loss && last > self.limits.escape_gain
+    }
+
+    /// Distance between the robot at time `t` of the trajectory, s, and the person `ahead` s from now, m; `most` when it is
+    /// more. Where the hands shall touch, without the robot's.
+    fn separation(
+        &mut self,
+        state: &ControlState,
+        grip: Option<usize>,
+        closure: f64,
+        person: &PersonCapsules,
+        (t, ahead): (f64, f64),
+        most: f64,
+    ) -> f64 {
+        self.person.clear();
+        self.person.extend(person.after(ahead));
+        let model = match grip.and_then(|grip| self.holding.get(grip)) {
+            Some(holding) => holding,
+            None => &self.empty[self.shape(closure)],
+        };
+        let with_hand = !state.may_touch_person(t);
+        model.distance(&self.mechanism, &state.arm.trajectory.posture(t), &self.person, with_hand, most)
+    }
+
+    /// The collision model of an empty hand that is most like one with this finger closure, rad.
+    fn shape(&self, closure: f64) -> usize {
+        let fraction = (closure - self.bases.lower) / (self.bases.upper - self.bases.lower);
+        (fraction * (SHAPES - 1) as f64).round().clamp(0.0, (SHAPES - 1) as f64) as usize
     }
 }

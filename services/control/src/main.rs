@@ -1,12 +1,13 @@
 //! The process around control: each field frame becomes a command to the joints.
 
-use coact_control::{Control, Settings};
+use coact_control::Control;
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, Header, Percept, SensorSample, topic};
 use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick};
 use coact_robot::Robot;
+use coact_safety::SafetyLimits;
 
-struct Servos {
+struct ControlCycle {
     control: Control,
     sample: Input<SensorSample>,
     percept: Input<Percept>,
@@ -14,7 +15,7 @@ struct Servos {
     command: Output<Command>,
 }
 
-impl Cycle for Servos {
+impl Cycle for ControlCycle {
     type Trigger = FieldFrame;
 
     fn trigger(&mut self) -> &mut Input<FieldFrame> {
@@ -36,7 +37,8 @@ fn main() -> anyhow::Result<()> {
     let mut process = Process::from_arguments("control")?;
     let run = process.run().settings();
     let (task, robot) = (Task::load(&run.task)?, Robot::load(&run.robot)?);
-    let (mut control, planner) = Control::in_real_time(robot, &task, Settings::default())?;
+    let limits = SafetyLimits::load(&run.safety)?;
+    let (mut control, planner) = Control::in_real_time(robot, &task, &limits)?;
     let sample = process.bus().input(topic::SENSORS)?;
     let percept = process.bus().input(topic::PERCEPT)?;
     let frame = process.bus().trigger(topic::FIELDS)?;
@@ -45,5 +47,5 @@ fn main() -> anyhow::Result<()> {
         control.resume(&last);
     }
     process.spawn_background("planner", move || planner.run())?;
-    Ok(process.run_cycles(Servos { control, sample, percept, frame, command })?)
+    Ok(process.run_cycles(ControlCycle { control, sample, percept, frame, command })?)
 }

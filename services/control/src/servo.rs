@@ -1,18 +1,23 @@
-use crate::Memory;
-use crate::memory::{FINGER_JOINTS, split};
+use crate::state::{ArmState, FINGER_JOINTS, FingerState, split};
 use coact_messages::{ARM_JOINTS, Command, JOINTS};
+use coact_period::PERIOD_S;
 use coact_robot::{JointLimits, Limiter, MotionState, PointToPoint, Posture};
+use coact_stage_state::Flag;
 
-/// Length of a cycle, s.
-pub(crate) const PERIOD: f64 = 1e-3;
-/// How fast the pace of a movement changes at most, 1/s, and the change of that, 1/s².
-const PACE: (f64, f64) = (4.0, 40.0);
-/// How fast the pace goes to what it shall be, 1/s.
-const PROMPT: f64 = 12.0;
-/// What is tried of a change of pace when the whole of it would break a limit of a joint.
+/// How fast the speed override changes at most, 1/s. This and the next two are chosen by hand, between an arm that stops in time
+/// for the guard and one whose joints need more acceleration and jerk for that than they have; where they do, the limiters
+/// refuse, and less is tried.
+const MOST_RATE: f64 = 4.0;
+/// How fast that rate changes at most, 1/s².
+const MOST_RATE_CHANGE: f64 = 40.0;
+/// Rate at which the override goes to the wanted one, per unit of their difference, 1/s.
+const GAIN: f64 = 12.0;
+/// An override this near to the wanted one has arrived: the step that is left is a ten-thousandth of the planned speed.
+const ARRIVED: f64 = 1e-4;
+/// Fractions of a change of the override that are tried when the whole of it would break a limit of a joint.
 const TRIED: [f64; 4] = [1.0, 0.5, 0.0, -0.5];
 
-/// Turns the movements in memory into setpoints, one cycle after the other, through the limiters.
+/// Turns trajectories and finger movements into setpoints, one cycle after the other, through the limiters.
 #[derive(Debug)]
 pub(crate) struct Servo {
     /// The setpoints.
@@ -26,7 +31,7 @@ impl Servo {
     }
 
     /// Continues from the setpoints of `command`; `false` when they are not within the limits.
-    pub fn recall(&mut self, command: &Command) -> bool {
+    pub fn resume(&mut self, command: &Command) -> bool {
         let joints: [Limiter; JOINTS] = std::array::from_fn(|joint| Limiter {
             position: command.position[joint],
             velocity: command.velocity[joint],
@@ -60,76 +65,86 @@ impl Servo {
 
     /// Starts a movement of the fingers from wherever the present one is. When none from there keeps the limits, they
     /// brake first.
-    pub fn launch_fingers(&self, memory: &mut Memory, target: [f64; FINGER_JOINTS]) {
-        let start = if memory.fingers_arrived() {
-            memory.finger_target.map(MotionState::at_rest)
-        } else {
-            memory.finger_movement().at(memory.finger_elapsed as f64 * PERIOD)
-        };
-        let halted = memory.fingers_halted == 1;
-        match (!halted).then(|| PointToPoint::plan(start, target, &self.finger_limits())).flatten() {
-            Some(movement) => memory.set_finger_movement(&movement),
-            None => (memory.finger_target, memory.fingers_halted) = (target, 1),
+    pub fn launch_fingers(&self, fingers: &mut FingerState, target: [f64; FINGER_JOINTS]) {
+        let plan = || PointToPoint::plan(fingers.now(), target, &self.finger_limits());
+        match (!fingers.braking.is_set()).then(plan).flatten() {
+            Some(movement) => fingers.follow(&movement),
+            None => fingers.brake(target),
         }
     }
 
-    /// One cycle: the arm's course goes on at `pace`, the share of its own speed. With `go` false, or when a movement
-    /// cannot be followed, the joints brake; when the fingers stand and `go` is true, theirs starts anew.
-    pub fn advance(&mut self, memory: &mut Memory, go: bool, pace: f64) {
-        if !go {
-            (memory.arm_halted, memory.fingers_halted) = (1, 1);
+    /// One cycle: the arm goes on along its trajectory at the wanted speed override, the fingers in their movement.
+    pub fn advance(&mut self, arm: &mut ArmState, fingers: &mut FingerState, wanted_override: f64) {
+        self.advance_arm(arm, wanted_override);
+        self.advance_fingers(fingers);
+    }
+
+    /// One cycle of braking: all joints come to a stand within their limits.
+    pub fn brake(&mut self, arm: &mut ArmState, fingers: &mut FingerState) {
+        (arm.braking, fingers.braking) = (Flag::Set, Flag::Set);
+        self.brake_joints(0..JOINTS);
+    }
+
+    /// Brakes when the trajectory cannot be followed.
+    fn advance_arm(&mut self, arm: &mut ArmState, wanted_override: f64) {
+        if arm.braking.is_set() || !self.follow_trajectory(arm, wanted_override) {
+            arm.braking = Flag::Set;
+            self.brake_joints(0..ARM_JOINTS);
         }
-        if memory.arm_halted == 1 || !self.follow_course(memory, pace) {
-            memory.arm_halted = 1;
-            self.brake(0..ARM_JOINTS);
-        }
-        let fingers_stand = self.joints[ARM_JOINTS..].iter().all(Limiter::is_at_rest);
-        if memory.fingers_halted == 1 && go && fingers_stand {
+    }
+
+    /// Brakes when the movement cannot be followed; when the fingers stand after braking, it starts anew.
+    fn advance_fingers(&mut self, fingers: &mut FingerState) {
+        let stand = self.joints[ARM_JOINTS..].iter().all(Limiter::is_at_rest);
+        if fingers.braking.is_set() && stand {
             let start = split(self.position()).1.map(MotionState::at_rest);
-            let movement = PointToPoint::plan(start, memory.finger_target, &self.finger_limits());
-            movement.into_iter().for_each(|movement| memory.set_finger_movement(&movement));
+            let movement = PointToPoint::plan(start, fingers.target, &self.finger_limits());
+            movement.into_iter().for_each(|movement| fingers.follow(&movement));
         }
-        if memory.fingers_halted == 1 || !self.follow_fingers(memory) {
-            memory.fingers_halted = 1;
-            self.brake(ARM_JOINTS..JOINTS);
+        if fingers.braking.is_set() || !self.follow_fingers(fingers) {
+            fingers.braking = Flag::Set;
+            self.brake_joints(ARM_JOINTS..JOINTS);
         }
     }
 
-    /// Takes the next point of the course, as near to the wanted pace as the limiters allow; `false`, and nothing
-    /// changed, when they refuse all.
-    fn follow_course(&mut self, memory: &mut Memory, wanted: f64) -> bool {
-        if memory.pace == wanted && memory.pace_change == 0.0 {
-            let t = memory.elapsed + PERIOD * memory.pace;
-            let accepted = self.take(0, &memory.course.at(t));
-            memory.elapsed = if accepted { t } else { memory.elapsed };
-            return accepted;
+    /// Takes the next point of the trajectory, as near to the wanted speed override as the limiters allow; `false`, and
+    /// nothing changed, when they refuse all.
+    fn follow_trajectory(&mut self, arm: &mut ArmState, wanted: f64) -> bool {
+        if arm.speed_override == wanted && arm.override_rate == 0.0 {
+            return self.take_point(arm, arm.speed_override, 0.0);
         }
-        let change = (PROMPT * (wanted - memory.pace)).clamp(-PACE.0, PACE.0);
-        let step = (change - memory.pace_change).clamp(-PACE.1 * PERIOD, PACE.1 * PERIOD);
-        TRIED.iter().any(|share| {
-            let mut pace_change = memory.pace_change + share * step;
-            let mut pace = memory.pace + PERIOD * pace_change;
-            if (pace - wanted).abs() < 1e-4 || !(0.0..=1.0).contains(&pace) {
-                (pace, pace_change) =
-                    (if (pace - wanted).abs() < 1e-4 { wanted } else { pace.clamp(0.0, 1.0) }, 0.0);
+        let rate = (GAIN * (wanted - arm.speed_override)).clamp(-MOST_RATE, MOST_RATE);
+        let most_change = MOST_RATE_CHANGE * PERIOD_S;
+        let change = (rate - arm.override_rate).clamp(-most_change, most_change);
+        TRIED.iter().any(|fraction| {
+            let rate = arm.override_rate + fraction * change;
+            let speed_override = arm.speed_override + PERIOD_S * rate;
+            if (speed_override - wanted).abs() < ARRIVED {
+                self.take_point(arm, wanted, 0.0)
+            } else if (0.0..=1.0).contains(&speed_override) {
+                self.take_point(arm, speed_override, rate)
+            } else {
+                self.take_point(arm, speed_override.clamp(0.0, 1.0), 0.0)
             }
-            let t = memory.elapsed + PERIOD * pace;
-            let accepted = self.take(0, &memory.course.at(t));
-            if accepted {
-                (memory.elapsed, memory.pace, memory.pace_change) = (t, pace, pace_change);
-            }
-            accepted
         })
     }
 
-    fn follow_fingers(&mut self, memory: &mut Memory) -> bool {
-        let next = if memory.fingers_arrived() {
-            memory.finger_target.map(MotionState::at_rest)
-        } else {
-            memory.finger_movement().at((memory.finger_elapsed + 1) as f64 * PERIOD)
-        };
-        let accepted = self.take(ARM_JOINTS, &next);
-        memory.finger_elapsed = memory.finger_elapsed.saturating_add(u64::from(accepted));
+    /// Takes the point of the trajectory to which it comes at this speed override; `false`, and nothing changed, when a
+    /// limiter refuses it.
+    fn take_point(&mut self, arm: &mut ArmState, speed_override: f64, override_rate: f64) -> bool {
+        let elapsed = arm.elapsed + PERIOD_S * speed_override;
+        let accepted = self.take(0, &arm.trajectory.at(elapsed));
+        if accepted {
+            (arm.elapsed, arm.speed_override, arm.override_rate) = (elapsed, speed_override, override_rate);
+        }
+        accepted
+    }
+
+    fn follow_fingers(&mut self, fingers: &mut FingerState) -> bool {
+        let accepted = self.take(ARM_JOINTS, &fingers.next());
+        if accepted {
+            fingers.advance();
+        }
         accepted
     }
 
@@ -138,7 +153,7 @@ impl Servo {
         let mut joints = self.joints;
         for (offset, wish) in next.iter().enumerate() {
             let joint = first + offset;
-            match joints[joint].accept(wish.position, &self.limits[joint], PERIOD) {
+            match joints[joint].accept(wish.position, &self.limits[joint], PERIOD_S) {
                 Some(accepted) => joints[joint] = accepted,
                 None => return false,
             }
@@ -147,9 +162,9 @@ impl Servo {
         true
     }
 
-    fn brake(&mut self, joints: std::ops::Range<usize>) {
+    fn brake_joints(&mut self, joints: std::ops::Range<usize>) {
         for joint in joints {
-            self.joints[joint] = self.joints[joint].brake(&self.limits[joint], PERIOD);
+            self.joints[joint] = self.joints[joint].brake(&self.limits[joint], PERIOD_S);
         }
     }
 

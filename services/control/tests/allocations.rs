@@ -3,34 +3,9 @@
 
 mod kinematic_world;
 
-use coact_control::{Control, Settings};
+use allocation_counter::measure;
+use coact_control::Control;
 use kinematic_world::KinematicWorld;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
-/// Counts this thread's allocations.
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-// SAFETY: every call is passed on to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.with(|count| count.set(count.get() + 1));
-        // SAFETY: the caller's promise is passed on.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller's promise is passed on.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
 
 /// Time of a cycle here: the planner has its own pace.
 const CYCLE: std::time::Duration = std::time::Duration::from_micros(100);
@@ -38,8 +13,8 @@ const CYCLE: std::time::Duration = std::time::Duration::from_micros(100);
 #[test]
 fn a_step_allocates_nothing() {
     let mut world = KinematicWorld::new();
-    let (control, planner) =
-        Control::in_real_time(world.robot.clone(), &world.task, Settings::default()).unwrap();
+    let limits = kinematic_world::limits();
+    let (control, planner) = Control::in_real_time(world.robot.clone(), &world.task, &limits).unwrap();
     world.control = control;
     std::thread::spawn(move || planner.run());
     let actions = world.task.actions.len() as u32;
@@ -51,18 +26,13 @@ fn a_step_allocates_nothing() {
             world.decide(Some((tick / 1_300) % (actions + 2)));
         }
         world.sense();
-        let before = ALLOCATIONS.with(Cell::get);
+        let KinematicWorld { control, sample, percept, frame, tick: now, .. } = &mut world;
+        let last = (tick > 0).then_some(&*previous);
         let started = std::time::Instant::now();
-        world.control.step(
-            world.tick,
-            Some(&world.sample),
-            Some(&world.percept),
-            Some(&world.frame),
-            (tick > 0).then_some(&*previous),
-            &mut command,
-        );
+        let allocations =
+            measure(|| control.step(*now, Some(sample), Some(percept), Some(frame), last, &mut command));
         times.push(started.elapsed());
-        counted += ALLOCATIONS.with(Cell::get) - before;
+        counted += allocations.count_total;
         *previous = *command;
         *world.command = *command;
         world.tick += 1;
@@ -74,5 +44,5 @@ fn a_step_allocates_nothing() {
     println!("step: p50 {:?}, p99 {:?}, p99.9 {:?}", times[20_000], times[39_600], times[39_960]);
     assert_eq!(counted, 0);
     assert!(moved > 1_000, "the arm moved in {moved} cycles only");
-    assert!(ALLOCATIONS.with(Cell::get) > 0, "the counter counts");
+    assert!(measure(|| drop(Box::new(0_u8))).count_total > 0, "the counter counts");
 }

@@ -108,7 +108,7 @@ fn freeze(world: &mut KinematicWorld, cycles: u32, sample: bool, frame: bool) ->
 }
 
 #[test]
-fn stale_input_brakes_within_the_limits_and_the_errand_goes_on_after() {
+fn stale_input_brakes_within_the_limits_and_the_skill_goes_on_after() {
     for (sample, frame) in [(true, false), (false, true)] {
         let mut world = KinematicWorld::new();
         let nut = world.action(coact_joint_task::ActionType::Insert, "nut on the robot's side");

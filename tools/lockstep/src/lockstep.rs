@@ -8,6 +8,7 @@ use coact_perception::Perception;
 use coact_period::PERIOD_NS;
 use coact_pipeline::RunSettings;
 use coact_robot::Robot;
+use coact_safety::SafetyLimits;
 use coact_world::{Partner, Settings, World};
 
 /// All stages, and the newest message of each topic.
@@ -52,6 +53,9 @@ pub enum LockstepError {
     Network(#[from] coact_neural_field::ParameterError),
     #[error(transparent)]
     Control(#[from] coact_control::ControlError),
+    /// The safety limits cannot be used.
+    #[error(transparent)]
+    Safety(#[from] coact_safety::SafetyError),
 }
 
 impl Lockstep {
@@ -85,7 +89,7 @@ impl Lockstep {
         Ok(Self {
             world,
             perception: Perception::new(&task, &model)?.with_robot(robot.clone()),
-            control: Control::new(robot, &task, coact_control::Settings::default())?,
+            control: Control::new(robot, &task, &SafetyLimits::load(&settings.safety)?)?,
             network,
             task,
             tick: 0,

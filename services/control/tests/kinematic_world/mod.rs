@@ -1,11 +1,13 @@
 //! A world without forces: joints follow their setpoints exactly, a part is held while the fingers are closed on it.
 #![allow(clippy::unwrap_used, dead_code)]
 
-use coact_control::{Control, Settings};
+use coact_control::Control;
 use coact_joint_task::{ActionType, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, PERSON, Percept, ROBOT, SensorSample};
 use coact_motion::Capsule;
+use coact_period::{CYCLES_PER_SECOND, PERIOD_S, seconds};
 use coact_robot::{JointLimits, Robot};
+use coact_safety::SafetyLimits;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use std::path::{Path, PathBuf};
 
@@ -22,6 +24,10 @@ pub fn robot() -> Robot {
 
 pub fn task() -> Task {
     Task::load(&root().join("rt-config/tasks/toy-vehicle.toml")).unwrap()
+}
+
+pub fn limits() -> SafetyLimits {
+    SafetyLimits::load(&root().join("rt-config/safety.toml")).unwrap()
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,7 +67,7 @@ pub struct KinematicWorld {
 impl KinematicWorld {
     pub fn new() -> Self {
         let (task, robot) = (task(), robot());
-        let control = Control::new(robot.clone(), &task, Settings::default()).unwrap();
+        let control = Control::new(robot.clone(), &task, &limits()).unwrap();
         let height = task.scene.table_height;
         let parts = task.parts.iter().map(|part| Part {
             kind: part.kind,
@@ -143,19 +149,19 @@ impl KinematicWorld {
         self.phases.last().map_or(MotionPhase::Rest, |last| last.0)
     }
 
-    /// Runs until `done`, at most `seconds`; the seconds it took.
-    pub fn until(&mut self, seconds: f64, what: &str, mut done: impl FnMut(&Self) -> bool) -> f64 {
+    /// Runs until `done`, for at most `most` s; the seconds it took.
+    pub fn until(&mut self, most: f64, what: &str, mut done: impl FnMut(&Self) -> bool) -> f64 {
         let start = self.tick;
         while !done(self) {
-            let passed = (self.tick - start) as f64 * 1e-3;
-            assert!(passed < seconds, "not within {seconds} s: {what}; phases {:?}", self.phases);
+            let passed = seconds(self.tick - start);
+            assert!(passed < most, "not within {most} s: {what}; phases {:?}", self.phases);
             self.step();
         }
-        (self.tick - start) as f64 * 1e-3
+        seconds(self.tick - start)
     }
 
     pub fn run(&mut self, seconds: f64) {
-        for _ in 0..(seconds * 1e3) as u64 {
+        for _ in 0..(seconds * CYCLES_PER_SECOND as f64) as u64 {
             self.step();
         }
     }
@@ -285,7 +291,6 @@ impl KinematicWorld {
 
     /// Holds the finite differences of what was sent against the limits.
     fn check_limits(&mut self) {
-        const DT: f64 = 1e-3;
         let limits = self.robot.limits();
         let [oldest, older, old] = self.history;
         for (joint, JointLimits { lower, upper, velocity, acceleration, jerk, .. }) in
@@ -293,13 +298,13 @@ impl KinematicWorld {
         {
             let now = self.command.position[joint];
             assert!(now >= *lower && now <= *upper, "joint {joint} at {now} rad");
-            let v = |a: f64, b: f64| (a - b) / DT;
+            let v = |a: f64, b: f64| (a - b) / PERIOD_S;
             let (v2, v1, v0) =
                 (v(now, old[joint]), v(old[joint], older[joint]), v(older[joint], oldest[joint]));
-            let (a1, a0) = ((v2 - v1) / DT, (v1 - v0) / DT);
-            let used = [v2 / velocity, a1 / acceleration, (a1 - a0) / DT / jerk].map(f64::abs);
+            let (a1, a0) = ((v2 - v1) / PERIOD_S, (v1 - v0) / PERIOD_S);
+            let used = [v2 / velocity, a1 / acceleration, (a1 - a0) / PERIOD_S / jerk].map(f64::abs);
             for (order, used) in used.into_iter().enumerate() {
-                // Third differences of numbers near 2 at a tick of 1 ms round to about 1e-6 rad/s³.
+                // Third differences of numbers near 2 one period apart round to about 1e-6 rad/s³.
                 assert!(used <= 1.0 + 1e-4, "joint {joint}, derivative {}: {used} of its limit", order + 1);
                 self.used[order] = self.used[order].max(used);
             }

@@ -6,6 +6,7 @@ use coact_control::{Control, ControlError};
 use coact_joint_task::{Finding, FindingKind, Task, check};
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
+use coact_safety::SafetyLimits;
 use coact_world::{Partner, Settings, World, WorldError};
 use owo_colors::{OwoColorize, Stream};
 use std::path::{Path, PathBuf};
@@ -33,14 +34,13 @@ pub struct Args {
 /// # Errors
 /// A task, network or robot file that cannot be read as one.
 pub fn run(args: Args) -> Result<ExitCode> {
-    let robot = match args.robot {
-        Some(robot) => robot,
-        None => Installation::find()?.configuration.join("robots/aros.toml"),
-    };
+    let configuration = Installation::find()?.configuration;
+    let robot = args.robot.unwrap_or_else(|| configuration.join("robots/aros.toml"));
+    let limits = SafetyLimits::load(&configuration.join("safety.toml"))?;
     let (task, robot) = (Task::load(&args.file)?, Robot::load(&robot)?);
     let mut findings = check(&args.file)?;
     findings.extend(scene(&args.file, &task, &robot)?);
-    findings.extend(reach(&args.file, &task, robot)?);
+    findings.extend(reach(&args.file, &task, robot, &limits)?);
     if args.json {
         println!("{}", serde_json::to_string_pretty(&findings)?);
     } else {
@@ -72,8 +72,8 @@ fn scene(file: &Path, task: &Task, robot: &Robot) -> Result<Option<Finding>> {
 }
 
 /// Whether the robot can reach every place that it needs.
-fn reach(file: &Path, task: &Task, robot: Robot) -> Result<Option<Finding>> {
-    match Control::new(robot, task, coact_control::Settings::default()) {
+fn reach(file: &Path, task: &Task, robot: Robot, limits: &SafetyLimits) -> Result<Option<Finding>> {
+    match Control::new(robot, task, limits) {
         Ok(_) => Ok(None),
         Err(error @ ControlError::Unreachable { .. }) => Ok(Some(Finding {
             kind: FindingKind::OutOfReach,

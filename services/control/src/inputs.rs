@@ -1,45 +1,46 @@
-use crate::Settings;
-use crate::person::PersonArm;
-use crate::request::Request;
-use crate::servo::PERIOD;
+use crate::person_capsules::PersonCapsules;
+use crate::sighting_frame::{SHORTEST, frame_of};
 use coact_messages::{Decision, FieldFrame, Percept, ROBOT, SceneView, SensorSample, Sighting};
 use coact_motion::Capsule;
+use coact_period::{cycles, seconds};
+use coact_safety::{PersonLimits, StaleLimits};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
-/// Touch below this is nothing, N.
+/// Touch below this is nothing, N. Chosen by hand: fingers that are closed on a part press far harder; not sensitive.
 const TOUCH: f64 = 0.02;
-/// Evidence above this is believed.
+/// Evidence above this is believed: more likely than not.
 const BELIEF: f64 = 0.5;
 /// The person's wrist is at a place when nearer than this, m: a hand's length and some.
 const HAND_LENGTH: f64 = 0.25;
-/// A hand slower than this waits, m/s.
+/// A hand slower than this waits, m/s. Chosen by hand: a hand that is held out sways, one that reaches is several times
+/// faster.
 const WAITING: f64 = 0.25;
-/// Nothing that concerns the robot is farther away than this, m.
+/// Nothing that concerns the robot is farther away than this, m: it stands at a table. What is, is garbled.
 const FAR: f64 = 10.0;
 
 /// What the newest messages say, where they are young enough to say anything.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Senses<'a> {
+pub(crate) struct Inputs<'a> {
     tick: u64,
     sample: Option<&'a SensorSample>,
     percept: Option<&'a Percept>,
     frame: Option<&'a FieldFrame>,
 }
 
-impl<'a> Senses<'a> {
+impl<'a> Inputs<'a> {
     pub fn new(
-        settings: &Settings,
+        limits: &StaleLimits,
         tick: u64,
         sample: Option<&'a SensorSample>,
         percept: Option<&'a Percept>,
         frame: Option<&'a FieldFrame>,
     ) -> Self {
-        let young = |cycle: u64| tick.saturating_sub(cycle) <= settings.stale_after;
+        let fresh = |cycle: u64| tick.saturating_sub(cycle) <= cycles(limits.input_after);
         Self {
             tick,
-            sample: sample.filter(|message| young(message.header.cycle)),
-            percept: percept.filter(|message| young(message.header.cycle)),
-            frame: frame.filter(|message| young(message.header.cycle)),
+            sample: sample.filter(|message| fresh(message.header.cycle)),
+            percept: percept.filter(|message| fresh(message.header.cycle)),
+            frame: frame.filter(|message| fresh(message.header.cycle)),
         }
     }
 
@@ -48,11 +49,12 @@ impl<'a> Senses<'a> {
         self.sample.is_none() || self.frame.is_none()
     }
 
-    /// The cycle.
+    /// The present cycle.
     pub fn tick(&self) -> u64 {
         self.tick
     }
 
+    /// The newest decision; one that names no action is a decision as well.
     pub fn decision(&self) -> Option<Decision> {
         self.frame.map(|frame| frame.decision)
     }
@@ -71,13 +73,13 @@ impl<'a> Senses<'a> {
             return None;
         }
         let [x, y, z, w] = seen.orientation[kind];
-        let rotation = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-3);
+        let rotation = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), SHORTEST);
         let rotation = rotation.filter(|rotation| rotation.coords.iter().all(|value| value.is_finite()));
         Some(Isometry3::from_parts(Translation3::from(position), rotation.unwrap_or_default()))
     }
 
     /// Places of all parts that are believed to lie in the robot's workspace.
-    pub fn parts(&self) -> impl Iterator<Item = [f64; 3]> + Clone + use<'a> {
+    pub fn robot_parts(&self) -> impl Iterator<Item = [f64; 3]> + Clone + use<'a> {
         let workspace = self.percept.map(|percept| &percept.workspace[ROBOT]);
         workspace.into_iter().flat_map(|workspace| {
             let seen = workspace.seen.iter().zip(workspace.position);
@@ -118,16 +120,17 @@ impl<'a> Senses<'a> {
         })
     }
 
-    /// The person's arm with what the hand holds, when it is tracked. `hulls`: capsules around each kind of part.
-    pub fn person_arm(&self, hulls: &[Capsule]) -> Option<PersonArm> {
+    /// The person's arm with what the hand holds, when it is tracked. `part_capsules`: around each kind of part.
+    pub fn person(&self, part_capsules: &[Capsule], limits: &PersonLimits) -> Option<PersonCapsules> {
         let scene = &self.sample?.scene;
         let held =
-            parts_in(scene).iter().enumerate().filter(|(_, seen)| self.in_person_hand(seen.kind as usize));
-        let hulls = held.filter_map(|(index, seen)| {
-            Some((index, hulls.get(seen.kind as usize)?.within(&frame_of(seen)?)))
+            sightings(scene).iter().enumerate().filter(|(_, seen)| self.in_person_hand(seen.kind as usize));
+        let capsules = held.filter_map(|(index, seen)| {
+            Some((index, part_capsules.get(seen.kind as usize)?.within(&frame_of(seen)?)))
         });
-        let ago = self.tick.saturating_sub(scene.captured_cycle) as f64 * PERIOD;
-        Some(PersonArm::of(&self.percept?.hand, &self.sample?.hand)?.holding(hulls, ago))
+        let ago = seconds(self.tick.saturating_sub(scene.captured_cycle));
+        let arm = PersonCapsules::of(&self.percept?.hand, &self.sample?.hand, limits)?;
+        Some(arm.holding(capsules, ago, limits.carried_within))
     }
 
     /// Force with which somebody pulls or pushes at the hand and what it holds, N; `None` when it is not measured.
@@ -145,7 +148,7 @@ impl<'a> Senses<'a> {
         within: f64,
     ) -> Option<(u64, Isometry3<f64>)> {
         let scene = &self.sample?.scene;
-        let places = parts_in(scene).iter().filter(|sighting| sighting.kind as usize == kind);
+        let places = sightings(scene).iter().filter(|sighting| sighting.kind as usize == kind);
         let near = places.map(|sighting| ((Point3::from(sighting.position) - expected).norm(), sighting));
         let nearest =
             near.filter(|(distance, _)| *distance < within).min_by(|one, other| one.0.total_cmp(&other.0));
@@ -153,26 +156,18 @@ impl<'a> Senses<'a> {
         Some((scene.captured_cycle, frame_of(sighting)?))
     }
 
-    /// All parts and screens in sight, into a request.
-    pub fn surroundings(&self, request: &mut Request) {
-        let Some(scene) = self.sample.map(|sample| &sample.scene) else { return };
-        let parts = parts_in(scene);
-        request.seen = parts.len();
-        request.parts[..request.seen].copy_from_slice(parts);
-        request.screened = (scene.occluders as usize).min(scene.occluder.len());
-        request.screens[..request.screened].copy_from_slice(&scene.occluder[..request.screened]);
+    /// All parts in sight.
+    pub fn parts_in_sight(&self) -> &'a [Sighting] {
+        self.sample.map_or(&[], |sample| sightings(&sample.scene))
+    }
+
+    /// All occluders in sight: centre and half extents, m.
+    pub fn occluders(&self) -> &'a [[f64; 6]] {
+        self.sample.map_or(&[], |sample| sample.scene.occluders())
     }
 }
 
-/// Frame of a part as the recogniser has seen it; none when that is none.
-pub(crate) fn frame_of(sighting: &Sighting) -> Option<Isometry3<f64>> {
-    let [x, y, z, w] = sighting.orientation;
-    let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-3)?;
-    let frame = Isometry3::from_parts(Translation3::from(sighting.position), turn);
-    frame.translation.vector.iter().all(|value| value.is_finite()).then_some(frame)
-}
-
 /// The parts that the recogniser has seen, as many as a message can hold.
-fn parts_in(scene: &SceneView) -> &[Sighting] {
+fn sightings(scene: &SceneView) -> &[Sighting] {
     &scene.sighting[..(scene.sightings as usize).min(scene.sighting.len())]
 }

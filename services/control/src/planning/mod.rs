@@ -1,0 +1,19 @@
+//! Movements for control's skills: what is asked of the planner, where the hand goes, what it keeps clear of.
+
+mod hand_goals;
+mod in_sight;
+mod planner_link;
+mod planning_query;
+mod planning_result;
+mod planning_scene;
+mod planning_thread;
+mod skill_planner;
+
+pub(crate) use hand_goals::HandGoals;
+pub(crate) use in_sight::InSight;
+pub(crate) use planner_link::PlannerLink;
+pub(crate) use planning_query::PlanningQuery;
+pub(crate) use planning_result::PlanningResult;
+use planning_scene::PlanningScene;
+pub use planning_thread::PlanningThread;
+pub(crate) use skill_planner::{INSERTION_DEPTH, SkillPlanner};

@@ -1,0 +1,54 @@
+use super::InSight;
+use crate::person_capsules::PersonCapsules;
+use crate::state::Skill;
+use coact_robot::{HAND_JOINTS, MotionState, NextUse};
+use nalgebra::{Isometry3, Vector3};
+
+/// What is asked of the planner: all that it needs to know, of fixed size, so that it passes a lock-free slot.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlanningQuery {
+    /// Counts the queries.
+    pub number: u64,
+    /// What the hand does, and the kind of part that this concerns.
+    pub skill: Skill,
+    pub kind: Option<usize>,
+    /// Frame of the place: of the part to pick, of the socket, of the place on the table, of the handover.
+    pub place: Isometry3<f64>,
+    /// What is done next with a part that is picked, and the frame to which it is brought, if that is known.
+    pub next_use: NextUse,
+    pub next_place: Option<Isometry3<f64>>,
+    /// Whether the hand stops before the place, to wait for the person.
+    pub stops_before: bool,
+    /// Whether a part may be put down lying or leaning.
+    pub loosely: bool,
+    /// State of the arm in which the movement shall begin.
+    pub start: [MotionState; 7],
+    /// Angles of the hand's joints now, and to which they are on their way, rad.
+    pub fingers: [f64; HAND_JOINTS],
+    pub finger_target: [f64; HAND_JOINTS],
+    /// First out of a narrow place: direction and distance, m.
+    pub leave: Option<(Vector3<f64>, f64)>,
+    /// Kind of the held part, and its frame in the palm's; and in which grip it is held.
+    pub held: Option<(usize, Isometry3<f64>)>,
+    pub held_in: Option<usize>,
+    pub in_sight: InSight,
+    /// The person's arm, when it is tracked.
+    pub person: Option<PersonCapsules>,
+}
+
+impl PlanningQuery {
+    /// Whether the hand goes to where the person will bring something, and keeps clear of that.
+    pub fn awaits_person(&self) -> bool {
+        self.skill == Skill::Request || (self.skill == Skill::Receive && self.stops_before)
+    }
+
+    /// Whether the hand grasps what the person gives.
+    pub fn receives(&self) -> bool {
+        self.skill == Skill::Receive && !self.stops_before
+    }
+
+    /// Whether the arm moves when the movement begins.
+    pub fn is_in_motion(&self) -> bool {
+        self.start.iter().any(|state| !state.is_at_rest())
+    }
+}

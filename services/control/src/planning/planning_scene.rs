@@ -1,0 +1,156 @@
+use super::{HandGoals, PlanningQuery};
+use crate::robot::{CollisionModels, GripGoal, RobotModel};
+use crate::sighting_frame::frame_of;
+use crate::state::Skill;
+use coact_joint_task::{Fixture, Shape, Task};
+use coact_motion::{Capsule, CollisionModel, Mechanism, Obstacle, Scene, Solid};
+use coact_safety::SafetyLimits;
+use nalgebra::{Isometry3, Point3, Vector3};
+
+/// What the arm keeps clear of on its way, and what the hand may touch.
+#[derive(Debug)]
+pub(crate) struct PlanningScene {
+    mechanism: Mechanism,
+    /// Shapes, and bounding capsules, of the kinds of parts.
+    shapes: Vec<Shape>,
+    part_capsules: Vec<Capsule>,
+    fixtures: Vec<Obstacle>,
+    limits: SafetyLimits,
+}
+
+/// Name of the person's arm among the obstacles.
+pub(crate) const PERSON: &str = "person";
+/// What the names of parts among the obstacles begin with.
+const PART: &str = "part ";
+/// What is nearer than this to where the hand works may be touched by it there, m: the width of a finger and some, for the
+/// fingers reach that far beyond what they grasp. Chosen by hand.
+const NEIGHBOURS: f64 = 0.04;
+/// A part of the same kind this near to where one is meant is that one, m: parts of a kind lie farther apart, and a part that
+/// is pushed by the hand is seen this near. Chosen by hand.
+const SAME: f64 = 0.06;
+
+impl PlanningScene {
+    pub fn new(robot: &RobotModel, models: &CollisionModels, task: &Task, limits: SafetyLimits) -> Self {
+        Self {
+            mechanism: models.mechanism.clone(),
+            shapes: models.shapes.clone(),
+            part_capsules: robot.part_capsules.clone(),
+            fixtures: coact_workplace::fixtures(task),
+            limits,
+        }
+    }
+
+    /// All that the arm keeps clear of now, besides the person.
+    pub fn without_person(&self, query: &PlanningQuery, goals: &[GripGoal]) -> Scene {
+        let mut obstacles = self.fixtures.clone();
+        obstacles.extend(self.parts(query));
+        for [x, y, z, half_x, half_y, half_z] in query.in_sight.occluders() {
+            let edges = 2.0 * Vector3::new(*half_x, *half_y, *half_z);
+            obstacles.push(Obstacle::new("occluder", Solid::Box(edges), &Isometry3::translation(*x, *y, *z)));
+        }
+        let allowed_leaving = self.allowed_leaving(query, &obstacles);
+        let allowed_at_goal = allowed_at_goal(query, goals, &obstacles);
+        Scene { obstacles, allowed_leaving, allowed_at_goal }
+    }
+
+    /// The person's arm now, a moment from now and where it will bring a part; only the upper arm when the robot receives
+    /// something from the hand.
+    pub fn person(&self, query: &PlanningQuery, goals: &HandGoals) -> Vec<Capsule> {
+        let Some(arm) = query.person else { return Vec::new() };
+        let count = if query.receives() { 1 } else { usize::MAX };
+        let awaited = query.kind.filter(|_| query.awaits_person());
+        let part = awaited.and_then(|kind| self.part_capsules.get(kind));
+        let coming = part.map(|part| goals.coming(part, &self.limits.person)).into_iter().flatten();
+        let ahead = self.limits.planner.person_ahead.as_secs_f64();
+        [0.0, ahead].into_iter().flat_map(|ahead| arm.after(ahead).take(count)).chain(coming).collect()
+    }
+
+    /// Distance of arm, hand and held part from the person, m, and the direction away from there.
+    pub fn separation(
+        &self,
+        query: &PlanningQuery,
+        model: &CollisionModel,
+        person: &[Capsule],
+    ) -> (f64, Vector3<f64>) {
+        let posture = query.start.map(|state| state.position);
+        let links = model.moving_bounding_capsules(&self.mechanism, &posture);
+        let pairs = links.iter().flat_map(|link| person.iter().map(move |limb| (link, limb)));
+        let gaps = pairs.map(|(link, limb)| (link.distance(limb), link.nearest(limb)));
+        let nearest = gaps.min_by(|one, other| one.0.total_cmp(&other.0));
+        nearest.map_or((f64::INFINITY, Vector3::z()), |(gap, (own, theirs))| {
+            (gap, (own - theirs).try_normalize(1e-6).unwrap_or_else(Vector3::z))
+        })
+    }
+
+    /// The person as obstacles, inflated so that a path keeps a little more than the guard's protective separation; by less
+    /// where the person is nearer than that already.
+    pub fn inflated(&self, person: &[Capsule], separation: f64) -> impl Iterator<Item = Obstacle> {
+        let SafetyLimits { guard, planner, .. } = self.limits;
+        let most = guard.protective_separation + planner.beyond_guard - planner.path_clearance;
+        let by = (separation - planner.goal_clearance).clamp(0.0, most);
+        let inflated = person.iter().map(move |limb| Capsule { radius: limb.radius + by, ..*limb });
+        inflated.map(|limb| Obstacle::moving(PERSON, limb))
+    }
+
+    /// The parts in sight, but for what is in a hand or about to come into the robot's; the one that is meant stands where it
+    /// is believed to stand.
+    fn parts(&self, query: &PlanningQuery) -> Vec<Obstacle> {
+        let palm = self.mechanism.arm.palm(&query.start.map(|state| state.position));
+        let held = query.held.map(|(kind, in_palm)| (kind, palm * in_palm));
+        let meant = query.kind.filter(|_| query.skill == Skill::Pick).map(|kind| (kind, query.place));
+        let received = query.kind.filter(|_| query.receives()).map(|kind| (kind, query.place));
+        let in_person_hand = query.person.and_then(|arm| arm.held());
+        let mut parts = Vec::new();
+        for (index, sighting) in query.in_sight.parts().iter().enumerate() {
+            let kind = sighting.kind as usize;
+            let (Some(frame), Some(shape)) = (frame_of(sighting), self.shapes.get(kind)) else { continue };
+            let is = |other: &Option<(usize, Isometry3<f64>)>| is_same(kind, &frame, other.as_ref());
+            if in_person_hand == Some(index) || is(&held) || is(&received) {
+                continue;
+            }
+            let frame = if is(&meant) { query.place } else { frame };
+            parts.push(coact_workplace::upright(&format!("{PART}{index}"), *shape, &frame));
+        }
+        parts
+    }
+
+    /// What the hand may touch where it leaves: what lies around it, and what it stands on.
+    fn allowed_leaving(&self, query: &PlanningQuery, obstacles: &[Obstacle]) -> Vec<String> {
+        if query.leave.is_none() {
+            return Vec::new();
+        }
+        let palm = self.mechanism.arm.palm(&query.start.map(|state| state.position));
+        let lifts_from = query.held.map(|_| Fixture::TABLE);
+        let ground = [PERSON, Fixture::PLATFORM].into_iter().chain(lifts_from);
+        ground.map(str::to_owned).chain(around(&(palm * self.mechanism.grasp_point()), obstacles)).collect()
+    }
+}
+
+/// What the hand may touch at the goal.
+fn allowed_at_goal(query: &PlanningQuery, goals: &[GripGoal], obstacles: &[Obstacle]) -> Vec<String> {
+    let ground = match query.skill {
+        Skill::Give => return vec![PERSON.to_owned()],
+        Skill::Insert | Skill::Steady => Fixture::PLATFORM,
+        Skill::PutBack => Fixture::TABLE,
+        _ => return Vec::new(),
+    };
+    let place = goals.first().map(|grip_goal| grip_goal.goal.point);
+    let near = place.into_iter().flat_map(|place| around(&place, obstacles));
+    std::iter::once(ground.to_owned()).chain(near).collect()
+}
+
+/// Whether a part that is seen there is this one.
+fn is_same(kind: usize, frame: &Isometry3<f64>, other: Option<&(usize, Isometry3<f64>)>) -> bool {
+    other.is_some_and(|(same, place)| {
+        *same == kind && (place.translation.vector - frame.translation.vector).norm() < SAME
+    })
+}
+
+/// Names of the parts that lie near a place.
+fn around(place: &Point3<f64>, obstacles: &[Obstacle]) -> Vec<String> {
+    let parts = obstacles.iter().filter(|obstacle| obstacle.name.starts_with(PART));
+    let near = parts.filter(|part| {
+        part.bounding_capsule.distance_of_line(place) - part.bounding_capsule.radius < NEIGHBOURS
+    });
+    near.map(|part| part.name.clone()).collect()
+}

@@ -1,0 +1,181 @@
+use super::planning_scene::PERSON;
+use super::{HandGoals, PlanningQuery, PlanningResult, PlanningScene};
+use crate::robot::{CollisionModels, FingerShape, GripGoal, RobotModel};
+use crate::state::{ArmTrajectory, Skill};
+use coact_joint_task::Task;
+use coact_motion::{CollisionModel, Goal, MinClearance, Plan, Problem, Refusal, Scene};
+use coact_robot::{HandGoal, MotionState, RobotError};
+use coact_safety::{PlannerLimits, SafetyLimits};
+use coact_stage_state::Flag;
+use nalgebra::{Translation3, Vector3};
+
+/// Answers control's queries for movements, among all that is known of the surroundings. It allocates and takes
+/// milliseconds: it works beside the servo, never in its cycle.
+#[derive(Debug)]
+pub(crate) struct SkillPlanner {
+    robot: RobotModel,
+    models: CollisionModels,
+    goals: HandGoals,
+    scene: PlanningScene,
+    limits: PlannerLimits,
+}
+
+/// Postures that a search looks at when the arm is in motion, and when it stands: in motion the answer must come within the
+/// lead, at rest before the person wonders what the robot waits for.
+const SEARCH_IN_MOTION: u32 = 1_000;
+const SEARCH_AT_REST: u32 = 4_000;
+/// The same where the person waits for the hand: a movement that is found late is better than a hand that goes as far as it
+/// can and stops there.
+const SEARCH_FOR_PERSON: u32 = 10_000;
+/// How deep parts go into their sockets at most, m: a wheel on its axle. On this length the hand keeps to a straight line.
+pub(crate) const INSERTION_DEPTH: f64 = 0.03;
+/// Fraction of a withdrawal that is a straight line: the rest rounds the corner to its end.
+const STRAIGHT_WITHDRAWAL: f64 = 0.9;
+
+/// One way of looking for a movement.
+struct Attempt<'a> {
+    /// Whether it is worth while.
+    applies: bool,
+    model: &'a CollisionModel,
+    scene: &'a Scene,
+    leave: Option<(Vector3<f64>, f64)>,
+}
+
+impl SkillPlanner {
+    pub fn new(
+        robot: RobotModel,
+        models: CollisionModels,
+        goals: HandGoals,
+        task: &Task,
+        limits: SafetyLimits,
+    ) -> Self {
+        let scene = PlanningScene::new(&robot, &models, task, limits);
+        Self { robot, models, goals, scene, limits: limits.planner }
+    }
+
+    /// Whether the arm can get to one of these goals when nothing is in the way.
+    ///
+    /// # Errors
+    /// [`RobotError`] when the robot's collision geometry cannot be used.
+    pub fn reaches(&self, goals: Vec<HandGoal>) -> Result<bool, RobotError> {
+        let fingers = self.robot.hand_angles(FingerShape::Slender);
+        let (model, scene) = (self.models.of(&[fingers], None)?, Scene::default());
+        let park = self.models.mechanism.park;
+        let problem = self.problem(&model, &scene, park.map(MotionState::at_rest), Goal::Hand(goals));
+        Ok(!problem.targets_from(&park).is_empty())
+    }
+
+    /// The movement that is asked for, one that only withdraws the hand, or none.
+    ///
+    /// From a person who is near the hand withdraws first. Where the person leaves no path, the arm goes as far as the guard
+    /// lets it, but not to where the person comes; where there is no room for the fingers to move with the arm, they move when
+    /// it has arrived.
+    pub fn plan(&mut self, query: &PlanningQuery) -> PlanningResult {
+        let refused = PlanningResult::refused(query.number);
+        let shape = self.robot.on_the_way(query.skill, query.kind, query.held_in);
+        let passed = [query.fingers, query.finger_target, self.robot.hand_angles(shape)];
+        let Ok(moving) = self.models.of(&passed, query.held) else { return refused };
+        let Ok(still) = self.models.of(&passed[..1], query.held) else { return refused };
+        let goals = self.goals.of(query);
+        let person = self.scene.person(query, &self.goals);
+        let (separation, away) = self.scene.separation(query, &still, &person);
+        let alone = self.scene.without_person(query, &goals);
+        let scene = alone.with(self.scene.inflated(&person, separation));
+        let from_person = Scene { allowed_leaving: vec![PERSON.to_owned()], ..scene.clone() };
+        let (moves, awaits, leave) = (query.is_in_motion(), query.awaits_person(), query.leave);
+        let is_near = separation < self.limits.withdraw_within && leave.is_none() && !moves;
+        let away = Some((away, self.limits.withdraw_distance));
+        let attempts = [
+            Attempt { applies: is_near, model: &moving, scene: &from_person, leave: away },
+            Attempt { applies: true, model: &moving, scene: &scene, leave },
+            Attempt { applies: !awaits, model: &moving, scene: &alone, leave },
+            Attempt { applies: !moves, model: &still, scene: if awaits { &scene } else { &alone }, leave },
+        ];
+        for Attempt { model, scene, leave, .. } in attempts.into_iter().filter(|attempt| attempt.applies) {
+            if let Ok(plan) = self.search(query, leave, model, scene, &goals) {
+                let fingers_wait = std::ptr::eq(model, &still);
+                return result(query.number, &plan, &goals, fingers_wait);
+            }
+        }
+        if moves {
+            return refused;
+        }
+        let mut trajectory = self.withdrawal(query, &still, &scene).as_ref().and_then(ArmTrajectory::of);
+        trajectory.iter_mut().for_each(|trajectory| trajectory.withdraws = Flag::Set);
+        PlanningResult { trajectory, ..refused }
+    }
+
+    fn search(
+        &self,
+        query: &PlanningQuery,
+        leave: Option<(Vector3<f64>, f64)>,
+        model: &CollisionModel,
+        scene: &Scene,
+        goals: &[GripGoal],
+    ) -> Result<Plan, Refusal> {
+        let goal = match query.skill {
+            Skill::Park => Goal::Posture(self.models.mechanism.park),
+            _ => Goal::Hand(goals.iter().map(|grip_goal| grip_goal.goal).collect()),
+        };
+        let puts = matches!(query.skill, Skill::Insert | Skill::PutBack);
+        let insertion_depth = if puts { INSERTION_DEPTH } else { 0.0 };
+        let next = query.next_place.map(|next| next * query.place.inverse());
+        let problem = self.problem(model, scene, query.start, goal);
+        let problem =
+            Problem { leave, next_displacements: next.into_iter().collect(), insertion_depth, ..problem };
+        problem.plan_within(match query.is_in_motion() {
+            true => SEARCH_IN_MOTION,
+            false if query.awaits_person() => SEARCH_FOR_PERSON,
+            false => SEARCH_AT_REST,
+        })
+    }
+
+    /// Straight back out of a place that no movement leaves, or up. The hand may touch, on its way out, whatever it stands too
+    /// near to.
+    fn withdrawal(&self, query: &PlanningQuery, model: &CollisionModel, scene: &Scene) -> Option<Plan> {
+        let palm = self.models.mechanism.arm.palm(&query.start.map(|state| state.position));
+        let back = palm.rotation * -Vector3::z();
+        let min_clearance = MinClearance { path: 0.0, goal: 0.0 };
+        let names = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str());
+        let scene = &scene.touching(&names.collect::<Vec<_>>());
+        let distance = self.limits.withdraw_distance;
+        [back, Vector3::z()].iter().find_map(|direction| {
+            let away = Translation3::from(direction * distance) * palm;
+            let goal = self.goals.palm_at(&away, 0.0);
+            let problem = self.problem(model, scene, query.start, Goal::Hand(vec![goal]));
+            let leave = Some((*direction, STRAIGHT_WITHDRAWAL * distance));
+            Problem { leave, min_clearance, ..problem }.plan().ok()
+        })
+    }
+
+    fn problem<'a>(
+        &'a self,
+        collision_model: &'a CollisionModel,
+        scene: &'a Scene,
+        start: [MotionState; 7],
+        goal: Goal,
+    ) -> Problem<'a> {
+        let PlannerLimits { path_clearance, goal_clearance, .. } = self.limits;
+        Problem {
+            mechanism: &self.models.mechanism,
+            collision_model,
+            scene,
+            start,
+            leave: None,
+            goal,
+            next_displacements: Vec::new(),
+            insertion_depth: 0.0,
+            min_clearance: MinClearance { path: path_clearance, goal: goal_clearance },
+        }
+    }
+}
+
+/// A plan as the answer to a query. With `fingers_wait`, the fingers take their shape at its end.
+fn result(number: u64, plan: &Plan, goals: &[GripGoal], fingers_wait: bool) -> PlanningResult {
+    let grip = plan.target.and_then(|target| goals.get(target.goal)?.grip);
+    let mut trajectory = ArmTrajectory::of(plan);
+    if let Some(trajectory) = trajectory.as_mut().filter(|_| fingers_wait) {
+        trajectory.fingers_begin = trajectory.duration();
+    }
+    PlanningResult { number, trajectory, grip }
+}

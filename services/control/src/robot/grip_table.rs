@@ -1,0 +1,109 @@
+use super::PartGrip;
+use crate::ControlError;
+use coact_joint_task::Task;
+use coact_robot::{Graspable, GripSide, Grips, HAND_JOINTS, Hand, HandGoal, NextUse};
+use nalgebra::Isometry3;
+
+/// All the grips in which the hand can grasp the parts of a task. Control's state names each of them by its index.
+#[derive(Debug, Clone)]
+pub(crate) struct GripTable {
+    /// Those of each kind of part.
+    by_kind: Vec<Grips>,
+    all: Vec<PartGrip>,
+}
+
+/// A goal of the hand, and the grip in which it grasps a part there, if it does.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GripGoal {
+    pub goal: HandGoal,
+    pub grip: Option<usize>,
+}
+
+/// How far into a part each finger is told to close, as a fraction of its width. The fingers' servos turn the difference
+/// between that and where the part stops them into force. Chosen by hand: parts neither slip nor slide away.
+const SQUEEZE: f64 = 0.3;
+
+impl GripTable {
+    /// # Errors
+    /// [`ControlError::Ungraspable`] when the hand has no grip for a kind of part.
+    pub fn new(hand: &Hand, task: &Task) -> Result<Self, ControlError> {
+        let by_kind: Vec<Grips> = task
+            .kinds
+            .iter()
+            .map(|kind| Grips::of(hand, coact_workplace::graspable(kind), NextUse::Anything))
+            .collect();
+        if let Some(kind) = by_kind.iter().position(|grips| grips.all.is_empty()) {
+            let (name, width) = (task.kinds[kind].name.clone(), task.kinds[kind].width);
+            return Err(ControlError::Ungraspable { name, width });
+        }
+        let all = by_kind.iter().enumerate().flat_map(|(kind, grips)| part_grips(hand, kind, grips));
+        Ok(Self { all: all.collect(), by_kind })
+    }
+
+    /// All of them.
+    pub fn all(&self) -> &[PartGrip] {
+        &self.all
+    }
+
+    /// What is grasped of a kind.
+    pub fn object(&self, kind: usize) -> &Graspable {
+        &self.by_kind[kind].object
+    }
+
+    /// The hand open around a part of this kind, in whichever grip it is picked: angles of its joints, rad.
+    pub fn open_around(&self, kind: usize) -> [f64; HAND_JOINTS] {
+        self.by_kind[kind].open
+    }
+
+    /// This grip, if it is one of this kind of part; else the kind's first one.
+    pub fn known(&self, grip: Option<usize>, kind: usize) -> usize {
+        let known = grip.filter(|grip| self.all.get(*grip).is_some_and(|grip| grip.kind == kind));
+        known.unwrap_or_else(|| self.first(kind))
+    }
+
+    /// Goals of the hand that grasps a part whose frame is `frame`, in all grips that serve what is done next. The approach
+    /// begins `back` m before; shoulder, elbow and wrist stay above `floor` m.
+    pub fn goals(
+        &self,
+        kind: usize,
+        next: NextUse,
+        frame: &Isometry3<f64>,
+        back: f64,
+        floor: f64,
+    ) -> impl Iterator<Item = GripGoal> {
+        let (grips, first) = (&self.by_kind[kind], self.first(kind));
+        let goals = grips.goals(frame, back, floor).into_iter();
+        let suiting = goals.filter(move |(grip, _)| grips.suits(&grips.all[*grip], next));
+        suiting.map(move |(grip, goal)| GripGoal { goal, grip: Some(first + grip) })
+    }
+
+    /// How a part of this kind is received from a person's hand: from above, where that is not.
+    pub fn received(&self, kind: usize) -> usize {
+        let is_from_above = |grip: &PartGrip| grip.kind == kind && grip.grip.side == GripSide::Above;
+        self.all.iter().position(is_from_above).unwrap_or_else(|| self.first(kind))
+    }
+
+    fn first(&self, kind: usize) -> usize {
+        self.all.iter().take_while(|grip| grip.kind < kind).count()
+    }
+}
+
+/// The grips of one kind of part, each with the first of its goals for a part at the origin: that tells where the part is in
+/// the palm.
+fn part_grips(hand: &Hand, kind: usize, grips: &Grips) -> Vec<PartGrip> {
+    let mut part_grips: Vec<PartGrip> = Vec::with_capacity(grips.all.len());
+    for (index, goal) in grips.goals(&Isometry3::identity(), 0.0, f64::NEG_INFINITY) {
+        if index < part_grips.len() {
+            continue;
+        }
+        let (grip, object) = (grips.all[index], &grips.object);
+        part_grips.push(PartGrip {
+            kind,
+            grip,
+            in_palm: hand.palm_at(&goal.point, &goal.approach, &goal.closing_axis, 0.0).inverse(),
+            closed: grip.fingers(hand, object, -SQUEEZE * object.width),
+            open: grip.open(hand, object),
+        });
+    }
+    part_grips
+}

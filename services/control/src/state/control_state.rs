@@ -1,0 +1,86 @@
+use super::{
+    ArmState, DecisionState, FINGER_JOINTS, FingerState, HandState, MovementQuery, PlanningState, Skill,
+    SkillState,
+};
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+use coact_messages::{ARM_JOINTS, JOINTS};
+use coact_robot::Posture;
+use coact_stage_state::{Implausible, StageState};
+
+/// All that control keeps from cycle to cycle, besides the setpoints.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, CheckedBitPattern, NoUninit, Zeroable)]
+pub(crate) struct ControlState {
+    pub arm: ArmState,
+    pub fingers: FingerState,
+    pub skill: SkillState,
+    pub hand: HandState,
+    pub planning: PlanningState,
+    pub decisions: DecisionState,
+}
+
+impl StageState for ControlState {
+    const STAGE: &'static str = "control";
+    const LAYOUT: u32 = 6;
+
+    fn check(&self) -> Result<(), Implausible> {
+        let Self { arm, fingers, skill, hand, planning, decisions: _ } = self;
+        arm.check()?;
+        fingers.check()?;
+        skill.check()?;
+        hand.check()?;
+        planning.check()
+    }
+}
+
+impl ControlState {
+    /// At rest at `position`, knowing nothing.
+    pub fn at_rest(position: [f64; JOINTS]) -> Self {
+        let (arm, fingers) = split(position);
+        Self {
+            arm: ArmState::at_rest(arm),
+            fingers: FingerState::at_rest(fingers),
+            planning: PlanningState::at_rest(arm),
+            ..Self::zeroed()
+        }
+    }
+
+    /// Whether the arm is at its goal, and no further movement is bound to begin.
+    pub fn arm_has_arrived(&self) -> bool {
+        self.arm.is_at_end() && !self.planning.query.is_bound()
+    }
+
+    /// Whether the robot's hand shall touch the person's `t` s after the start of the trajectory: where it receives what the
+    /// person gives, and where it brings a part to the person's hand. On the way there it keeps clear of it.
+    pub fn may_touch_person(&self, t: f64) -> bool {
+        match self.skill.skill {
+            Skill::Receive => !self.skill.stops_before.is_set(),
+            Skill::Give => self.arm.trajectory.is_approach(t),
+            _ => false,
+        }
+    }
+
+    /// The arm stands where it has braked; what was asked for in motion begins from there.
+    pub fn rest_arm(&mut self, posture: Posture, tick: u64) {
+        self.arm.rest(posture);
+        self.planning.query = match self.planning.query {
+            MovementQuery::InMotion { .. } => MovementQuery::FROM_REST,
+            MovementQuery::Planned { .. } => MovementQuery::Planned { begins: tick },
+            query => query,
+        };
+    }
+
+    /// Whether every index names one of so many actions, kinds of parts and grips.
+    pub fn is_of_task(&self, actions: usize, kinds: usize, grips: usize) -> bool {
+        let Self { skill, hand, decisions, .. } = self;
+        skill.action.is_below(actions)
+            && decisions.finished.action.is_below(actions)
+            && [skill.kind, hand.held].iter().all(|kind| kind.is_below(kinds))
+            && hand.grip.is_below(grips)
+    }
+}
+
+/// Arm and fingers of a row of all joints.
+pub(crate) fn split(position: [f64; JOINTS]) -> (Posture, [f64; FINGER_JOINTS]) {
+    (std::array::from_fn(|joint| position[joint]), std::array::from_fn(|joint| position[ARM_JOINTS + joint]))
+}

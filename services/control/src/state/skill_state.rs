@@ -1,0 +1,44 @@
+use super::{PhaseProgress, Skill, SkillPhase, StoredPose};
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+use coact_stage_state::{Flag, Implausible, Slot, finite};
+
+/// The skill under way, what it is about, and how far it has come.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, CheckedBitPattern, NoUninit, Zeroable)]
+pub(crate) struct SkillState {
+    pub skill: Skill,
+    /// Action that it serves: index into `Task::actions`.
+    pub action: Slot,
+    /// [`Decision::since`](coact_messages::Decision) of the decision that it serves.
+    pub since: u64,
+    /// Kind of part that it is about.
+    pub kind: Slot,
+    /// Frame of what it is about: of a part, a socket, a place on the table, the handover place.
+    pub place: StoredPose,
+    /// Whether the hand stops before that place, to wait for the person.
+    pub stops_before: Flag,
+    phase: SkillPhase,
+    pub progress: PhaseProgress,
+}
+
+impl SkillState {
+    pub fn phase(&self) -> SkillPhase {
+        self.phase
+    }
+
+    /// Enters a phase.
+    pub fn enter(&mut self, phase: SkillPhase) {
+        self.phase = phase;
+        self.progress = PhaseProgress::zeroed();
+    }
+
+    /// Whether nothing is asked of the arm and hand: the robot stands, or goes, to its park posture.
+    pub fn is_parking(&self) -> bool {
+        self.skill == Skill::Park
+    }
+
+    pub fn check(&self) -> Result<(), Implausible> {
+        finite("skill.place", &self.place.0)?;
+        self.progress.check()
+    }
+}
