@@ -14,7 +14,7 @@ pub enum ControlError {
         /// How the hand would have to stand there.
         towards: String,
     },
-    /// The hand cannot hold a kind of part.
+    /// The hand cannot grasp a kind of part.
     #[error(
         "the robot's hand has no grip for \"{name}\", {width} m wide; expected a width that its fingers open around; \
          change it in the task file, or use another hand"

@@ -66,16 +66,15 @@ impl SkillPlanner {
     }
 
     /// The movement that is asked for, one that only withdraws the hand, or none.
-    ///
+    pub fn plan(&mut self, query: &PlanningQuery) -> PlanningResult {
+        self.movement(query).unwrap_or_else(|| PlanningResult::refused(query.number))
+    }
+
     /// From a person who is near the hand withdraws first. Where the person leaves no path, the arm goes as far as the guard
     /// lets it, but not to where the person comes; where there is no room for the fingers to move with the arm, they move when
     /// it has arrived.
-    pub fn plan(&mut self, query: &PlanningQuery) -> PlanningResult {
-        let refused = PlanningResult::refused(query.number);
-        let shape = self.robot.on_the_way(query.skill, query.kind, query.held_in);
-        let passed = [query.fingers, query.finger_target, self.robot.hand_angles(shape)];
-        let Ok(moving) = self.models.of(&passed, query.held) else { return refused };
-        let Ok(still) = self.models.of(&passed[..1], query.held) else { return refused };
+    fn movement(&self, query: &PlanningQuery) -> Option<PlanningResult> {
+        let (moving, still) = self.models_of(query).ok()?;
         let goals = self.goals.of(query);
         let person = self.scene.person(query, &self.goals);
         let (separation, away) = self.scene.separation(query, &still, &person);
@@ -91,28 +90,23 @@ impl SkillPlanner {
             Attempt { applies: !awaits, model: &moving, scene: &alone, leave },
             Attempt { applies: !moves, model: &still, scene: if awaits { &scene } else { &alone }, leave },
         ];
-        for Attempt { model, scene, leave, .. } in attempts.into_iter().filter(|attempt| attempt.applies) {
-            if let Ok(plan) = self.search(query, leave, model, scene, &goals) {
-                let fingers_wait = std::ptr::eq(model, &still);
-                return result(query.number, &plan, &goals, fingers_wait);
+        for attempt in attempts.iter().filter(|attempt| attempt.applies) {
+            if let Ok(plan) = self.search(query, attempt, &goals) {
+                let fingers_wait = std::ptr::eq(attempt.model, &still);
+                return Some(result(query.number, &plan, &goals, fingers_wait));
             }
         }
-        if moves {
-            return refused;
-        }
-        let mut trajectory = self.withdrawal(query, &still, &scene).as_ref().and_then(ArmTrajectory::of);
-        trajectory.iter_mut().for_each(|trajectory| trajectory.withdraws = Flag::Set);
-        PlanningResult { trajectory, ..refused }
+        if moves { None } else { self.withdrawal(query, &still, &scene) }
     }
 
-    fn search(
-        &self,
-        query: &PlanningQuery,
-        leave: Option<(Vector3<f64>, f64)>,
-        model: &CollisionModel,
-        scene: &Scene,
-        goals: &[GripGoal],
-    ) -> Result<Plan, Refusal> {
+    /// Arm and hand with fingers that take their shape for the goal on the way, and with fingers that stand still.
+    fn models_of(&self, query: &PlanningQuery) -> Result<(CollisionModel, CollisionModel), RobotError> {
+        let shape = self.robot.on_the_way(query.skill, query.kind, query.held_in);
+        let passed = [query.fingers, query.finger_target, self.robot.hand_angles(shape)];
+        Ok((self.models.of(&passed, query.held)?, self.models.of(&passed[..1], query.held)?))
+    }
+
+    fn search(&self, query: &PlanningQuery, attempt: &Attempt, goals: &[GripGoal]) -> Result<Plan, Refusal> {
         let goal = match query.skill {
             Skill::Park => Goal::Posture(self.models.mechanism.park),
             _ => Goal::Hand(goals.iter().map(|grip_goal| grip_goal.goal).collect()),
@@ -120,9 +114,12 @@ impl SkillPlanner {
         let puts = matches!(query.skill, Skill::Insert | Skill::PutBack);
         let insertion_depth = if puts { INSERTION_DEPTH } else { 0.0 };
         let next = query.next_place.map(|next| next * query.place.inverse());
-        let problem = self.problem(model, scene, query.start, goal);
-        let problem =
-            Problem { leave, next_displacements: next.into_iter().collect(), insertion_depth, ..problem };
+        let problem = Problem {
+            leave: attempt.leave,
+            next_displacements: next.into_iter().collect(),
+            insertion_depth,
+            ..self.problem(attempt.model, attempt.scene, query.start, goal)
+        };
         problem.plan_within(match query.is_in_motion() {
             true => SEARCH_IN_MOTION,
             false if query.awaits_person() => SEARCH_FOR_PERSON,
@@ -132,20 +129,28 @@ impl SkillPlanner {
 
     /// Straight back out of a place that no movement leaves, or up. The hand may touch, on its way out, whatever it stands too
     /// near to.
-    fn withdrawal(&self, query: &PlanningQuery, model: &CollisionModel, scene: &Scene) -> Option<Plan> {
+    fn withdrawal(
+        &self,
+        query: &PlanningQuery,
+        model: &CollisionModel,
+        scene: &Scene,
+    ) -> Option<PlanningResult> {
         let palm = self.models.mechanism.arm.palm(&query.start.map(|state| state.position));
         let back = palm.rotation * -Vector3::z();
         let min_clearance = MinClearance { path: 0.0, goal: 0.0 };
         let names = scene.obstacles.iter().map(|obstacle| obstacle.name.as_str());
         let scene = &scene.touching(&names.collect::<Vec<_>>());
         let distance = self.limits.withdraw_distance;
-        [back, Vector3::z()].iter().find_map(|direction| {
+        let withdrawal = [back, Vector3::z()].iter().find_map(|direction| {
             let away = Translation3::from(direction * distance) * palm;
             let goal = self.goals.palm_at(&away, 0.0);
             let problem = self.problem(model, scene, query.start, Goal::Hand(vec![goal]));
             let leave = Some((*direction, STRAIGHT_WITHDRAWAL * distance));
             Problem { leave, min_clearance, ..problem }.plan().ok()
-        })
+        });
+        let mut trajectory = withdrawal.as_ref().and_then(ArmTrajectory::of)?;
+        trajectory.withdraws = Flag::Set;
+        Some(PlanningResult { number: query.number, trajectory: Some(trajectory), grip: None })
     }
 
     fn problem<'a>(
