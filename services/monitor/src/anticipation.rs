@@ -22,7 +22,7 @@ pub struct Anticipation {
     open: Option<OpenAction>,
 }
 
-/// An action whose answer is not settled.
+/// An action of which it is not known yet how it is answered.
 #[derive(Debug, Clone, Copy)]
 struct OpenAction {
     number: u32,
@@ -54,7 +54,7 @@ impl Anticipation {
         self.frame(frame, events);
     }
 
-    /// Takes notice of what the partner does; an action that ends unanswered is appended to `events`.
+    /// Follows what the partner does; an action that ends unanswered is appended to `events`.
     pub fn truth(&mut self, truth: &Truth, events: &mut Vec<Event>) {
         let ended = self.open.filter(|open| {
             let rests = open.late && truth.phase == PartnerPhase::Idle as u32;

@@ -44,7 +44,7 @@ impl Expectation {
         }
     }
 
-    /// Cycle at which its peak crossed threshold; none while it holds no peak.
+    /// Cycle at which its peak crossed threshold; none while there is no peak.
     pub(crate) fn since(self, frame: &FieldFrame) -> Option<u64> {
         let (layer, index) = match self {
             Self::Action(action) => (LayerKind::ActionExecution, action),

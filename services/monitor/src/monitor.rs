@@ -82,7 +82,7 @@ pub enum MonitorError {
 }
 
 impl Monitor {
-    /// Opens the report directory and goes on with what it holds.
+    /// Opens the report directory and goes on with what is in it.
     ///
     /// # Errors
     /// A file of the report cannot be read or written.
@@ -154,7 +154,7 @@ impl Monitor {
         self.catch_up(truth.header.cycle.saturating_sub(OVERDUE), events);
     }
 
-    /// The fields; appends what can be told to `events`.
+    /// The fields; events are appended to `events`.
     pub fn frame(&mut self, frame: &FieldFrame, events: &mut Vec<Event>) {
         self.catch_up(frame.header.cycle, events);
         if frame.task == self.task.fingerprint {
@@ -168,7 +168,7 @@ impl Monitor {
         self.snapshots.sample(sample);
     }
 
-    /// What the arm was told to do.
+    /// What the arm shall do.
     pub fn command(&mut self, command: &Command) {
         self.snapshots.command(command);
         self.tracking.command(command);

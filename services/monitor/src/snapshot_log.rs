@@ -33,7 +33,7 @@ const SETTLED: u64 = cycles(Duration::from_millis(200));
 const FULL: usize = 1000;
 
 impl SnapshotLog {
-    /// Opens the log of a report directory, and goes on with what it holds.
+    /// Opens the log of a report directory, and goes on with what is in it.
     ///
     /// # Errors
     /// The file cannot be read or written, or holds something else.
@@ -59,7 +59,7 @@ impl SnapshotLog {
         }
     }
 
-    /// What the arm was told to do.
+    /// What the arm shall do.
     pub fn command(&mut self, command: &Command) {
         self.action = command.action;
     }

@@ -22,7 +22,7 @@ impl<R: Record> RunLog<R> {
         Ok(Self { path, file, records: Vec::new() })
     }
 
-    /// Opens the log of a report directory and goes on with what it holds. A line that a killed predecessor could not
+    /// Opens the log of a report directory and goes on with what is in it. A line that a killed predecessor could not
     /// finish is cut off.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
+use crate::line_style::LineStyle;
 use crate::page::{LETTERS, number};
-use coact_drawing::{Anchor, BLACK, FAINT, RGBColor, Sheet};
+use coact_drawing::{Anchor, BLACK, FAINT, Sheet};
 
 /// Curves of activity over field position.
 #[derive(Debug, Clone)]
@@ -7,18 +8,9 @@ pub struct Curves {
     /// What is shown.
     pub title: String,
     /// The curves: name, values at all sites, how they are drawn.
-    pub curves: Vec<(String, Vec<f64>, Stroke)>,
+    pub curves: Vec<(String, Vec<f64>, LineStyle)>,
     /// Names of the populations side by side in the field.
     pub populations: Vec<String>,
-}
-
-/// How a curve is drawn.
-#[derive(Debug, Clone, Copy)]
-pub struct Stroke {
-    /// Its colour.
-    pub colour: RGBColor,
-    /// Pixels drawn and left out in turn; empty for a solid line.
-    pub dashes: &'static [f64],
 }
 
 impl Curves {
@@ -63,45 +55,6 @@ impl Curves {
             let y = y + 28 * index;
             stroke.draw(sheet, &[[x, y], [x + 70, y]]);
             sheet.text(name, [x + 82, y], LETTERS, Anchor::Start);
-        }
-    }
-}
-
-impl Stroke {
-    /// Draws a line through these places.
-    fn draw(self, sheet: &mut Sheet, places: &[[i32; 2]]) {
-        if self.dashes.is_empty() {
-            sheet.path(places, self.colour, 3);
-            return;
-        }
-        let (mut dash, mut left, mut piece) = (0, self.dashes[0], Vec::new());
-        for pair in places.windows(2) {
-            let [from, to] = [pair[0], pair[1]].map(|place| place.map(f64::from));
-            let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-            let point =
-                |way: f64| [0, 1].map(|i| (from[i] + (to[i] - from[i]) * way / length).round() as i32);
-            let mut way = 0.0;
-            piece.push(pair[0]);
-            while way + left < length {
-                way += left;
-                piece.push(point(way));
-                self.finish(sheet, dash, &mut piece);
-                dash = (dash + 1) % self.dashes.len();
-                left = self.dashes[dash];
-                piece.push(point(way));
-            }
-            left -= length - way;
-        }
-        piece.extend(places.last());
-        self.finish(sheet, dash, &mut piece);
-    }
-
-    /// Draws a piece if it is one of those that are drawn.
-    fn finish(self, sheet: &mut Sheet, dash: usize, piece: &mut Vec<[i32; 2]>) {
-        piece.dedup();
-        let drawn = std::mem::take(piece);
-        if dash.is_multiple_of(2) && drawn.len() > 1 {
-            sheet.path(drawn, self.colour, 3);
         }
     }
 }

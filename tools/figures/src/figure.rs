@@ -6,7 +6,8 @@ use crate::{FigureError, Quantity, RunTrace, Scenario, single_field, table_view}
 use coact_drawing::{Lettering, Sheet};
 use coact_messages::LayerKind;
 
-/// Input that matters, as a part of what ignites a population.
+/// Least input of a population that is shown, as a fraction of what ignites it: less cannot be seen in the colours. Chosen
+/// by hand.
 const MATTERS: f32 = 0.1;
 
 /// One of the chapter's figures.
@@ -219,7 +220,7 @@ fn map(runs: &[&RunTrace], letter: &str, layer: LayerKind, quantity: Quantity, r
     HeatMap::of(letter, layer, quantity, surfaces, constants)
 }
 
-/// Populations of a layer that a figure shows: all of memory and plan, of the others those that got input.
+/// Populations of a layer that a figure shows: all of object memory and plan, of the others those that got input.
 fn rows_that_matter(layer: LayerKind, runs: &[&RunTrace]) -> Vec<usize> {
     let all = runs.first().map_or(0, |run| run.plan.populations_of(layer).len());
     let shown_in_full = [

@@ -60,8 +60,8 @@ impl Gallery<'_> {
         scenarios
             .into_iter()
             .map(|scenario| {
-                let mut told = |ms: u64| progress(Step::Run(scenario, ms));
-                RunTrace::of(scenario, self.configuration, self.seed, &mut told)
+                let mut report = |ms: u64| progress(Step::Run(scenario, ms));
+                RunTrace::of(scenario, self.configuration, self.seed, &mut report)
             })
             .collect()
     }

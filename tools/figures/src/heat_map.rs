@@ -48,7 +48,7 @@ impl HeatMap {
         Self { title: title.trim().to_owned(), surfaces, limits, ticks }
     }
 
-    /// Draws it from `top` on, and tells where it ends.
+    /// Draws it from `top` on, and returns where it ends.
     pub fn draw(&self, sheet: &mut Sheet, top: i32, spans: &[Span]) -> i32 {
         sheet.text(&self.title, [MARGIN, top + 12], LETTERS + 2, Anchor::Start);
         let top = top + 28;

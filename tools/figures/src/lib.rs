@@ -1,4 +1,4 @@
-//! The chapter's figures, drawn from runs that are made then and there.
+//! The chapter's figures, drawn from runs that are made on the spot.
 //!
 //! A [`RunTrace`] has what happened in a run in lockstep: input and activity of every layer, what the person did, when
 //! which peak stood. A [`Figure`] makes a [`Sheet`](coact_drawing::Sheet) of it, which is written as SVG and as PNG.
@@ -13,6 +13,7 @@ mod index;
 mod interval;
 mod interval_tracker;
 mod layer_page;
+mod line_style;
 mod page;
 mod prediction;
 mod run_trace;

@@ -37,7 +37,7 @@ impl<'a> Prediction<'a> {
         Self { trace, goal, opened }
     }
 
-    /// The subgoals of now, the inferred goal, and the subgoals that it opens, around the moment of inference.
+    /// The subgoals of now, the inferred goal, and the subgoals that it opens, around the instant of inference.
     pub(crate) fn page(&self, mut caption: Caption) -> LayerPage {
         let (from, to) = match self.goal {
             Some(goal) => (goal.from_ms - AROUND[0], (goal.from_ms + AROUND[1]).min(self.trace.end_ms())),

@@ -1,8 +1,9 @@
 //! Figures 3 and 4: one field by itself, before it is part of any architecture.
 
-use crate::curves::{Curves, Stroke};
+use crate::curves::Curves;
 use crate::heat_map::HeatMap;
 use crate::layer_page::{Column, LayerPage};
+use crate::line_style::LineStyle;
 use crate::page::{Caption, LEFT, MARGIN, RIGHT};
 use crate::{FigureError, Interval, Surface};
 use coact_drawing::{BLACK, DISTINCT, Lettering, Sheet};
@@ -56,7 +57,7 @@ pub fn activation(caption: Caption, letters: &Lettering) -> Result<Sheet, Figure
     let mut driven = field()?;
     driven.drive(300, &[3.0]);
     let peak = driven.drive(3000, &[0.0]);
-    let curve = |name: &str, values, colour, dashes| (name.to_owned(), values, Stroke { colour, dashes });
+    let curve = |name: &str, values, colour, dashes| (name.to_owned(), values, LineStyle { colour, dashes });
     let curves = Curves {
         title: "activity u(x)".into(),
         populations: vec!["field position x: grasping".into()],
@@ -92,7 +93,7 @@ pub fn decision(caption: Caption, letters: &Lettering) -> Result<Sheet, FigureEr
     }
     let instant = |ms: f64, colour, dashes| {
         let values = evolution.at(ms).iter().map(|&u| f64::from(u)).collect();
-        (format!("t = {ms:.0} ms"), values, Stroke { colour, dashes })
+        (format!("t = {ms:.0} ms"), values, LineStyle { colour, dashes })
     };
     let curves = Curves {
         title: "activity u(x) at three instants".into(),

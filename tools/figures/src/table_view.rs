@@ -1,6 +1,7 @@
 //! Figure 6: what the object memory holds, beside the table as the robot's camera saw it.
 
-use crate::curves::{Curves, Stroke};
+use crate::curves::Curves;
+use crate::line_style::LineStyle;
 use crate::page::{Caption, LETTERS, MARGIN, RIGHT, WIDTH};
 use crate::{Quantity, RunTrace};
 use coact_drawing::{Anchor, BLACK, DISTINCT, FAINT, Lettering, Mark, Place, RGBColor, Sheet};
@@ -20,7 +21,7 @@ pub fn object_memory(caption: Caption, trace: &RunTrace, letters: &Lettering) ->
         let values = surface.at(RunTrace::SCENE_MS).iter().map(|&u| f64::from(u)).collect();
         Curves {
             title: title.into(),
-            curves: vec![(String::new(), values, Stroke { colour: DISTINCT[0], dashes: &[] })],
+            curves: vec![(String::new(), values, LineStyle { colour: DISTINCT[0], dashes: &[] })],
             populations: surface.labels.clone(),
         }
     };

@@ -1,5 +1,5 @@
-use crate::person::arm_and_hand;
-use crate::view::{ARM, HAND, Stroke, THINGS, View, paint};
+use crate::limb_capsules::limb_capsules;
+use crate::view::{ARM, HAND, Silhouette, THINGS, View, paint};
 use coact_drawing::{Anchor, DISTINCT, Lettering, Mark, Place, RGBColor, Sheet};
 use coact_joint_task::{Fixture, Kind, Task};
 use coact_messages::ARM_JOINTS;
@@ -21,38 +21,42 @@ pub struct ContactSheet<'a> {
 /// Why snapshots could not be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum ContactSheetError {
-    /// It holds nothing.
+    /// There are none.
     #[error("there is no snapshot: the run was too short")]
     Empty,
-    /// It is of another task.
+    /// They are of another task.
     #[error(
         "the snapshots show a part \"{0}\", which the task \"{1}\" does not have; name the task of the run"
     )]
     Part(String, String),
-    /// What is wrong with the robot's forms.
+    /// What is wrong with the robot's collision model.
     #[error(transparent)]
     Robot(#[from] RobotError),
 }
 
-/// Pictures on a sheet at most, and how many stand side by side.
+/// Pictures on a sheet at most: with more, nobody finds the one that matters. Chosen by hand.
 const MOST: usize = 24;
+/// Pictures side by side.
 const COLUMNS: usize = 4;
+/// Size of a picture, pixels: four of them fill the width of a screen.
 const PICTURE: [i32; 2] = [420, 330];
-/// Height of the lines under each picture, and of those above all of them.
+/// Height of the three lines under each picture, pixels.
 const CAPTION: i32 = 74;
+/// Height of the lines above all pictures, pixels.
 const HEAD: i32 = 84;
+/// Room between pictures, pixels.
 const GAP: i32 = 16;
-/// Between the two, on the side where parts change hands, and above: the person is on the left, the robot on the right.
+/// Direction towards the eye: beside the two, where parts change hands, and above. The person is on the left.
 const TOWARDS: Vector3<f64> = Vector3::new(-0.12, -0.8, 0.55);
 const TABLE: RGBColor = RGBColor(232, 224, 210);
 const PERSON: RGBColor = RGBColor(225, 165, 130);
 const FRAME: RGBColor = RGBColor(200, 200, 200);
 
-/// A snapshot, and the robot as it stood then.
+/// A snapshot, and the robot in its posture then.
 struct Picture<'a> {
     snapshot: &'a Snapshot,
-    body: CollisionModel,
-    hulls: Vec<Capsule>,
+    collision_model: CollisionModel,
+    capsules: Vec<Capsule>,
 }
 
 impl ContactSheet<'_> {
@@ -87,9 +91,9 @@ impl ContactSheet<'_> {
     fn picture<'a>(&self, snapshot: &'a Snapshot, mechanism: &Mechanism) -> Result<Picture<'a>, RobotError> {
         let (arm, hand) = snapshot.joints.split_at(ARM_JOINTS);
         let fingers: [f64; HAND_JOINTS] = std::array::from_fn(|joint| hand[joint]);
-        let body = mechanism.with_fingers(&self.robot.hand, &fingers)?;
-        let hulls = body.bounding_capsules(mechanism, &std::array::from_fn(|joint| arm[joint]));
-        Ok(Picture { snapshot, body, hulls })
+        let collision_model = mechanism.with_fingers(&self.robot.hand, &fingers)?;
+        let capsules = collision_model.bounding_capsules(mechanism, &std::array::from_fn(|joint| arm[joint]));
+        Ok(Picture { snapshot, collision_model, capsules })
     }
 
     /// What is shown, and the colour of each kind of part.
@@ -105,7 +109,7 @@ impl ContactSheet<'_> {
         }
     }
 
-    /// One look for all pictures: at the table, and at all that robot and person come by.
+    /// One view for all pictures: of the table, and of all that robot and person reach.
     fn view(&self, pictures: &[Picture]) -> View {
         let point = |at: [f64; 3]| Capsule { start: at.into(), end: at.into(), radius: 0.0 };
         let scene = &self.task.scene;
@@ -113,9 +117,9 @@ impl ContactSheet<'_> {
             let ([depth, width], [x, y]) = (scene.table_size, scene.table_centre);
             point([x + across * depth, y + along * width, scene.table_height])
         });
-        let people = pictures.iter().flat_map(|picture| arm_and_hand(&picture.snapshot.keypoints));
-        let hulls = pictures.iter().flat_map(|picture| picture.hulls.iter().copied());
-        let all: Vec<Capsule> = corners.into_iter().chain(hulls).chain(people).collect();
+        let people = pictures.iter().flat_map(|picture| limb_capsules(&picture.snapshot.keypoints));
+        let capsules = pictures.iter().flat_map(|picture| picture.capsules.iter().copied());
+        let all: Vec<Capsule> = corners.into_iter().chain(capsules).chain(people).collect();
         View::of(&all, TOWARDS, PICTURE)
     }
 
@@ -126,16 +130,17 @@ impl ContactSheet<'_> {
             .partition(|fixture| fixture.name == Fixture::TABLE);
         tables.iter().for_each(|table| paint(sheet, view.solid(table, TABLE)));
         others.iter().rev().for_each(|other| paint(sheet, view.solid(other, THINGS)));
-        let bones = picture.body.links().iter().zip(&picture.hulls);
-        let mut strokes: Vec<Stroke> =
-            bones.map(|(bone, hull)| view.capsule(hull, if bone.hand { HAND } else { ARM })).collect();
-        strokes.extend(arm_and_hand(&picture.snapshot.keypoints).map(|bone| view.capsule(&bone, PERSON)));
+        let links = picture.collision_model.links().iter().zip(&picture.capsules);
+        let mut silhouettes: Vec<Silhouette> =
+            links.map(|(link, capsule)| view.capsule(capsule, if link.hand { HAND } else { ARM })).collect();
+        silhouettes
+            .extend(limb_capsules(&picture.snapshot.keypoints).map(|limb| view.capsule(&limb, PERSON)));
         for part in &picture.snapshot.parts {
             let (index, kind) = self.kind(part)?;
             let thing = coact_workplace::upright(&kind.name, kind.shape, &frame(part));
-            strokes.extend(view.solid(&thing, colour(index)));
+            silhouettes.extend(view.solid(&thing, colour(index)));
         }
-        paint(sheet, strokes);
+        paint(sheet, silhouettes);
         Ok(())
     }
 
@@ -154,7 +159,7 @@ fn evenly(snapshots: &[Snapshot]) -> impl Iterator<Item = &Snapshot> {
     (0..shown).map(move |index| &snapshots[(index * (all - 1) + steps / 2) / steps])
 }
 
-/// When, what had happened, and what the two were at.
+/// When, what had happened, and what the two were doing.
 fn caption(sheet: &mut Sheet, snapshot: &Snapshot, [x, y]: Place, letters: &Lettering) {
     let at_s = snapshot.at_ms as f64 / 1e3;
     let nothing = || "\u{2013}".to_owned();
@@ -168,7 +173,7 @@ fn caption(sheet: &mut Sheet, snapshot: &Snapshot, [x, y]: Place, letters: &Lett
     }
 }
 
-/// A line that fits below a picture; what is too much of it gives way to an ellipsis.
+/// A line that fits below a picture; the end of one that is too long is replaced by an ellipsis.
 fn fitting(line: String, size: u32, letters: &Lettering) -> String {
     let fits = |line: &str| letters.width(line, size) <= PICTURE[0] - 8;
     if fits(&line) {

@@ -2,7 +2,7 @@ use coact_motion::Solid;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
-/// A piece of a form's outside, in the form's own frame.
+/// One side of a solid, in the solid's own frame.
 pub(crate) struct Face {
     /// Its corners, in turn, m.
     pub corners: Vec<Point3<f64>>,
@@ -10,7 +10,7 @@ pub(crate) struct Face {
     pub normal: Vector3<f64>,
 }
 
-/// Pieces of half a circle.
+/// Straight pieces of half a circle: enough that it looks round.
 const HALF: u32 = 16;
 
 /// Corners of a rectangle, in units of half its edges.

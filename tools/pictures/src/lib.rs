@@ -1,9 +1,9 @@
-//! Pictures of arm, person and table: a look at them, and a run's snapshots on one sheet.
+//! Pictures of arm, person and table, and a run's snapshots on one sheet.
 
 mod contact_sheet;
 mod face;
-mod person;
+mod limb_capsules;
 mod view;
 
 pub use contact_sheet::{ContactSheet, ContactSheetError};
-pub use view::{ARM, HAND, Stroke, THINGS, View, paint};
+pub use view::{ARM, HAND, Silhouette, THINGS, View, paint};

@@ -11,7 +11,7 @@ pub const HAND: RGBColor = RGBColor(60, 80, 110);
 /// Colour of what stands around.
 pub const THINGS: RGBColor = RGBColor(190, 150, 90);
 
-/// A look at the scene, without perspective.
+/// How the scene is seen: without perspective, from one direction.
 #[derive(Debug, Clone, Copy)]
 pub struct View {
     right: Vector3<f64>,
@@ -25,9 +25,9 @@ pub struct View {
     middle: Place,
 }
 
-/// Something that is drawn, and how near it is to the eye.
+/// What is drawn of an object, and how near it is to the eye.
 #[derive(Debug, Clone)]
-pub struct Stroke {
+pub struct Silhouette {
     places: Vec<Place>,
     form: Form,
     colour: RGBColor,
@@ -39,15 +39,15 @@ enum Form {
     /// A line of this width, pixels.
     Line(u32),
     /// A line of this width with round ends and a darker edge.
-    Bone(u32),
+    Capsule(u32),
     Area,
 }
 
-/// Pieces of a third of a circle.
+/// Straight pieces of a third of a circle: enough that it looks round.
 const THIRD: u32 = 8;
-/// How light a face is that looks away from the light, and how much more one that looks towards it.
+/// Brightness of a face that looks away from the light, and how much brighter one is that looks towards it. For the eye only.
 const SHADE: (f64, f64) = (0.72, 0.28);
-/// From where the light comes, seen from the eye: from the right, from above, and from the eye.
+/// Direction towards the light: right, up, and towards the eye.
 const LIGHT: [f64; 3] = [0.3, 0.8, 0.5];
 
 impl View {
@@ -76,7 +76,7 @@ impl View {
         view
     }
 
-    /// The same look in another picture.
+    /// The same view in another picture.
     pub fn moved_to(self, middle: Place) -> Self {
         Self { middle, ..self }
     }
@@ -89,15 +89,15 @@ impl View {
     }
 
     /// A capsule as a thick line.
-    pub fn capsule(&self, capsule: &Capsule, colour: RGBColor) -> Stroke {
+    pub fn capsule(&self, capsule: &Capsule, colour: RGBColor) -> Silhouette {
         let width = (2.0 * capsule.radius * self.scale).round().max(2.0) as u32;
         let middle = nalgebra::center(&capsule.start, &capsule.end);
         let places = vec![self.place(&capsule.start), self.place(&capsule.end)];
-        Stroke { places, form: Form::Bone(width), colour, near: self.near(&middle) }
+        Silhouette { places, form: Form::Capsule(width), colour, near: self.near(&middle) }
     }
 
     /// The faces of an obstacle that look at the eye, shaded.
-    pub fn solid(&self, obstacle: &Obstacle, colour: RGBColor) -> Vec<Stroke> {
+    pub fn solid(&self, obstacle: &Obstacle, colour: RGBColor) -> Vec<Silhouette> {
         if let Solid::Capsule(capsule) = obstacle.solid {
             return vec![self.capsule(&capsule.within(&obstacle.place), colour)];
         }
@@ -108,18 +108,18 @@ impl View {
             let places = face.corners.iter().map(|corner| self.place(&(obstacle.place * corner))).collect();
             let shade = SHADE.0 + SHADE.1 * normal.dot(&light).max(0.0);
             let colour = shaded(colour, shade);
-            (normal.dot(&self.towards) > 0.0).then_some(Stroke { places, form: Form::Area, colour, near })
+            (normal.dot(&self.towards) > 0.0).then_some(Silhouette { places, form: Form::Area, colour, near })
         };
         let eye = obstacle.place.inverse() * self.towards;
         Face::of(&obstacle.solid, &eye).into_iter().filter_map(seen).collect()
     }
 
     /// The edges of an obstacle.
-    pub fn edges(&self, obstacle: &Obstacle, colour: RGBColor) -> Vec<Stroke> {
+    pub fn edges(&self, obstacle: &Obstacle, colour: RGBColor) -> Vec<Silhouette> {
         let near = self.near(&Point3::from(obstacle.place.translation.vector));
         let line = |points: &[Point3<f64>]| {
             let places = points.iter().map(|point| self.place(&(obstacle.place * point))).collect();
-            Stroke { places, form: Form::Line(1), colour, near }
+            Silhouette { places, form: Form::Line(1), colour, near }
         };
         match obstacle.solid {
             Solid::Box(size) => {
@@ -148,28 +148,28 @@ impl View {
     }
 }
 
-/// Draws what is far first.
-pub fn paint(sheet: &mut Sheet, mut strokes: Vec<Stroke>) {
-    strokes.sort_by(|one, other| one.near.total_cmp(&other.near));
-    for Stroke { places, form, colour, .. } in strokes {
+/// Draws silhouettes, the farthest first.
+pub fn paint(sheet: &mut Sheet, mut silhouettes: Vec<Silhouette>) {
+    silhouettes.sort_by(|one, other| one.near.total_cmp(&other.near));
+    for Silhouette { places, form, colour, .. } in silhouettes {
         match form {
             Form::Area => sheet.area(places, colour),
             Form::Line(width) => sheet.path(places, colour, width),
-            Form::Bone(width) => {
-                bone(sheet, &places, width + 2, shaded(colour, 0.6));
-                bone(sheet, &places, width, colour);
+            Form::Capsule(width) => {
+                rounded_line(sheet, &places, width + 2, shaded(colour, 0.6));
+                rounded_line(sheet, &places, width, colour);
             }
         }
     }
 }
 
-fn bone(sheet: &mut Sheet, places: &[Place], width: u32, colour: RGBColor) {
+fn rounded_line(sheet: &mut Sheet, places: &[Place], width: u32, colour: RGBColor) {
     sheet.path(places, colour, width);
     sheet.marks.extend(places.iter().map(|end| Mark::Disc(*end, width / 2, colour)));
 }
 
-/// A colour with this share of its light.
-fn shaded(RGBColor(red, green, blue): RGBColor, share: f64) -> RGBColor {
-    let part = |value: u8| (f64::from(value) * share).round() as u8;
+/// A colour with this fraction of its brightness.
+fn shaded(RGBColor(red, green, blue): RGBColor, brightness: f64) -> RGBColor {
+    let part = |value: u8| (f64::from(value) * brightness).round() as u8;
     RGBColor(part(red), part(green), part(blue))
 }

@@ -5,7 +5,7 @@ use coact_drawing::{Lettering, Mark, RGBColor, Sheet};
 use coact_joint_task::Task;
 use coact_pictures::{ContactSheet, ContactSheetError};
 use coact_robot::Robot;
-use coact_run_records::{SeenPart, Snapshot};
+use coact_run_records::{JOINTS, SeenPart, Snapshot};
 use std::path::{Path, PathBuf};
 
 fn configuration(file: &str) -> PathBuf {
@@ -23,7 +23,7 @@ fn snapshot(at_ms: u64, what: &str) -> Snapshot {
         robot_holds: Vec::new(),
         person_holds: vec!["wheel".into()],
         in_place: Vec::new(),
-        joints: [0.0; 15],
+        joints: [0.0; JOINTS],
         parts: vec![wheel],
         keypoints: std::array::from_fn(|point| {
             (point != 3).then_some([-1.2 + 0.03 * point as f64, 0.1, 0.9])
@@ -53,7 +53,7 @@ fn areas(sheet: &Sheet) -> impl Iterator<Item = (&[[i32; 2]], RGBColor)> {
 }
 
 #[test]
-fn captions_tell_when_what_happened_and_who_was_at_what() {
+fn captions_say_when_what_happened_and_what_robot_and_person_were_doing() {
     let sheet = draw(&[snapshot(204, "the beginning"), snapshot(2089, "person takes wheel")]).unwrap();
     let found = texts(&sheet);
     assert!(found.contains(&"toy vehicle: 2 of 2 snapshots of the run"), "{found:?}");
