@@ -81,7 +81,7 @@ fn a_nut_that_is_on_its_way_is_brought_when_the_hand_comes_out_again() {
 }
 
 #[test]
-fn without_an_occluder_the_base_is_held() {
+fn without_an_occluder_the_base_is_steadied() {
     // The same scene, with the grip in full view.
     let mut robot = Harness::of("toy-vehicle");
     robot.lay_out();

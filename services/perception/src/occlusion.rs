@@ -17,7 +17,7 @@ const LATE: u64 = USABLE;
 const AHEAD: f64 = 0.3;
 /// In how many steps. Chosen by hand: at 1 m/s they are 5 cm long, and occluders are larger.
 const STEPS: usize = 6;
-/// How long a hand may stay hidden. Chosen by hand: longer than a grasp behind a screen takes, not so long that a person
+/// How long a hand may stay hidden. Chosen by hand: longer than a grasp behind an occluder takes, not so long that a person
 /// who has gone keeps the robot waiting.
 const LONGEST: u64 = cycles(Duration::from_secs(4));
 

@@ -22,7 +22,7 @@ fn a_clean_reach_grows_into_the_right_grasp_and_no_other() {
             rivals = rivals.max(stage.rival(act));
         });
 
-        let drop = seen[..540].windows(60).map(|course| course[0] - course[59]).fold(0.0, f64::max);
+        let drop = seen[..540].windows(60).map(|window| window[0] - window[59]).fold(0.0, f64::max);
         assert!(seen[480] > 0.6, "{name}: {:.2} at 80 % of the reach", seen[480]);
         assert!(drop < 0.3, "{name}: evidence fell by {drop:.2} on the way");
         assert!(seen[60] < 0.2, "{name}: {:.2} before the movement shows anything", seen[60]);

@@ -16,14 +16,29 @@
 //! languages state it together with size and alignment, and are refused when they differ
 //! (`tools/watch-layer.py` is an example).
 //!
-//! A message is also its producer's memory: a stage keeps nothing that its own last message does not hold, so
-//! that a restarted process resumes from the newest message of its predecessor that survives in shared memory.
+//! A message also holds its producer's state: a stage keeps nothing that its own last message does not hold, so that a
+//! restarted process resumes from the newest one of its predecessor, its checkpoint.
+//!
+//! A reader takes the bytes as they are, and looks at the header first:
 //!
 //! ```
-//! use coact_messages::{FieldFrame, Header};
+//! use coact_messages::{Decision, FieldFrame, Header, LAYOUT, LayerKind};
 //!
-//! let frame: Box<FieldFrame> = bytemuck::zeroed_box();
-//! assert_eq!(frame.header, Header::default());
+//! // What a network of one layer with three populations writes, the second of which has decided in cycle 12 ...
+//! let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
+//! frame.header = Header { layout: LAYOUT, cycle: 17, ..Header::default() };
+//! frame.layers.count = 1;
+//! frame.layers.kind[0] = LayerKind::ActionExecution as u32;
+//! frame.layers.populations[0] = 3;
+//! frame.since[1] = 12;
+//! frame.decision = Decision { action: 1, reserved: 0, since: 12 };
+//!
+//! // ... and what its reader makes of it.
+//! let received: &FieldFrame = bytemuck::from_bytes(bytemuck::bytes_of(&*frame));
+//! assert_eq!(received.header.layout, LAYOUT, "a message of another layout is refused");
+//! let peaks = received.populations(LayerKind::ActionExecution).filter(|&index| received.since[index] > 0);
+//! assert_eq!(peaks.collect::<Vec<_>>(), [1]);
+//! assert_eq!(received.decision.action, 1);
 //! ```
 
 mod command;
@@ -66,6 +81,8 @@ pub fn finger_closure(position: &[f64; JOINTS]) -> f64 {
 
 /// Arm joints: the first seven of [`JOINTS`].
 pub const ARM_JOINTS: usize = 7;
+// The limits below leave room for tasks of 50 subgoals, which the network computes in a period.
+
 /// Observable acts that a task may name (populations of the action observation layer).
 pub const MAX_ACTS: usize = 192;
 /// Kinds of part that a task may name.

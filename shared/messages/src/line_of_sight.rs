@@ -1,5 +1,8 @@
 use crate::SceneView;
 
+/// A line that comes no farther than this along an axis, m, is parallel to the faces across it.
+const PARALLEL: f64 = 1e-12;
+
 impl SceneView {
     /// The occluders that are valid: centre and half extents, m.
     pub fn occluders(&self) -> &[[f64; 6]] {
@@ -13,20 +16,21 @@ impl SceneView {
     }
 }
 
-/// Whether one of `boxes` (centre and half extents, each grown by `margin`) meets the line from `eye` to `place`; m.
+/// Whether one of `boxes` (centre and half extents, each grown by `margin`) intersects the line from `eye` to `place`; m.
 pub fn is_blocked(boxes: &[[f64; 6]], eye: [f64; 3], place: [f64; 3], margin: f64) -> bool {
-    boxes.iter().any(|one| meets(one, eye, place, margin))
+    boxes.iter().any(|one| intersects(one, eye, place, margin))
 }
 
-/// The line is within the box where it is between all three pairs of faces at once.
-fn meets(one: &[f64; 6], eye: [f64; 3], place: [f64; 3], margin: f64) -> bool {
+/// Whether the line passes through the box: whether it is between all three pairs of its faces at once (the slab method,
+/// Ericson 2005, 5.3.3). A box or a place that is not finite blocks nothing.
+fn intersects(one: &[f64; 6], eye: [f64; 3], place: [f64; 3], margin: f64) -> bool {
     if !one.iter().chain(&place).all(|value| value.is_finite()) {
         return false;
     }
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
     for axis in 0..3 {
         let (from, way, half) = (eye[axis] - one[axis], place[axis] - eye[axis], one[axis + 3] + margin);
-        if way.abs() < 1e-12 {
+        if way.abs() < PARALLEL {
             if from.abs() > half {
                 return false;
             }

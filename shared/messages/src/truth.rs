@@ -28,7 +28,7 @@ pub struct Truth {
     /// [`PartnerError`] of the present action, as things were at its onset; none once its turn has come before the
     /// grasp is complete.
     pub error: u32,
-    /// 1 while the person can do nothing but wait for the robot: with a part at its place until the base is held,
+    /// 1 while the person can do nothing but wait for the robot: with a part at its place until the base is steadied,
     /// holding out a part or the open hand, or with the fingers on a part that the robot has not let go. Else 0.
     pub waiting: u32,
     /// 1 while the person's action leads behind something that hides the part, and the hand at it, from the robot. Else 0.

@@ -1,5 +1,5 @@
 //! A person's hand and parts on a table, as sensors would show them, for tests of perception.
-#![allow(dead_code, reason = "each test uses its own share")]
+#![allow(dead_code, reason = "each test uses a part of it")]
 
 use coact_joint_task::{Act, Task};
 use coact_messages::{Keypoint, KeypointName, Percept, SensorSample, Sighting};
