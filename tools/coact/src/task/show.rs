@@ -55,8 +55,8 @@ fn synapses(plan: &NetworkPlan) -> Table {
     let mut table = table(["from", "to", "weight", "because"]);
     for synapse in &plan.synapses {
         table.add_row([
-            place(plan, synapse.from),
-            place(plan, synapse.to),
+            full_label(plan, synapse.from),
+            full_label(plan, synapse.to),
             format!("{:+.2}", synapse.weight),
             plan.reasons[synapse.rule].clone(),
         ]);
@@ -70,22 +70,22 @@ fn table<const COLUMNS: usize>(header: [&str; COLUMNS]) -> Table {
     table
 }
 
-/// Layer and label of a place in the row of populations and channels.
-fn place(plan: &NetworkPlan, index: usize) -> String {
+/// Layer and label of the population or channel of this index.
+fn full_label(plan: &NetworkPlan, index: usize) -> String {
     let Population { label, .. } = plan.meaning(index);
     let layer = plan.layers.iter().find(|layer| layer.populations.contains(&index));
     format!("{} · {label}", layer.map_or("percept", |layer| layer.kind.name()))
 }
 
 fn as_json(task: &Task, plan: &NetworkPlan) -> serde_json::Value {
-    let populations: Vec<_> = (0..plan.populations.len()).map(|index| place(plan, index)).collect();
+    let populations: Vec<_> = (0..plan.populations.len()).map(|index| full_label(plan, index)).collect();
     let synapses: Vec<_> = plan
         .synapses
         .iter()
         .map(|synapse| {
             serde_json::json!({
-                "from": place(plan, synapse.from),
-                "to": place(plan, synapse.to),
+                "from": full_label(plan, synapse.from),
+                "to": full_label(plan, synapse.to),
                 "weight": synapse.weight,
                 "because": plan.reasons[synapse.rule],
             })
