@@ -1,0 +1,101 @@
+//! The metrics of an evaluation as a table.
+
+use super::Evaluation;
+use coact_evaluation::{Comparison, Estimate, EvaluationReport, Proportion};
+use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
+
+/// Prints all metrics, beside those of the baseline if there is one.
+pub(super) fn print(evaluation: &Evaluation) {
+    let Evaluation { task, partner, seed, trials, report, baseline, comparison } = evaluation;
+    println!("{task}: {trials} assemblies with {partner}, seeds from {seed}; 95 % intervals");
+    let mut table = Table::new();
+    table.load_style(UTF8_HORIZONTAL_ONLY);
+    let one = rows(report);
+    match baseline.as_ref().map(rows) {
+        None => {
+            table.set_header(["metric", "value"]);
+            table.add_rows(one.into_iter().map(|(name, value)| [name, value]));
+        }
+        Some(other) => {
+            table.set_header(["metric", "with anticipation", "without"]);
+            let both = one.into_iter().zip(other);
+            table.add_rows(both.map(|((name, value), (_, rival))| [name, value, rival]));
+        }
+    }
+    println!("{table}");
+    if let Some(comparison) = comparison {
+        compare(comparison);
+    }
+}
+
+/// Prints how the robot differs from its baseline, over the assemblies that both completed.
+fn compare(comparison: &Comparison) {
+    println!("with against without anticipation, {} assemblies that both completed:", comparison.pairs);
+    for (name, estimate) in [
+        ("functional delay, ratio", comparison.functional_delay_ratio),
+        ("functional delay, difference", comparison.functional_delay_difference),
+        ("functional delay of answers, ratio", comparison.answer_delay_ratio),
+        ("waiting of the person, ratio", comparison.waiting_ratio),
+        ("task time, ratio", comparison.time_ratio),
+    ] {
+        println!("  {name:30} {}", interval(estimate, 1.0, 3, ""));
+    }
+}
+
+/// Name and value of every metric.
+fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
+    let row = |name: &str, value: String| (name.to_owned(), value);
+    let percent = |fraction: Option<Estimate>| interval(fraction, 100.0, 1, " %");
+    let lead =
+        report.lead_ms.map_or("-".into(), |lead| format!("{:.0} {:.0} {:.0}", lead.p5, lead.p50, lead.p95));
+    let mut rows = vec![
+        row("completed", proportion(&report.completed)),
+        row("deadlocks", proportion(&report.deadlocks)),
+        row("task time, s", interval(report.seconds, 1.0, 1, "")),
+        row("goal inferred rightly at grasp", proportion(&report.right)),
+        row("  wrongly", proportion(&report.wrong)),
+        row("  not", proportion(&report.absent)),
+        row("  rightly, of wrong actions", proportion(&report.right_of_errors)),
+        row("goal inferred rightly at grasp, hidden hands", proportion(&report.right_of_hidden)),
+        row("  wrongly, hidden hands", proportion(&report.wrong_of_hidden)),
+        row("  not, hidden hands", proportion(&report.absent_of_hidden)),
+        row("answer decided before grasp", proportion(&report.anticipated)),
+        row("decision lead p5 p50 p95, ms", lead),
+        row("  mean", interval(report.mean_lead_ms, 1.0, 0, "")),
+    ];
+    for tally in &report.errors {
+        let late = format!("; {} late, {} missed", tally.late.count, tally.missed.count);
+        rows.push(row(
+            &format!("noticed in time: {}", tally.kind.name()),
+            proportion(&tally.in_time) + &late,
+        ));
+    }
+    rows.extend([
+        row("false alarms per valid action", proportion(&report.false_alarms)),
+        row("ticks with two peaks", report.double_peaks.to_string()),
+        row("human idle", percent(report.human_idle)),
+        row("robot idle", percent(report.robot_idle)),
+        row("concurrent activity", percent(report.concurrent)),
+        row("functional delay", percent(report.functional_delay)),
+        row("functional delay of answers, ms", interval(report.answer_delay_ms, 1.0, 1, "")),
+        row("person waits within actions", percent(report.human_waits)),
+    ]);
+    rows
+}
+
+fn proportion(proportion: &Proportion) -> String {
+    let Proportion { count, of, fraction, low, high } = proportion;
+    match of {
+        0 => "none".into(),
+        _ => {
+            format!("{:.1} % ({:.1} to {:.1}), {count} of {of}", 100.0 * fraction, 100.0 * low, 100.0 * high)
+        }
+    }
+}
+
+fn interval(metric: Option<Estimate>, scale: f64, digits: usize, unit: &str) -> String {
+    metric.map_or("-".into(), |Estimate { value, low, high, .. }| {
+        let [value, low, high] = [value, low, high].map(|value| format!("{:.digits$}", scale * value));
+        format!("{value}{unit} ({low} to {high})")
+    })
+}
