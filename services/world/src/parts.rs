@@ -4,10 +4,13 @@ use coact_person::{Holder, PartsView};
 use coact_stage_state::{Implausible, ensure, finite};
 use glam::{DQuat, DVec3};
 
-/// From how far before its socket on a part that stands true to it fits into what it is mounted in, m.
+/// How far before its socket a part begins to enter what it is mounted in, if it is aligned with it, m: more than the
+/// longest axle and the deepest hole.
 const ENTRY: f64 = 0.06;
-/// How far other parts must be from where a part is put back, m.
+/// How far other parts must be from where a part is put back, m: more than two parts are wide.
 const HOME_CLEARANCE: f64 = 0.1;
+/// How far below the table top a part has fallen off it, m. Not sensitive: nothing lies in between.
+const FALLEN: f64 = 0.05;
 
 /// All parts of the scene, and what becomes of a part that is let go.
 #[derive(Debug, Clone)]
@@ -144,14 +147,14 @@ impl Parts {
     pub fn enters(&self, part: usize, task: &Task) -> bool {
         self.sockets_ahead(part, task).any(|index| {
             let goal = &task.subgoals[index];
-            let way = self.position(part) - DVec3::from(goal.socket);
-            let along = way.dot(goal.axis.into());
-            let aside = (way - along * DVec3::from(goal.axis)).length();
+            let offset = self.position(part) - DVec3::from(goal.socket);
+            let along = offset.dot(goal.axis.into());
+            let aside = (offset - along * DVec3::from(goal.axis)).length();
             aside <= self.fit.position && (-self.fit.position..ENTRY).contains(&along)
         })
     }
 
-    /// Free sockets of a part's kind to which it stands true, within tolerance.
+    /// Free sockets of a part's kind with whose axes it is aligned, within tolerance.
     fn sockets_ahead<'a>(&self, part: usize, task: &'a Task) -> impl Iterator<Item = usize> + use<'a> {
         let (achieved, kind, fit) = (self.achieved(), self.kind(part), self.fit);
         let own = self.orientation(part) * DVec3::Z;
@@ -176,7 +179,7 @@ impl Parts {
         let at = self.state[part].position;
         let within =
             |[low, high]: &[[f64; 2]; 2]| (0..2).all(|axis| at[axis] >= low[axis] && at[axis] <= high[axis]);
-        let fallen = at[2] < task.scene.table_height - 0.05;
+        let fallen = at[2] < task.scene.table_height - FALLEN;
         self.is(part, Holder::Nobody) && (fallen || !task.scene.workspace.iter().any(within))
     }
 

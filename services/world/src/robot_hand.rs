@@ -4,34 +4,43 @@ use crate::parts::Parts;
 use crate::robot_hand_state::RobotHandState;
 use coact_joint_task::Task;
 use coact_messages::{ARM_JOINTS, JOINTS};
+use coact_period::cycles;
 use coact_person::Holder;
 use coact_robot::{HAND_JOINTS, Hand, Robot};
 use coact_stage_state::{Flag, Slot};
 use glam::{DQuat, DVec3};
+use std::time::Duration;
 
-/// How near a part's axis must be to that of the hand, between palm and grasp point, for the fingers to get hold of it, m.
+/// How near a part's axis must be to that of the hand, between palm and grasp point, for the fingers to grasp it, m: about
+/// half the width of the largest part.
 const REACH: f64 = 0.03;
-/// Steps in which that is looked at, m.
+/// Distance of the places at which that is measured, m. Not sensitive: a sixth of the above.
 const ALONG: f64 = 0.005;
-/// The fingers touch a part when their clear width exceeds the part's by no more than this, m.
+/// The fingers touch a part when their clear width exceeds the part's by no more than this, m. Chosen by hand, as are the
+/// next three; not sensitive.
 const TOUCHING: f64 = 0.002;
 /// They have let go when it exceeds it by this, m.
 const RELEASED: f64 = 0.008;
 /// Fingers that are told to stand this much further open than when they held a part let go of it, rad.
 const OPENED: f64 = 0.01;
-/// Clear width from which a hand without a part looks open, m.
+/// Clear width from which a hand without a part looks open to the person, m: wider than most parts. Chosen by hand.
 const LOOKS_OPEN: f64 = 0.06;
-/// Distance of the grasp point from a place within which the hand is seen as being there, m.
+/// Distance of the grasp point from a place within which the person sees the hand as being there, m: about a hand's length.
 const AT_PLACE: f64 = 0.18;
-/// Distance of the grasp point from where it took a part within which the part is not carried yet, m.
+/// Distance of the grasp point from where it took a part within which the part is not carried yet, m. Chosen by hand.
 const LIFTED: f64 = 0.03;
-/// Grip force when the fingers just touch, N, and its growth with the finger angle that the servo is held back, N/rad.
+/// Without dynamics: grip force when the fingers just touch, N, and its growth with the angle by which the part stops the
+/// fingers short of their setpoint, N/rad. Chosen by hand, of the size of the forces that the dynamics give.
 const GRIP_FORCE: (f64, f64) = (2.0, 40.0);
 
-/// Grip force from which a part counts as grasped, N, and below which it counts as lost.
-const GRASPED: (f64, f64) = (0.5, 0.1);
-/// For how many ticks the force must say so before it does.
-const CERTAIN: (u64, u64) = (10, 30);
+/// Measured force from which a part counts as grasped, N. Chosen by hand, far below what the fingers exert on a part.
+const GRASPED_FORCE: f64 = 0.5;
+/// Measured force below which the held part counts as lost, N: less than the above, or it would come and go.
+const LOST_FORCE: f64 = 0.1;
+/// For how long the force must say that a part is grasped before it is, cycles.
+const GRASPED_TIME: u64 = cycles(Duration::from_millis(10));
+/// For how long the force must say that the held part is lost before it is, cycles: as long as the force sensor averages.
+const LOST_TIME: u64 = cycles(Duration::from_millis(30));
 
 /// Mean finger angles at which a kind of part is touched, gripped and let go, rad, and all hand joints in the grip.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +58,7 @@ pub(crate) struct RobotHand {
     angles: Vec<FingerAngles>,
     open: f64,
     handover: DVec3,
-    hold: DVec3,
+    steady: DVec3,
 }
 
 impl RobotHand {
@@ -68,7 +77,7 @@ impl RobotHand {
             angles: angles.collect(),
             open: robot.hand.base_for_width(LOOKS_OPEN),
             handover: task.scene.handover.into(),
-            hold: task.scene.steady.into(),
+            steady: task.scene.steady.into(),
             robot: robot.clone(),
         }
     }
@@ -92,51 +101,54 @@ impl RobotHand {
 
     /// Force on the held part, N, as the servo would close the fingers.
     pub fn touch(&self, state: &RobotHandState, parts: &Parts) -> f64 {
-        let squeeze = |stop: f64| GRIP_FORCE.0 + GRIP_FORCE.1 * (state.wanted - stop).max(0.0);
-        state.held.get().map_or(0.0, |part| squeeze(self.angles[parts.kind(part)].grip))
+        let force = |stop: f64| GRIP_FORCE.0 + GRIP_FORCE.1 * (state.commanded_closure - stop).max(0.0);
+        state.held.get().map_or(0.0, |part| force(self.angles[parts.kind(part)].grip))
     }
 
-    /// Grasps, carries and releases: as the fingers were measured to hold (`grip`), or without that by rules, as the
+    /// Grasps, carries and releases: as the fingers' forces were measured (`grip`), or without dynamics by rules, as the
     /// palm moved and the fingers closed or opened since the last step.
     ///
-    /// A part that the fingers of the person (`person_grip`) are on becomes the person's when the robot lets go. One that
+    /// A part that the person's fingers have as well (`person_holds`) becomes the person's when the robot lets go. One that
     /// is lost by fingers that were not told to open has slipped.
     pub fn advance(
         &self,
         palm: &Palm,
         grip: Option<MeasuredGrip>,
         state: &mut RobotHandState,
-        person_grip: Slot,
+        person_holds: Slot,
         parts: &mut Parts,
         task: &Task,
     ) {
         let held = state.held.get();
         let lost = held.filter(|&part| match grip {
-            Some(grip) => lasts(state, grip.force_on(part) < GRASPED.1, CERTAIN.1),
+            Some(grip) => lasts(state, grip.force_on(part) < LOST_FORCE, LOST_TIME),
             None => palm.finger_closure < self.angles[parts.kind(part)].release,
         });
         match (lost, grip) {
             (Some(part), _) => {
                 state.held = Slot::EMPTY;
-                if person_grip.get() == Some(part) {
+                if person_holds.get() == Some(part) {
                     parts.give_to(part, Holder::Person);
                 } else {
-                    let opened = grip.is_none() || state.wanted < state.tightest - OPENED;
+                    let opened = grip.is_none() || state.commanded_closure < state.tightest - OPENED;
                     state.slipped = if opened { Slot::EMPTY } else { Slot::of(part) };
                     parts.let_go(part, task);
                 }
             }
             (None, Some(grip)) if held.is_none() => {
                 let grasped = grip.part.filter(|part| !parts.is(*part, Holder::Socket));
-                let grasped = grasped.filter(|_| lasts(state, grip.force > GRASPED.0, CERTAIN.0));
+                let grasped = grasped.filter(|_| lasts(state, grip.force > GRASPED_FORCE, GRASPED_TIME));
                 grasped.into_iter().for_each(|part| take(palm, state, parts, part));
             }
             (None, None) if held.is_none() => self.grasp(palm, state, parts, task),
             (None, _) => {}
         }
         state.finger_closure = palm.finger_closure;
-        state.tightest =
-            if state.held == Slot::EMPTY { state.wanted } else { state.tightest.max(state.wanted) };
+        state.tightest = if state.held == Slot::EMPTY {
+            state.commanded_closure
+        } else {
+            state.tightest.max(state.commanded_closure)
+        };
         if palm.finger_closure < self.open {
             state.slipped = Slot::EMPTY;
         }
@@ -184,10 +196,10 @@ impl RobotHand {
         nearest.into_iter().for_each(|part| take(palm, state, parts, part));
     }
 
-    /// Notes since when the hand has stood where the person pays attention to it, and what the person puts into it.
+    /// Records since when the hand has stood where the person pays attention to it, and what the person puts into it.
     pub fn notice(&self, tick: u64, palm: &Palm, state: &mut RobotHandState, parts: &Parts, task: &Task) {
         let at_handover = palm.grasp_point.distance(self.handover) < AT_PLACE;
-        let at_base = palm.grasp_point.distance(self.hold) < AT_PLACE;
+        let at_base = palm.grasp_point.distance(self.steady) < AT_PLACE;
         let empty = state.held.get().is_none();
         let since = |yes: bool, since: u64| match (yes, since) {
             (false, _) => 0,

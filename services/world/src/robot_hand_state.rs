@@ -1,16 +1,19 @@
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
-use coact_messages::MAX_PARTS;
 use coact_person::RobotHandView;
 use coact_stage_state::{Flag, Implausible, Slot, ensure, finite};
 
-/// What the robot's hand remembers, and since when it has stood where the person pays attention to it (ticks, 0: not).
+/// What the robot's hand has, and since when it has stood where the person pays attention to it (ticks of the run; 0: it
+/// does not).
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, CheckedBitPattern, NoUninit, Zeroable)]
 pub(crate) struct RobotHandState {
+    /// The part that it holds.
     pub held: Slot,
-    /// Pose of the held part in the palm frame.
+    /// Position of the held part in the palm frame, m.
     pub offset: [f64; 3],
+    /// Its orientation there.
     pub turn: [f64; 4],
+    /// Finger closure at the last step, rad.
     pub finger_closure: f64,
     /// Open and empty at the place where parts change hands.
     pub requesting_since: u64,
@@ -22,25 +25,25 @@ pub(crate) struct RobotHandState {
     pub brought: Flag,
     /// Where the palm was when it took the held part.
     pub taken_at: [f64; 3],
-    /// Ticks for which it has been carried, away from there.
+    /// Cycles for which it has been carried, away from there.
     pub carried: u64,
-    /// Ticks for which the measured grip has said that a part is grasped, or that the held one is lost.
+    /// Cycles for which the measured grip has said that a part is grasped, or that the held one is lost.
     pub changing: u64,
     /// The part that has slipped out of fingers that are still closed.
     pub slipped: Slot,
     /// The part in the person's hand that is between the open fingers.
     pub receiving: Slot,
-    /// Mean angle of the finger bases that the servo was last told, rad.
-    pub wanted: f64,
-    /// The largest such angle since the fingers have held a part, rad.
+    /// Finger closure that the servo was last commanded, rad.
+    pub commanded_closure: f64,
+    /// The largest one commanded since the fingers have held a part, rad.
     pub tightest: f64,
 }
 
 impl RobotHandState {
-    /// Refuses what no hand can have come to up to tick `now`.
-    pub fn check(&self, now: u64) -> Result<(), Implausible> {
-        let parts = [self.held, self.slipped, self.receiving];
-        ensure(parts.iter().all(|part| part.is_below(MAX_PARTS)), "robot: part", "one that there is")?;
+    /// Refuses what no hand can have come to among `parts` parts up to tick `now`.
+    pub fn check(&self, parts: usize, now: u64) -> Result<(), Implausible> {
+        let own = [self.held, self.slipped, self.receiving];
+        ensure(own.iter().all(|part| part.is_below(parts)), "robot: part", "one that there is")?;
         let since = [self.requesting_since, self.giving_since, self.steadying_since];
         ensure(since.iter().all(|tick| *tick <= now.max(1)), "robot: tick", "one that has been")?;
         let counts = [self.carried, self.changing];
@@ -50,7 +53,7 @@ impl RobotHandState {
             "no more than the ticks so far",
         )?;
         finite("robot: grip", &[&self.offset[..], &self.turn, &self.taken_at].concat())?;
-        finite("robot: fingers", &[self.finger_closure, self.wanted, self.tightest])
+        finite("robot: fingers", &[self.finger_closure, self.commanded_closure, self.tightest])
     }
 
     /// What the person sees and feels of the hand.

@@ -45,7 +45,6 @@ impl StageState for SimulationState {
         let sightings = self.scene.sightings as usize <= self.scene.sighting.len()
             && self.scene.occluders as usize <= self.scene.occluder.len();
         ensure(sightings, "scene", "as many sightings and occluders as there is room for")?;
-        self.tracker.check()?;
-        self.robot.check(self.tick)
+        self.tracker.check()
     }
 }

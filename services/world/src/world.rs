@@ -20,14 +20,15 @@ use coact_stage_state::{Flag, Slot, StageState, finite};
 use glam::DVec3;
 use std::time::Duration;
 
-/// Sockets of the world without dynamics: a part snaps into the one that it is let go near.
+/// Sockets of the world without dynamics: a part snaps into the one that it is let go near. Any angle will do,
+/// for without dynamics nothing turns a part. The distance, m, is chosen by hand: less than between two sockets.
 const SNAP: Fit = Fit { position: 0.03, angle: std::f64::consts::PI };
 /// How long a finished assembly stands before the scene is laid out again, cycles.
 const FINISHED: u64 = cycles(Duration::from_secs(3));
 /// How long a part lies out of reach before it is put back, cycles.
 const STRAY: u64 = cycles(Duration::from_secs(3));
-/// How far the robot's hand must be from where a part will lie, m.
-const CLEARANCE: f64 = 0.15;
+/// How far the robot's hand must be from where a part will lie, m: more than the half width of the open hand.
+const HAND_CLEARANCE: f64 = 0.15;
 
 /// The stage that stands in for the hardware: advances table, parts, robot, person and sensors by one tick.
 pub struct World {
@@ -93,7 +94,7 @@ impl World {
         checkpoint: &mut WorldState,
     ) {
         if let Some(command) = command {
-            self.simulation.robot.wanted = coact_messages::finger_closure(&command.position);
+            self.simulation.robot.commanded_closure = coact_messages::finger_closure(&command.position);
         }
         let influence = Influence {
             elapsed: self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, CYCLES_PER_SECOND)),
@@ -142,6 +143,7 @@ impl World {
         }
         let simulation = SimulationState::load(&last.state)?;
         self.person.check(&simulation.person, &self.task, simulation.tick)?;
+        simulation.robot.check(self.task.parts.len(), simulation.tick)?;
         finite("joints", &[last.position, last.velocity].concat())?;
         self.parts.restore(&last.part, &self.task)?;
         self.joints = Joints { position: last.position, velocity: last.velocity };
@@ -196,7 +198,7 @@ impl World {
             simulation.complete_since = tick.max(1);
         }
         let clear = |at: &[f64; 2]| {
-            DVec3::new(at[0], at[1], task.scene.table_height).distance(palm.grasp_point) > CLEARANCE
+            DVec3::new(at[0], at[1], task.scene.table_height).distance(palm.grasp_point) > HAND_CLEARANCE
         };
         let empty = simulation.robot.held.get().is_none() && simulation.person.held.get().is_none();
         let has_stood = tick >= simulation.complete_since + FINISHED;

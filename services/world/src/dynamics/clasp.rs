@@ -1,19 +1,22 @@
 use super::articulation::Articulation;
 use super::contacts::pushes;
 use super::measured_grip::MeasuredGrip;
+use coact_period::cycles;
 use rapier3d::prelude::*;
+use std::time::Duration;
 
-/// For how many steps a load must exceed what friction can carry before the part slips, and must not before it sticks
-/// again.
-const SLIPS: u32 = 30;
-const STICKS: u32 = 30;
+/// For how long a load must exceed what friction can carry before the part slips, cycles: as long as the force sensor
+/// averages, so that a peak of the solver's contact forces is no slip.
+const SLIPS: u64 = cycles(Duration::from_millis(30));
+/// For how long it must not before the part sticks again, cycles.
+const STICKS: u64 = cycles(Duration::from_millis(30));
 
 /// Keeps a grasped part from creeping out of the fingers, and lets it slip when more pulls at it than friction carries.
 ///
 /// The solver's own friction creeps in a hand that moves. Measured over whole movements from the table to before the
 /// socket, 20 grasps each: with friction alone all wheels and all nuts were lost, columns moved 2.0 mm and 1.2 degrees in
 /// the hand on average (6.3 mm and 3.4 degrees at most), top floors 2.9 mm and 3.8 degrees (5.3 mm and 8.7 degrees). With
-/// this joint all 80 were held where they were grasped. So it holds a part, but only once opposing fingers were measured
+/// this joint all 80 stayed where they were grasped. So it fixes a part, but only once opposing fingers were measured
 /// to press on it, and no longer than the load on it stays below friction x force.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Clasp {
@@ -24,7 +27,7 @@ pub(super) struct Clasp {
     velocity: Vector,
     joint: Option<ImpulseJointHandle>,
     /// Steps for which the load has been too large, or after a slip no longer has.
-    changing: u32,
+    changing: u64,
 }
 
 impl Clasp {

@@ -5,6 +5,9 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
+/// Friction coefficient of parts: wood or plastic on wood. Chosen by hand.
+pub(super) const PART_FRICTION: f32 = 0.7;
+
 /// Turns the engine's y axis onto our z axis.
 pub(super) fn upright() -> Isometry3<f64> {
     let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);

@@ -5,8 +5,9 @@ use coact_robot::{ROBOT_JOINTS, Robot};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d::prelude::*;
 
-/// Stiffness, 1/s², and damping, 1/s, of the arm's motors, which are acceleration based and critically damped: a natural
-/// frequency of 200 rad/s, several times what the setpoints contain. The velocity is fed forward.
+/// Stiffness, 1/s², and damping, 1/s, of the arm's motors, which are acceleration based and critically damped at a
+/// natural frequency of 200 rad/s. The velocity is fed forward. Chosen by hand: with them, and the substeps of the solver,
+/// moving joints stay within 5 mrad of their setpoints.
 const ARM: (f32, f32) = (40_000.0, 400.0);
 /// The same of the fingers: soft enough that a part stops them before their effort is spent.
 const HAND: (f32, f32) = (10_000.0, 200.0);

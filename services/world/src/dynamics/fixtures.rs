@@ -1,4 +1,4 @@
-use super::colliders::{part_collider, pose};
+use super::colliders::{PART_FRICTION, part_collider, pose};
 use super::layer::Layer;
 use crate::WorldError;
 use coact_joint_task::{FixtureForm, Task};
@@ -27,7 +27,7 @@ pub(super) fn insert_fixtures(world: &mut PhysicsWorld, task: &Task) -> Result<(
                 ColliderBuilder::capsule_from_endpoints(point(from), point(to), radius as f32)
             }
         };
-        world.insert_collider(shape.friction(0.7).collision_groups(Layer::Fixture.groups()), None);
+        world.insert_collider(shape.friction(PART_FRICTION).collision_groups(Layer::Fixture.groups()), None);
     }
     Ok(())
 }

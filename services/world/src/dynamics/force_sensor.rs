@@ -1,9 +1,11 @@
 use super::contacts::Contacts;
+use coact_period::cycles;
+use std::time::Duration;
 
-/// Steps over which forces are averaged.
-const STEPS: usize = 30;
+/// Steps over which forces are averaged: 30 ms, the time constant of real force sensors with their filters.
+const STEPS: usize = cycles(Duration::from_millis(30)) as usize;
 
-/// Force sensors of finger tips and wrist: the mean of the last 30 ms, which is the bandwidth of a real one.
+/// Force sensors of finger tips and wrist: the mean of the last steps.
 ///
 /// The solver's contact forces alternate between nothing and twice their mean from step to step.
 #[derive(Debug, Clone)]

@@ -1,21 +1,23 @@
 use super::influence::Influence;
 use super::joints::Joints;
 use crate::parts::Parts;
+use coact_period::{PERIOD_S, seconds};
 use coact_robot::ROBOT_JOINTS;
 
-/// Time constant of the servo, s: joints follow their setpoints with this lag.
+/// Time constant of the servo, s: joints follow their setpoints with this lag. Chosen by hand, of the
+/// size of good servos' lags; not sensitive.
 const LAG: f64 = 0.004;
 
 /// Joints that follow their setpoints, and parts that rest where they are put: no contact forces.
 #[derive(Debug, Clone)]
 pub(crate) struct KinematicRobot {
-    /// How much of the way to the setpoint is covered in one tick.
+    /// Fraction of the distance to the setpoint that is covered in one cycle.
     gain: f64,
 }
 
 impl KinematicRobot {
     pub fn new() -> Self {
-        Self { gain: 1.0 - (-1e-3 / LAG).exp() }
+        Self { gain: 1.0 - (-PERIOD_S / LAG).exp() }
     }
 
     pub fn advance(&self, influence: &Influence, joints: &mut Joints, parts: &mut Parts) {
@@ -28,7 +30,7 @@ impl KinematicRobot {
                 joints.position[joint] += gain * (goal - joints.position[joint]);
             }
         }
-        let seconds = 1e-3 * elapsed as f64;
+        let seconds = seconds(elapsed);
         joints.velocity = std::array::from_fn(|joint| (joints.position[joint] - before[joint]) / seconds);
         parts.rest_free(influence.task);
     }

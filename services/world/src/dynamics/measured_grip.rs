@@ -2,13 +2,13 @@ use super::contacts::Contacts;
 use coact_messages::MAX_PARTS;
 use rapier3d::prelude::*;
 
-/// Friction coefficient between finger pads and parts.
+/// Friction coefficient between finger pads and parts: the mean of theirs, as the engine combines them.
 const FRICTION: f64 = 0.85;
 
-/// What fingers and palm squeeze, as their force sensors tell.
+/// What fingers and palm hold, as their force sensors tell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MeasuredGrip {
-    /// The part that is squeezed most.
+    /// The part on which they press most.
     pub part: Option<usize>,
     /// How hard, N: what of their forces on it opposes each other. Without fingers on both sides it is no grip.
     pub force: f64,

@@ -1,6 +1,6 @@
 use super::articulation::Articulation;
 use super::clasp::Clasp;
-use super::colliders::part_collider;
+use super::colliders::{PART_FRICTION, part_collider};
 use super::contacts::Contacts;
 use super::fixtures::insert_fixtures;
 use super::force_sensor::ForceSensor;
@@ -12,6 +12,7 @@ use crate::WorldError;
 use crate::parts::Parts;
 use coact_joint_task::Task;
 use coact_messages::PartState;
+use coact_period::PERIOD_S;
 use coact_person::Holder;
 use coact_robot::Robot;
 use glam::{DQuat, DVec3};
@@ -22,9 +23,9 @@ const GRAVITY: f32 = 9.81;
 /// Substeps of the solver in each step of 1 ms. Two, at half the cost of the engine's four, keep moving joints within
 /// 5 mrad of their setpoints and resting parts within 5 mm of their places.
 const SUBSTEPS: usize = 2;
-/// Size of the things that are handled, m: the engine lets them overlap by 0.5 % of it.
+/// Size of the things that are handled, m: the engine scales its tolerances by it, and lets them overlap by 0.5 % of it.
 const SIZE: f32 = 0.1;
-/// The person's hand is a ball of this radius, m.
+/// The person's hand is a ball of this radius, m: half the breadth of an adult's hand.
 const PERSON_HAND: f32 = 0.045;
 
 /// Rigid-body dynamics of table, base, parts and robot; one step is one tick.
@@ -35,7 +36,7 @@ pub(crate) struct PhysicsSimulation {
     world: PhysicsWorld,
     articulation: Articulation,
     parts: Vec<RigidBodyHandle>,
-    /// Parts as this body left them: what differs now was placed by someone else.
+    /// Parts as the last step left them: what differs now was placed by someone else.
     left: Vec<PartState>,
     person: RigidBodyHandle,
     forces: ForceSensor,
@@ -54,7 +55,7 @@ impl PhysicsSimulation {
     pub fn new(task: &Task, robot: &Robot, joints: &Joints, parts: &Parts) -> Result<Self, WorldError> {
         let mut world = PhysicsWorld::new();
         world.gravity = Vector::new(0.0, 0.0, -GRAVITY);
-        world.integration_parameters.dt = 1e-3;
+        world.integration_parameters.dt = PERIOD_S as f32;
         world.integration_parameters.num_solver_iterations = SUBSTEPS;
         world.integration_parameters.length_unit = SIZE;
         insert_fixtures(&mut world, task)?;
@@ -64,7 +65,7 @@ impl PhysicsSimulation {
             let kind = &task.kinds[part.kind as usize];
             let collider = part_collider(kind.shape)
                 .mass(kind.mass as f32)
-                .friction(0.7)
+                .friction(PART_FRICTION)
                 .user_data(number)
                 .collision_groups(Layer::Part.groups());
             world.insert_collider(collider, Some(body));
@@ -111,7 +112,7 @@ impl PhysicsSimulation {
         self.follow(influence.person, parts);
         self.assign_layers(parts, influence);
         let held = influence.held.filter(|held| parts.is(*held, Holder::Robot));
-        self.hold(held);
+        self.clasp_held(held);
         self.pull_at(held, influence.pull);
         self.world.step();
         self.articulation.read(&self.world, joints);
@@ -164,7 +165,7 @@ impl PhysicsSimulation {
     }
 
     /// Clasps what the hand holds, and nothing else.
-    fn hold(&mut self, held: Option<usize>) {
+    fn clasp_held(&mut self, held: Option<usize>) {
         if self.clasp.map(|clasp| clasp.part()) == held {
             return;
         }

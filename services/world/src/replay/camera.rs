@@ -2,8 +2,8 @@ use coact_joint_task::Task;
 use coact_messages::{HandView, Keypoint, SceneView, Sighting};
 use coact_recordings::{Frame, ImagePoint, Reach};
 
-/// Scale that the recordings' pixels are given: it makes the median forearm 0.26 m long. One figure for all people:
-/// what is left of their differences, perception has to cope with.
+/// Scale that the recordings' pixels are given: it makes the median forearm 0.26 m long. One number for all people:
+/// perception has to cope with what is left of their differences.
 pub const METRES_PER_PIXEL: f64 = 0.008;
 
 /// Shows one person's reaches as the robot's sensors would: the image lies flat in space, and the hand begins where

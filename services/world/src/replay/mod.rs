@@ -10,22 +10,25 @@ use crate::world::parked;
 use camera::{Camera, origin};
 use coact_joint_task::{Agent, Task};
 use coact_messages::{HandView, JOINTS, NONE, PartnerPhase, SensorSample, Truth};
+use coact_period::{CYCLES_PER_SECOND, cycles};
 use coact_recordings::Reach;
 use coact_robot::Robot;
+use std::time::Duration;
 
 /// How long the hand lies still as in the first frame, before the recording begins, cycles: time for the fields to
-/// take up what lies where.
-const SETTLING: u64 = 700;
-/// Cycles between two frames while it lies still.
-const STILL_PERIOD: u64 = 17;
-/// Cycles without frames after each reach: the tracker loses the hand, and finds it where the next reach begins.
-const GAP: u64 = 600;
-/// Cycles from one frame of the object recogniser to the next.
-const SCENE_PERIOD: u64 = 33;
+/// take up what lies where. Chosen by hand.
+const SETTLING: u64 = cycles(Duration::from_millis(700));
+/// Time between two frames while it lies still, cycles: a camera of 60 Hz, as that of the recordings.
+const STILL_FRAME_TIME: u64 = cycles(Duration::from_millis(17));
+/// Time without frames after each reach, cycles: the tracker loses the hand, and finds it where the next reach begins.
+/// Chosen by hand.
+const GAP: u64 = cycles(Duration::from_millis(600));
+/// Time from one frame of the part recogniser to the next, cycles: a camera of 30 Hz.
+const SCENE_FRAME_TIME: u64 = cycles(Duration::from_millis(33));
 
 /// Plays one person's recorded reaches, one after the other, at 1 kHz.
 ///
-/// What it shows at a cycle depends on the cycle alone: it has no memory that a crash could take.
+/// What it shows at a cycle depends on the cycle alone: it has no state that a crash could take.
 pub struct Replay {
     camera: Camera,
     reaches: Vec<Reach>,
@@ -94,8 +97,8 @@ impl Replay {
         sample.joints.position = self.joints;
         sample.hand = self.hand(tick);
         sample.scene = bytemuck::Zeroable::zeroed();
-        sample.scene.frame = tick / SCENE_PERIOD;
-        sample.scene.captured_cycle = sample.scene.frame * SCENE_PERIOD;
+        sample.scene.frame = tick / SCENE_FRAME_TIME;
+        sample.scene.captured_cycle = sample.scene.frame * SCENE_FRAME_TIME;
         if sample.scene.frame > 0 {
             self.camera.show_parts(&mut sample.scene);
         }
@@ -144,9 +147,9 @@ impl Replay {
 fn schedule(reach: &Reach, begin: u64, mut deliver: impl FnMut(u64, usize)) -> Span {
     let start = begin + SETTLING;
     let first = reach.frames.first().map_or(0.0, |frame| frame.time);
-    let cycle_of = |time: f64| start + ((time - first) * 1000.0).round() as u64;
-    for back in (1..=SETTLING / STILL_PERIOD).rev() {
-        deliver(start - back * STILL_PERIOD, 0);
+    let cycle_of = |time: f64| start + ((time - first) * CYCLES_PER_SECOND as f64).round() as u64;
+    for back in (1..=SETTLING / STILL_FRAME_TIME).rev() {
+        deliver(start - back * STILL_FRAME_TIME, 0);
     }
     for (index, frame) in reach.frames.iter().enumerate() {
         deliver(cycle_of(frame.time), index);
@@ -154,7 +157,7 @@ fn schedule(reach: &Reach, begin: u64, mut deliver: impl FnMut(u64, usize)) -> S
     Span {
         begin,
         onset: cycle_of(0.0),
-        contact: cycle_of(0.0) + (reach.movement_time * 1000.0).round() as u64,
+        contact: cycle_of(0.0) + (reach.movement_time * CYCLES_PER_SECOND as f64).round() as u64,
         end: reach.frames.last().map_or(start, |frame| cycle_of(frame.time)) + GAP,
     }
 }

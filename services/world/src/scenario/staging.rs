@@ -13,7 +13,7 @@ pub(crate) struct Staging {
     pub slips: Vec<Slip>,
 }
 
-/// Ticks during which something is so: from the first one, up to the second.
+/// Ticks of the run during which something is so: from the first one, up to the second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct During(pub u64, pub u64);
 
@@ -45,14 +45,14 @@ pub(crate) enum Sense {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Slip {
     pub kind: usize,
-    /// Ticks of carrying.
+    /// Cycles of carrying.
     pub after: u64,
     /// Where on the table it rolls to, m; none: it stays where it falls.
     pub to: Option<[f64; 2]>,
 }
 
 impl During {
-    pub fn holds(self, tick: u64) -> bool {
+    pub fn contains(self, tick: u64) -> bool {
         (self.0..self.1).contains(&tick)
     }
 }
@@ -88,7 +88,7 @@ impl Staging {
     /// The boxes that stand in the scene at `tick`, and how many they are; `own`, where there is one, is the person's.
     pub fn occluders(&self, tick: u64, own: Option<[f64; 6]>) -> ([[f64; 6]; MOST_OCCLUDERS], usize) {
         let (mut blocks, mut count) = ([[0.0; 6]; MOST_OCCLUDERS], 0);
-        let staged = self.occluders.iter().filter(|occluder| occluder.during.holds(tick));
+        let staged = self.occluders.iter().filter(|occluder| occluder.during.contains(tick));
         for block in staged.map(|occluder| occluder.block).chain(own).take(MOST_OCCLUDERS) {
             blocks[count] = block;
             count += 1;
@@ -99,7 +99,7 @@ impl Staging {
     /// Whether the sensors of `what` deliver nothing at `tick`.
     pub fn is_blind(&self, what: Sense, tick: u64) -> bool {
         let concerns = |blind: &&Blind| blind.what == what || blind.what == Sense::All;
-        self.blinds.iter().filter(concerns).any(|blind| blind.during.holds(tick))
+        self.blinds.iter().filter(concerns).any(|blind| blind.during.contains(tick))
     }
 
     /// The slip that is due when a part of `kind` has been carried for so many ticks; bits of `done` tell what happened

@@ -6,14 +6,17 @@ use glam::{DQuat, DVec3};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 
-/// Frames per second.
+/// Frames per second, as of usual depth cameras.
 const RATE: u64 = 30;
-/// Scatter of a sighting's position, m.
+/// Scatter of a sighting's position, m. Chosen by hand, as are the next two: of the size of what marker-less pose
+/// estimation reaches on a table.
 const POSITION: f64 = 0.002;
 /// Scatter of its orientation, rad.
 const ORIENTATION: f64 = 0.015;
-/// Share of sightings that the recogniser misses.
+/// Fraction of the sightings that the recogniser misses.
 const MISSED: f64 = 0.02;
+/// Confidence of those that it reports. Not sensitive: it only has to be high.
+const CONFIDENCE: std::ops::Range<f64> = 0.85..0.99;
 
 /// Takes a frame of all parts when one is due, from `eye` (m); parts in hands and mounted parts are seen where they are,
 /// those behind one of the `occluders` are not.
@@ -38,7 +41,7 @@ pub(crate) fn recognise(
     let mut seen = 0;
     for part in 0..parts.all().len() {
         let missed = rng.random_bool(MISSED);
-        let confidence = rng.random_range(0.85..0.99);
+        let confidence = rng.random_range(CONFIDENCE);
         let mut deviates = || DVec3::from_array(std::array::from_fn(|_| StandardNormal.sample(&mut rng)));
         let position = parts.position(part) + POSITION * deviates();
         let turn = DQuat::from_scaled_axis(ORIENTATION * deviates()) * parts.orientation(part);

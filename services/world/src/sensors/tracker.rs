@@ -7,14 +7,16 @@ use glam::DVec3;
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 
-/// Frames per second.
+/// Frames per second, as of usual cameras and of the recorded reaches.
 const RATE: u64 = 60;
-/// Scatter of a keypoint, m.
+/// Scatter of a keypoint, m. Chosen by hand, as are the next two; perception is tested with them.
 const POSITION: f64 = 0.002;
-/// Share of frames that are lost.
+/// Fraction of the frames that are lost.
 const LOST_FRAMES: f64 = 0.01;
-/// Share of keypoints that are lost in a frame.
+/// Fraction of the keypoints that are lost in a frame.
 const LOST_KEYPOINTS: f64 = 0.005;
+/// Confidence of the others. Chosen by hand: about the upper half of what the detector of the recorded reaches gives.
+const CONFIDENCE: std::ops::Range<f64> = 0.7..0.95;
 
 /// The frame that was delivered last, and the one that is still being processed.
 #[repr(C)]
@@ -88,7 +90,7 @@ fn blur(tick: u64, random: &RandomStreams, points: &[DVec3; 9]) -> (bool, [Keypo
     let seen = !rng.random_bool(LOST_FRAMES);
     let keypoints = points.map(|point| {
         let scatter = DVec3::from_array(std::array::from_fn(|_| StandardNormal.sample(&mut rng)));
-        let confidence = rng.random_range(0.7..0.95);
+        let confidence = rng.random_range(CONFIDENCE);
         if rng.random_bool(LOST_KEYPOINTS) {
             return Keypoint::default();
         }
