@@ -3,7 +3,8 @@ use crate::{Quantity, Surface};
 use coact_drawing::{Anchor, BLACK, FAINT, Sheet, diverging};
 use coact_messages::LayerKind;
 
-/// Part of the scale that a run of equal colour may depart from its first value: noise does not break it up.
+/// How far a value may depart from the first one of its rectangle of equal colour, as a fraction of the scale. Chosen by
+/// hand: with less, noise breaks rectangles up and the file grows; with more, steps can be seen.
 const TOLERANCE: f32 = 1.0 / 40.0;
 
 /// Activity or input over field position (downwards) and time (to the right), one or more runs side by side.

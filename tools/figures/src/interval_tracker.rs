@@ -4,7 +4,7 @@ use coact_messages::{PartnerPhase, Truth};
 
 /// A rest that is shorter belongs to what the person did before, ms: the person rests for nearly as long while the robot
 /// inserts a part.
-const SHORTEST_REST: f64 = 4000.0;
+const SHORTEST_REST_MS: f64 = 4000.0;
 
 /// Follows what the person really does, tick by tick.
 #[derive(Debug, Default)]
@@ -35,7 +35,7 @@ impl IntervalTracker {
     pub fn intervals(&self, task: &Task, first: usize, end_ms: f64) -> Vec<Interval> {
         let ends = self.begun.iter().skip(1).map(|(ms, _)| *ms).chain([end_ms]);
         let lasting = self.begun.iter().zip(ends).filter(|((begin, activity), end)| {
-            *activity != PersonActivity::Rest || end - begin >= SHORTEST_REST
+            *activity != PersonActivity::Rest || end - begin >= SHORTEST_REST_MS
         });
         let shown: Vec<&(f64, PersonActivity)> = lasting.map(|(begun, _)| begun).collect();
         let ends = shown.iter().skip(1).map(|(ms, _)| *ms).chain([end_ms]);

@@ -4,7 +4,7 @@ use crate::page::Caption;
 use crate::{Peak, Quantity, RunTrace};
 use coact_messages::LayerKind;
 
-/// Time shown before and after the inference, ms.
+/// Time shown before and after the inference, ms: what it opens has happened within a second. Chosen by hand.
 const AROUND: [f64; 2] = [500.0, 1500.0];
 
 /// What an inferred goal does to the plan before it is reached.

@@ -8,15 +8,19 @@ use crate::page::{Caption, LEFT, MARGIN, RIGHT};
 use crate::{FigureError, Interval, Surface};
 use coact_drawing::{BLACK, DISTINCT, Lettering, Sheet};
 use coact_neural_field::{Field, Kernel, Parameters};
+use coact_period::PERIOD;
 
-/// Sites of a population: 30 units of length, five peaks' widths.
+/// Sites of a population: 30 units of length at a spacing of 0.5, so that a peak has room and dies away at the ends.
 const SITES: usize = 60;
-/// Alternatives A1 to A4, all of them preshaped below threshold; A2 is not the strongest.
+/// Input of the alternatives A1 to A4, all of them preshaped below threshold; A2 is not the strongest.
 const PRESHAPE: [f64; 4] = [1.5, 1.5, 1.2, 1.8];
-/// What A2 gets in addition, from time 0 on.
+/// What A2 gets in addition, from time 0 on: enough that it wins against the others. Chosen by hand.
 const ADDITIONAL: f64 = 1.5;
-/// Time shown before and after the additional input, ms.
+/// Time shown before and after the additional input, ms: until the decision has been made.
 const SHOWN: [f64; 2] = [200.0, 400.0];
+
+/// Step of the integration, ms: that of the robot's fields.
+const STEP_MS: f64 = PERIOD.as_millis() as f64;
 
 const DASHED: &[f64] = &[14.0, 9.0];
 const DASH_DOTTED: &[f64] = &[16.0, 7.0, 3.0, 7.0];
@@ -29,6 +33,8 @@ struct DrivenField {
 }
 
 impl DrivenField {
+    /// At rest at the level `h`. Kernel and time constants are chosen by hand, such that a peak sustains itself and, with
+    /// more `inhibition`, suppresses all others: the figure shows principles, no layer of the robot.
     fn new(populations: usize, inhibition: f64, h: f64) -> Result<Self, FigureError> {
         let kernel = Kernel { amplitude: 3.0, sigma: 2.0, inhibition, range: None };
         let parameters =
@@ -38,11 +44,12 @@ impl DrivenField {
         Ok(Self { field, resting: vec![h; populations], activity })
     }
 
+    /// Integrates so many steps with this input to each population.
     fn drive(&mut self, steps: usize, strength: &[f64]) -> Vec<f64> {
         let (mut input, mut next) = (vec![0.0; self.activity.len()], self.activity.clone());
         self.field.spread(strength, &mut input);
         for _ in 0..steps {
-            self.field.step(1.0, &self.activity, &input, &self.resting, &mut next);
+            self.field.step(STEP_MS, &self.activity, &input, &self.resting, &mut next);
             std::mem::swap(&mut self.activity, &mut next);
         }
         self.activity.clone()
@@ -84,7 +91,7 @@ pub fn decision(caption: Caption, letters: &Lettering) -> Result<Sheet, FigureEr
         labels: alternatives.clone(),
         sites: SITES,
         start_ms: -SHOWN[0],
-        period_ms: 1.0,
+        period_ms: STEP_MS,
         values: Vec::new(),
     };
     for ms in -(SHOWN[0] as i64)..SHOWN[1] as i64 {

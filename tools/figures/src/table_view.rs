@@ -7,10 +7,11 @@ use crate::{Quantity, RunTrace};
 use coact_drawing::{Anchor, BLACK, DISTINCT, FAINT, Lettering, Mark, Place, RGBColor, Sheet};
 use coact_messages::LayerKind;
 
-/// Pixels of a metre.
+/// Pixels of a metre: the table fills the width of the page.
 const SCALE: f64 = 620.0;
 /// Height of a field's curve, pixels.
 const CURVE: i32 = 270;
+/// The disc that is assembled on.
 const BASE: RGBColor = RGBColor(225, 225, 225);
 
 /// The picture, of the instant at which the scene was copied.

@@ -5,8 +5,11 @@ use plotters::prelude::*;
 use std::error::Error;
 use std::path::Path;
 
+/// Pixels.
 const SIZE: (u32, u32) = (900, 520);
+/// Curve of the durations as they were measured.
 const RAW: RGBColor = RGBColor(0x1f, 0x5f, 0xa8);
+/// Curve of the durations corrected for coordinated omission.
 const CORRECTED: RGBColor = RGBColor(0xd0, 0x6a, 0x1c);
 
 /// Draws the percentile curve of a histogram, raw and corrected for coordinated omission, to `path`.

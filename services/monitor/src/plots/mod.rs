@@ -1,4 +1,4 @@
-//! Pictures of a report, as SVG: one percentile curve for each histogram, and the timeline of anticipation.
+//! Plots of a report, as SVG: one percentile curve for each histogram, and the timeline of anticipation.
 
 mod curve;
 mod timeline;

@@ -4,14 +4,19 @@ use plotters::prelude::*;
 use std::error::Error;
 use std::path::Path;
 
+/// Width of the picture, pixels.
 const WIDTH: u32 = 1000;
+/// Height of a row, pixels: a line of text.
 const ROW: u32 = 22;
-/// Height of caption, axis and margins.
+/// Height of caption, axis and margins, pixels.
 const FRAME: u32 = 150;
-/// Later actions are left out of the picture (not out of the summary): nobody reads a longer one.
+/// Later actions are left out of the picture, not out of the summary: nobody reads a longer one. Chosen by hand.
 const MOST_ROWS: usize = 120;
+/// The bar from reach onset to grasp completion.
 const REACH: RGBColor = RGBColor(0x9d, 0xb4, 0xcc);
+/// The point of a right decision.
 const RIGHT: RGBColor = RGBColor(0x1b, 0x8a, 0x3a);
+/// The point of a wrong one.
 const WRONG: RGBColor = RGBColor(0xc6, 0x28, 0x28);
 
 /// Draws for each of the partner's actions one row, from reach onset to grasp completion, with the decision on it.
