@@ -51,35 +51,27 @@ impl<R: Record> LogFollower<R> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::{RunLog, SupervisorEvent, SupervisorEventKind};
+    use crate::{Event, RunLog};
     use std::fs::OpenOptions;
     use std::io::Write;
 
-    fn started(at_ns: u64) -> SupervisorEvent {
-        SupervisorEvent {
-            at_ns,
-            event: SupervisorEventKind::Started,
-            process: "fields".into(),
-            generation: 0,
-            pid: 7,
-            fault: None,
-            reason: None,
-        }
+    fn said(text: &str) -> Event {
+        Event::Utterance { at_ms: 5, text: text.into() }
     }
 
     #[test]
     fn each_record_comes_once_and_a_damaged_line_is_named_by_its_number_in_the_file() {
         let report = tempfile::tempdir().unwrap();
-        let mut follower = LogFollower::<SupervisorEvent>::new(report.path());
+        let mut follower = LogFollower::<Event>::new(report.path());
         assert_eq!(follower.news().unwrap(), []);
         let mut log = RunLog::create(report.path()).unwrap();
-        log.append(vec![started(1), started(2)]).unwrap();
-        assert_eq!(follower.news().unwrap(), [started(1), started(2)]);
+        log.append(vec![said("one"), said("two")]).unwrap();
+        assert_eq!(follower.news().unwrap(), [said("one"), said("two")]);
         let mut file = OpenOptions::new().append(true).open(&follower.path).unwrap();
-        file.write_all(b"{\"at_ns\":3").unwrap();
+        file.write_all(b"{\"at_ms\":3").unwrap();
         assert_eq!(follower.news().unwrap(), []);
         file.write_all(b",\n").unwrap();
         let error = follower.news().unwrap_err().to_string();
-        assert!(error.contains("supervisor.jsonl:3: not a line of this log"), "{error}");
+        assert!(error.contains("events.jsonl:3: not a line of this log"), "{error}");
     }
 }
