@@ -9,9 +9,9 @@ pub(crate) struct Projections {
     pooled: Vec<Vec<u32>>,
     /// Groups of synapses that count as one.
     groups: Vec<Group>,
-    /// What each group has heard from its sources in this step.
-    heard: Vec<Heard>,
-    /// The groups that have heard anything in this step.
+    /// What each group has received from its sources in this step.
+    inputs: Vec<GroupInput>,
+    /// The groups that have received anything in this step.
     active: Vec<u32>,
 }
 
@@ -31,13 +31,13 @@ struct Group {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Heard {
+struct GroupInput {
     sources: u32,
     strongest: f64,
     weakest: f64,
 }
 
-const NOTHING: Heard = Heard { sources: 0, strongest: 0.0, weakest: f64::INFINITY };
+const NOTHING: GroupInput = GroupInput { sources: 0, strongest: 0.0, weakest: f64::INFINITY };
 
 impl Projections {
     pub fn of(plan: &NetworkPlan) -> Self {
@@ -56,8 +56,8 @@ impl Projections {
                 groups.push(Group { pool, to, weight, sources: group.len() as u32 });
             }
         }
-        let heard = vec![NOTHING; groups.len()];
-        Self { summed, pooled, active: Vec::with_capacity(groups.len()), groups, heard }
+        let inputs = vec![NOTHING; groups.len()];
+        Self { summed, pooled, active: Vec::with_capacity(groups.len()), groups, inputs }
     }
 
     /// Input strength of each population from the signals of all sources, each between 0 and 1 (chapter, eq. 4,
@@ -69,22 +69,22 @@ impl Projections {
                 strength[to as usize] += weight * signal;
             }
             for &group in &self.pooled[source] {
-                let heard = &mut self.heard[group as usize];
-                if heard.sources == 0 {
+                let input = &mut self.inputs[group as usize];
+                if input.sources == 0 {
                     self.active.push(group);
                 }
-                heard.sources += 1;
-                heard.strongest = heard.strongest.max(signal);
-                heard.weakest = heard.weakest.min(signal);
+                input.sources += 1;
+                input.strongest = input.strongest.max(signal);
+                input.weakest = input.weakest.min(signal);
             }
         }
         for group in self.active.drain(..) {
             let Group { pool, to, weight, sources } = self.groups[group as usize];
-            let heard = std::mem::replace(&mut self.heard[group as usize], NOTHING);
+            let input = std::mem::replace(&mut self.inputs[group as usize], NOTHING);
             let counts = match pool {
-                Pool::Every if heard.sources < sources => 0.0,
-                Pool::Every => heard.weakest,
-                Pool::Any | Pool::Sum => heard.strongest,
+                Pool::Every if input.sources < sources => 0.0,
+                Pool::Every => input.weakest,
+                Pool::Any | Pool::Sum => input.strongest,
             };
             strength[to as usize] += weight * counts;
         }

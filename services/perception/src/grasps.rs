@@ -80,38 +80,21 @@ impl Grasps {
         classifier: &Classifier,
         places: &TaskPlaces,
     ) -> Preparing {
-        let mut preparing = Preparing { kind: [0.0; MAX_KINDS], trust: 1.0 };
-        let Some(movement) = movement else { return preparing };
+        let nothing = Preparing { kind: [0.0; MAX_KINDS], trust: 1.0 };
+        let Some(movement) = movement else { return nothing };
         let mut matches = [None; MAX_KINDS];
         for (kind, slot) in matches.iter_mut().enumerate().take(self.kinds.len()) {
             *slot = self.best_match(kind, movement, state, places);
         }
         let Some(best) = matches.iter().flatten().copied().max_by(|a, b| a.leads.total_cmp(&b.leads)) else {
-            return preparing;
+            return nothing;
         };
-        let near = smooth_step(best.distance, ARRIVES.0, ARRIVES.1);
-        let (gate, sharpness, fit) = match movement.phase {
-            Some(phase) => {
-                let phase = phase_of(phase, &best, state);
-                preparing.trust = smooth_step(phase, TURNS.0, TURNS.1);
-                let sharp = 1.0 + (SHARPNESS - 1.0) * smooth_step(phase, SHARPENS.0, SHARPENS.1);
-                let trust = smooth_step(phase, SHAPES.0, SHAPES.1);
-                (
-                    smooth_step(best.leads, LEADS.0, LEADS.1),
-                    sharp,
-                    size_fit(state, classifier).map(|fit| trust * fit),
-                )
-            }
-            None => {
-                preparing.trust = near;
-                (best.leads * near, SHARPNESS, [0.0; MAX_KINDS])
-            }
-        };
+        let Reading { trust, gate, sharpness, fit } = reading(movement, &best, state, classifier);
         let possible = matches.iter().flatten().count();
         let elsewhere = self.elsewhere(movement, &matches);
-        preparing.kind = fractions(&matches, &fit, elsewhere, sharpness)
+        let kind = fractions(&matches, &fit, elsewhere, sharpness)
             .map(|fraction| gate * beyond_chance(fraction, possible));
-        preparing
+        Preparing { kind, trust }
     }
 
     /// How well the movement leads to a place where nothing is taken: an empty hand is shown at the handover place, and
@@ -155,6 +138,40 @@ struct TargetMatch {
     distance: f64,
     /// Whether the robot holds it out.
     offered: bool,
+}
+
+/// What a movement tells already.
+struct Reading {
+    /// How far the grip shows.
+    trust: f64,
+    /// How much it counts that the movement leads to the best part.
+    gate: f64,
+    /// How much the best kind is preferred.
+    sharpness: f64,
+    /// Logarithm of how well the hand's shape fits each kind.
+    fit: [f64; MAX_KINDS],
+}
+
+/// Of a reach from rest, its phase tells how much is to be read from direction, shape and pitch; of any other movement,
+/// the distance from its target.
+fn reading(
+    movement: &PresentMovement,
+    best: &TargetMatch,
+    state: &PerceptionState,
+    classifier: &Classifier,
+) -> Reading {
+    let Some(time) = movement.phase else {
+        let near = smooth_step(best.distance, ARRIVES.0, ARRIVES.1);
+        return Reading { trust: near, gate: best.leads * near, sharpness: SHARPNESS, fit: [0.0; MAX_KINDS] };
+    };
+    let phase = phase_of(time, best, state);
+    let shaped = smooth_step(phase, SHAPES.0, SHAPES.1);
+    Reading {
+        trust: smooth_step(phase, TURNS.0, TURNS.1),
+        gate: smooth_step(best.leads, LEADS.0, LEADS.1),
+        sharpness: 1.0 + (SHARPNESS - 1.0) * smooth_step(phase, SHARPENS.0, SHARPENS.1),
+        fit: size_fit(state, classifier).map(|fit| shaped * fit),
+    }
 }
 
 /// Phase of a reach: the mean of what the time that it has taken says, and the way that is left to the part that it

@@ -52,6 +52,40 @@ fn a_replacement_goes_on_as_if_nothing_had_happened() {
     assert_eq!(at, expected.len());
 }
 
+#[test]
+fn a_percept_that_perception_did_not_leave_is_refused_with_the_reason() {
+    let stage = Stage::new();
+    let refused = |change: fn(&mut Percept)| {
+        let mut percept = *stage.percept;
+        change(&mut percept);
+        stage.perception.clone().resume(&percept).unwrap_err().to_string()
+    };
+    let foreign = refused(|percept| percept.state.fill(0.0));
+    assert!(foreign.contains("hold no state of perception"), "{foreign}");
+    let evidence = refused(|percept| percept.act[3] = f64::NAN);
+    assert!(evidence.starts_with("act is implausible, expected evidence between 0 and 1"), "{evidence}");
+    let damaged = refused(|percept| percept.state[30] = 1e9);
+    assert!(damaged.contains("hand.keypoint"), "{damaged}");
+}
+
+#[test]
+fn whichever_word_of_the_state_is_damaged_perception_refuses_it_or_goes_on() {
+    let mut stage = Stage::new();
+    stage.move_to(stage.grasping(stage.part("wheel"), TOP), 400, |_| {});
+    let (last, sound) = (*stage.percept, stage.perception.clone());
+    for word in 0..last.state.len() {
+        for bits in [u64::MAX, 1, 1 << 40, 1e300_f64.to_bits(), (-1.0_f64).to_bits()] {
+            let mut percept = last;
+            percept.state[word] = f64::from_bits(bits);
+            stage.perception = sound.clone();
+            if stage.perception.resume(&percept).is_ok() {
+                stage.run(40, |_, _| {});
+                assert_sound(&stage.percept);
+            }
+        }
+    }
+}
+
 fn assert_sound(percept: &Percept) {
     let evidence =
         [&percept.act[..], &percept.achieved, &percept.open, &percept.robot_holds, &percept.person_holds];

@@ -4,8 +4,8 @@
 //! composes a sentence from the task's own names: the goal that was inferred, what the robot does about it by its
 //! motor skill, and what is wrong and what could be done instead. It knows no task and no finished sentence.
 
+mod clauses;
 mod meanings;
-mod sentence;
 mod speaker;
 mod voice;
 

@@ -1,4 +1,4 @@
-use crate::{Goal, Meanings, Mistake, sentence};
+use crate::{Goal, Meanings, Mistake, clauses};
 use coact_joint_task::Task;
 use coact_messages::{FieldFrame, LayerKind};
 use coact_period::cycles;
@@ -108,11 +108,11 @@ impl Voice {
         let mut clauses = Vec::new();
         let goal = first(&meanings.goals, frame, LayerKind::Intention).map(|(goal, _)| goal);
         clauses.extend(
-            subject.contradiction.zip(goal).map(|(said, goal)| sentence::contradicted(task, said, goal)),
+            subject.contradiction.zip(goal).map(|(said, goal)| clauses::contradicted(task, said, goal)),
         );
         clauses.extend(match subject.error {
-            Some(Mistake::Means(kind)) => Some(sentence::at_hand(task, kind)),
-            Some(Mistake::Loss(kind)) => Some(sentence::lost(task, kind)),
+            Some(Mistake::Means(kind)) => Some(clauses::at_hand(task, kind)),
+            Some(Mistake::Loss(kind)) => Some(clauses::lost(task, kind)),
             Some(Mistake::Goal(_)) | None => None,
         });
         if let Some(Mistake::Goal(subgoal)) = subject.error {
@@ -122,12 +122,12 @@ impl Voice {
                 .filter(|&index| index < task.subgoals.len())
                 .collect::<Vec<_>>();
             let meant = goal.filter(|goal| goal.subgoal == subgoal);
-            clauses.push(sentence::objected(task, subgoal, meant, achieved, &available));
+            clauses.push(clauses::objected(task, subgoal, meant, achieved, &available));
         }
         if let Some(action) = subject.action {
             let answered = |goal: &Goal| task.complement(goal.chain, goal.subgoal) == Some(action);
-            clauses.extend(goal.filter(answered).map(|goal| sentence::inferred(task, goal)));
-            clauses.extend(sentence::announced(task, &task.actions[action]));
+            clauses.extend(goal.filter(answered).map(|goal| clauses::inferred(task, goal)));
+            clauses.extend(clauses::announced(task, &task.actions[action]));
         }
         (!clauses.is_empty()).then(|| clauses.join(" "))
     }

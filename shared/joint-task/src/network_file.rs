@@ -38,7 +38,7 @@ pub(crate) struct LayerEntry {
     pub forgets: Option<ForgetsEntry>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone, Copy)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct KernelEntry {
     pub amplitude: f64,

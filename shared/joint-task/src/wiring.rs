@@ -1,6 +1,6 @@
 //! From the network file's rules and a task to layers, populations and synapses.
 
-use crate::network_file::{LayerEntry, NetworkFile};
+use crate::network_file::{KernelEntry, LayerEntry, NetworkFile};
 use crate::network_plan::{LayerPlan, NetworkPlan};
 use crate::percept_channels::channels;
 use crate::population::{Population, populations};
@@ -128,20 +128,35 @@ impl Wiring<'_> {
         kind: LayerKind,
         populations: Range<usize>,
     ) -> Result<LayerPlan, TaskError> {
-        let LayerEntry { name, tau, h, slope, threshold, gain, noise, kernel, forgets } =
-            &self.file.layer[index];
+        let entry = &self.file.layer[index];
+        let resting = *entry.h.get_ref();
+        Ok(LayerPlan {
+            kind,
+            parameters: self.parameters(index)?,
+            resting,
+            gain: entry.gain,
+            noise: entry.noise,
+            forgetting: entry.forgets.as_ref().map(|forgets| Forgetting {
+                h_max: resting,
+                h_min: forgets.h_min,
+                r_min: forgets.r_min,
+                r_max: forgets.r_max,
+            }),
+            populations,
+        })
+    }
+
+    /// The constants of a layer's field, checked.
+    fn parameters(&self, index: usize) -> Result<Parameters, TaskError> {
+        let LayerEntry { name, tau, h, slope, threshold, kernel, .. } = &self.file.layer[index];
+        let KernelEntry { amplitude, sigma, inhibition, range } = *kernel;
         let parameters = Parameters {
             tau: *tau,
             slope: *slope,
             threshold: *threshold,
             spacing: self.file.sites.spacing,
             input_sigma: self.file.sites.input_sigma,
-            kernel: Kernel {
-                amplitude: kernel.amplitude,
-                sigma: kernel.sigma,
-                inhibition: kernel.inhibition,
-                range: kernel.range,
-            },
+            kernel: Kernel { amplitude, sigma, inhibition, range },
         };
         let key = |key: &str| format!("layer[{index}].{key} ({})", name.get_ref());
         parameters
@@ -156,20 +171,6 @@ impl Wiring<'_> {
         if *h.get_ref() >= 0.0 {
             return Err(self.source.error(h.span(), key("h"), "expected a resting level below 0"));
         }
-        let forgetting = forgets.as_ref().map(|forgets| Forgetting {
-            h_max: *h.get_ref(),
-            h_min: forgets.h_min,
-            r_min: forgets.r_min,
-            r_max: forgets.r_max,
-        });
-        Ok(LayerPlan {
-            kind,
-            parameters,
-            resting: *h.get_ref(),
-            gain: *gain,
-            noise: *noise,
-            forgetting,
-            populations,
-        })
+        Ok(parameters)
     }
 }

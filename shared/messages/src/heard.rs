@@ -1,4 +1,4 @@
-use crate::sentence;
+use crate::message_text;
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -21,12 +21,12 @@ impl Heard {
     pub fn hear(&mut self, cycle: u64, sentence: &str) {
         self.sentences += 1;
         self.cycle = cycle;
-        self.length = sentence::write(sentence, &mut self.text);
+        self.length = message_text::write(sentence, &mut self.text);
     }
 
     /// The newest sentence; empty before the first, and for bytes that are no text.
     pub fn sentence(&self) -> &str {
-        sentence::read(&self.text, self.length)
+        message_text::read(&self.text, self.length)
     }
 }
 

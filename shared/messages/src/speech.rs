@@ -1,4 +1,4 @@
-use crate::{Header, sentence};
+use crate::{Header, message_text};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -18,11 +18,11 @@ pub struct Speech {
 impl Speech {
     /// Takes down a sentence; what does not fit is cut off.
     pub fn write(&mut self, sentence: &str) {
-        self.length = sentence::write(sentence, &mut self.text);
+        self.length = message_text::write(sentence, &mut self.text);
     }
 
     /// The sentence; empty for bytes that are no text.
     pub fn sentence(&self) -> &str {
-        sentence::read(&self.text, self.length)
+        message_text::read(&self.text, self.length)
     }
 }
