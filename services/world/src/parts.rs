@@ -199,7 +199,7 @@ impl Parts {
         self.state[part].subgoal = subgoal as u32;
     }
 
-    /// Leaves the part where it is, free: a body without dynamics lets it rest upright on what is below.
+    /// Leaves the part where it is, free: without dynamics it rests upright on what is below.
     pub fn drop(&mut self, part: usize, task: &Task) {
         self.state[part].state = Holder::Nobody as u32;
         self.state[part].subgoal = NONE;
@@ -207,7 +207,7 @@ impl Parts {
         debug_assert!(at.is_finite(), "part {part} of {} is nowhere", task.name);
     }
 
-    /// Rests all free parts upright on what is below them (for a body without dynamics).
+    /// Rests all free parts upright on what is below them (for a robot without dynamics).
     pub fn rest_free(&mut self, task: &Task) {
         for part in 0..self.count {
             if self.is(part, Holder::Nobody) {

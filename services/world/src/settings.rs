@@ -18,7 +18,7 @@ pub struct Settings {
 /// The person who builds with the robot.
 #[derive(Debug, Clone)]
 pub enum Partner {
-    /// Chooses at random among the plan's valid actions, and never errs.
+    /// Chooses at random among the plan's valid actions, and makes no mistakes.
     Synthetic,
     /// Chooses like the synthetic one, but makes mistakes, idles and shows its grips unclearly.
     Random(RandomBehaviour),

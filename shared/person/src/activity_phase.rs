@@ -13,7 +13,7 @@ pub enum ActivityPhase {
     Reach = 2,
     /// Fingers closed, part not yet lifted.
     Dwell = 3,
-    /// The part is on its way to where it is wanted.
+    /// The part is carried to where it is wanted.
     Carry = 4,
     /// At the socket, until the robot steadies the base.
     AwaitSteadying = 5,

@@ -5,9 +5,9 @@ use glam::DVec3;
 
 /// Upper arm and forearm of an adult, m (Winter 2009, for 1.70 m of stature).
 const UPPER_ARM: f64 = 0.31;
-/// Elbow to wrist, m; recordings are scaled to the same length.
+/// Elbow to wrist of the same adult, m; recordings are scaled to this length.
 pub(crate) const FOREARM: f64 = 0.26;
-/// Pitch of the hand that lies on the table, rad.
+/// Pitch of the hand that lies on the table, rad: 20 degrees down. Chosen by hand.
 const REST_PITCH: f64 = -0.35;
 
 /// The person's right arm and hand: from a pose to the nine keypoints that a tracker finds.
@@ -68,7 +68,7 @@ impl HandModel {
         DVec3::new(-yaw.sin(), yaw.cos(), 0.0)
     }
 
-    /// Unit vector from a place to the shoulder: the way in which the person draws something nearer.
+    /// Unit vector from a place to the shoulder: the direction in which the person draws something nearer.
     pub(crate) fn towards_shoulder(&self, place: DVec3) -> DVec3 {
         (self.shoulder - place).normalize_or_zero()
     }

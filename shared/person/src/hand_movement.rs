@@ -2,9 +2,9 @@ use crate::HandPose;
 use crate::reach_profile::minimum_jerk;
 use bytemuck::{Pod, Zeroable};
 
-/// Fraction of a grasping movement in which the hand's pitch reaches that of the grip.
+/// Fraction of a grasping movement in which the hand's pitch reaches that of the grip: about when the aperture is largest.
 const PITCH_TIME: f64 = 0.7;
-/// How much the fingers stretch while they open, m.
+/// How much the fingers stretch while they open, m. Chosen by hand.
 const STRETCH: f64 = 0.015;
 
 /// One movement of the person's hand. Times in cycles of the run.

@@ -11,6 +11,9 @@ use rand::RngExt;
 use std::ops::Range;
 use std::time::Duration;
 
+// How long the person waits is chosen by hand: longer than the robot needs if all goes well, so that only a robot that
+// does not come is given up.
+
 /// How long the person waits at the socket for the robot to steady the base, cycles.
 const STEADYING_PATIENCE: u64 = cycles(Duration::from_secs(3));
 /// How long a part is shown to the robot for it to take, cycles.
@@ -19,9 +22,9 @@ const GIVING_PATIENCE: u64 = cycles(Duration::from_secs(15));
 const SHOWING_PATIENCE: u64 = cycles(Duration::from_secs(12));
 /// How long the person waits for the robot to let go, cycles.
 const RELEASE_PATIENCE: u64 = cycles(Duration::from_secs(10));
-/// How long the closed fingers stay on the part before they lift it, cycles.
+/// How long the closed fingers stay on the part before they lift it, cycles. Chosen by hand.
 const DWELL: Range<u64> = cycles(Duration::from_millis(80))..cycles(Duration::from_millis(140));
-/// How long mounting takes, cycles.
+/// How long mounting takes, cycles. Chosen by hand.
 const MOUNTING: Range<u64> = cycles(Duration::from_millis(400))..cycles(Duration::from_millis(700));
 
 impl Person {

@@ -16,23 +16,23 @@ use std::time::Duration;
 
 /// Scatter of the hand's pitch from grasp to grasp, rad. Chosen by hand.
 const PITCH_SCATTER: f64 = 0.08;
-/// Wrist to finger tips of a grasping hand, and of one held open, m: an adult's hand, bent and straight.
+/// Wrist to finger tips of a grasping hand, and of an open one, m: an adult's hand, bent and straight.
 const GRASPING: f64 = 0.15;
 const OPEN: f64 = 0.18;
-/// Thumb to index of a hand held open, m.
+/// Thumb to index of an open hand, m. Chosen by hand.
 const OPEN_APERTURE: f64 = 0.11;
 /// How far short of the handover place the open hand is shown, m: room for the robot's hand.
 const SHORT: f64 = 0.10;
-/// How far a reach is lifted above the straight line, m.
+/// How far a reach is lifted above the straight line, m. Chosen by hand, as are the next two.
 const REACH_ARCH: f64 = 0.015;
 /// How far carried parts are lifted above the straight line, m: they pass over parts that lie.
 const CARRY_ARCH: f64 = 0.06;
 /// How far the withdrawing hand is lifted above the straight line, m.
 const WITHDRAW_ARCH: f64 = 0.03;
-/// Time of a carrying movement: that of the shortest one, cycles, and what each metre adds, cycles/m.
+/// Time of a carrying movement: that of the shortest one, cycles, and what each metre adds, cycles/m. Chosen by hand.
 const CARRY_TIME: (u64, f64) =
     (cycles(Duration::from_millis(500)), cycles(Duration::from_millis(900)) as f64);
-/// Time of a withdrawing movement, cycles.
+/// Time of a withdrawing movement, cycles. Chosen by hand.
 const WITHDRAW_TIME: Range<u64> = cycles(Duration::from_millis(500))..cycles(Duration::from_millis(700));
 
 impl Person {

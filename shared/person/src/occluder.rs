@@ -5,14 +5,14 @@ use coact_joint_task::Task;
 use coact_messages::{KeypointName, is_blocked};
 use glam::DVec3;
 
-/// How far the occluder stands before what it hides, and how thick it is, m.
+/// How far the occluder stands before what it hides, and how thick it is, m. Chosen by hand; not sensitive.
 const GAP: f64 = 0.01;
 const THICKNESS: f64 = 0.02;
 /// How much wider and higher it is than what it hides, m: five times the scatter of the tracker.
 const OVERLAP: f64 = 0.01;
 /// Last part of a reach that is hidden as well, as a fractivity of its time: the hand has all but arrived.
 const ARRIVAL: f64 = 0.2;
-/// Places of the hand on it that are looked at.
+/// Poses of the hand on it that are hidden. More change nothing: the hand moves slowly there.
 const STEPS: u32 = 4;
 
 impl Person {
@@ -45,13 +45,13 @@ fn corners(part: usize, parts: PartsView, task: &Task) -> impl Iterator<Item = D
     })
 }
 
-/// The smallest upright board on the table top that stands across the way from `eye` to all `places` and hides them; none
+/// The smallest upright board on the table top that stands across the line from `eye` to all `places` and hides them; none
 /// when the eye is above them, so that no board does.
 fn board(eye: DVec3, table: f64, places: impl Iterator<Item = DVec3> + Clone) -> Option<[f64; 6]> {
     let count = places.clone().count().max(1) as f64;
-    let way = eye - places.clone().sum::<DVec3>() / count;
-    let across = if way.x.abs() >= way.y.abs() { 0 } else { 1 };
-    let towards = way[across].signum();
+    let line = eye - places.clone().sum::<DVec3>() / count;
+    let across = if line.x.abs() >= line.y.abs() { 0 } else { 1 };
+    let towards = line[across].signum();
     let nearest = places.clone().map(|place| towards * place[across]).fold(f64::NEG_INFINITY, f64::max);
     let face = towards * (nearest + GAP);
     if towards * (eye[across] - face) <= THICKNESS {

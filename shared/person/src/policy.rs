@@ -7,8 +7,7 @@ use rand::{Rng, RngExt};
 use std::ops::Range;
 use std::time::Duration;
 
-/// Pause between two activities of a person who chooses, cycles. Chosen by hand: long enough that the fields settle
-/// between two activities, short enough for a fluent assembly.
+/// Pause between two activities of a person who chooses, cycles. Chosen by hand.
 const PAUSE: Range<u64> = cycles(Duration::from_millis(500))..cycles(Duration::from_millis(2000));
 
 /// Where the person's intentions come from.
@@ -16,7 +15,7 @@ const PAUSE: Range<u64> = cycles(Duration::from_millis(500))..cycles(Duration::f
 pub enum Policy {
     /// Chosen at random among the plan's valid actions.
     Synthetic,
-    /// The same, but with mistakes, pauses and variations at these rates.
+    /// The same, but with mistakes, pauses and variations as this says.
     Random(RandomBehaviour),
     /// Written down beforehand.
     Script(Script),

@@ -14,7 +14,8 @@ use std::time::Duration;
 /// thinks about every 0.3 s, so that a mistake suggests itself every 3 s, as it does between two activities.
 const THINKS_OF_MISTAKES: f64 = 0.1;
 /// How long until a person notices a mistake, from grasp completion or from when the gesture is fully shown, cycles.
-/// Chosen by hand: time enough for the robot to answer before.
+/// Chosen by hand, so that the robot can answer
+/// before.
 const NOTICES: RangeInclusive<u64> = cycles(Duration::from_secs(1))..=cycles(Duration::from_secs(3));
 /// Intervals in each of which the tracker may lose the hand once, cycles.
 const DROPOUT_INTERVAL: u64 = cycles(Duration::from_millis(500));

@@ -41,9 +41,9 @@ pub(crate) struct RecordedReach {
 pub(crate) struct RecordedFrame {
     /// Since onset, s.
     time: f64,
-    /// Fraction of the way that the wrist has covered.
+    /// Fraction of the displacement that the wrist has covered.
     pub progress: f64,
-    /// How far it is off the straight way, m, towards the thumb's side.
+    /// How far it is off the straight line, m, towards the thumb's side.
     pub detour: f64,
     /// Keypoints against the wrist: along the hand (wrist to knuckles), and across it (towards the thumb), m.
     pub shape: [DVec2; 9],
@@ -101,13 +101,14 @@ impl RecordedReach {
             (0..reach.frames.len()).min_by(|one, other| distance(one).total_cmp(&distance(other)))
         };
         let (start, end) = (at_time(-PERIOD_S * LEAD as f64)?, at_time(reach.movement_time)?);
-        let way = wrists[end] - wrists[start];
+        let displacement = wrists[end] - wrists[start];
         let (ahead, across) = hand_axes(&reach.frames[end], wrists[end])?;
-        if way.length() < SHORTEST {
+        if displacement.length() < SHORTEST {
             return None;
         }
-        // The thumb's side of the way is where the thumb's side of the hand is at the end of it.
-        let side = if way.perp().dot(across) > 0.0 { way.perp() } else { -way.perp() }.normalize();
+        // The thumb's side of the path is where the thumb's side of the hand is at the end of it.
+        let normal = displacement.perp();
+        let side = if normal.dot(across) > 0.0 { normal } else { -normal }.normalize();
         let mut shape = [DVec2::ZERO; 9];
         let frames: Vec<_> = (0..reach.frames.len())
             .map(|index| {
@@ -120,7 +121,7 @@ impl RecordedReach {
                 }
                 RecordedFrame {
                     time: frame.time,
-                    progress: moved.dot(way) / way.length_squared(),
+                    progress: moved.dot(displacement) / displacement.length_squared(),
                     detour: scale * moved.dot(side),
                     shape,
                     confidence: frame.joints.map(|joint| joint.confidence.clamp(0.0, 1.0)),

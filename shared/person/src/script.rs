@@ -3,10 +3,9 @@ use coact_period::cycles;
 use coact_stage_state::Slot;
 use std::time::Duration;
 
-/// How soon the person looks again whether the scripted part has come within reach, cycles.
+/// How soon the person looks again whether the scripted part has come within reach, cycles. Not sensitive.
 const LOOK_AGAIN: u64 = cycles(Duration::from_millis(100));
-/// How long the person waits for it before the action is left out, cycles. Chosen by hand: longer than the robot needs
-/// to bring a part.
+/// How long the person waits for it before the action is left out, cycles. Chosen by hand.
 const PATIENCE: u64 = cycles(Duration::from_secs(20));
 /// Rest after the last line, cycles. Not sensitive: nothing follows.
 const AT_THE_END: u64 = cycles(Duration::from_secs(1));

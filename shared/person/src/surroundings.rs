@@ -5,8 +5,8 @@ use coact_period::cycles;
 use glam::DVec3;
 use std::time::Duration;
 
-/// How long a part must be given before the person reacts, cycles. Chosen by hand, near the reaction time to something
-/// expected; not sensitive.
+/// How long a part must be given before the person reacts, cycles. Chosen by hand, of the size of a
+/// reaction time.
 const NOTICED: u64 = cycles(Duration::from_millis(300));
 
 /// What the person perceives in one tick: the parts, and the robot's hand from the outside.

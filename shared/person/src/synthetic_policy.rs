@@ -7,10 +7,10 @@ use rand::{Rng, RngExt};
 use std::ops::Range;
 use std::time::Duration;
 
-/// Fraction of the choices in which the person idles instead. Chosen by hand: rare, but often enough that the robot has
-/// to act without the person in every assembly.
+/// Fraction of the choices in which the person idles instead. Chosen by hand: the robot then has to act without the
+/// person.
 const IDLES: f64 = 0.15;
-/// How long, cycles: longer than the robot waits before it acts on its own.
+/// How long, cycles. Chosen by hand.
 pub(crate) const IDLE_TIME: Range<u64> = cycles(Duration::from_secs(2))..cycles(Duration::from_secs(6));
 /// How soon the person thinks again when there is nothing to do, cycles. Not sensitive.
 pub(crate) const RETHINK: Range<u64> = cycles(Duration::from_millis(200))..cycles(Duration::from_millis(400));

@@ -8,9 +8,9 @@ use rand::RngExt;
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
-/// How long it takes to feel that the robot has gripped, or let go, cycles.
+/// How long it takes to feel that the robot has gripped, or let go, cycles: of the size of a reaction to touch.
 const FELT: u64 = cycles(Duration::from_millis(200));
-/// By how much a person who comes late does so, cycles.
+/// By how much a person who comes late does so, cycles. Chosen by hand, as is the next one.
 const LATE: RangeInclusive<u64> = cycles(Duration::from_secs(2))..=cycles(Duration::from_secs(6));
 /// How soon a person who withdraws does so, cycles.
 const WITHDRAWS: RangeInclusive<u64> = cycles(Duration::from_millis(50))..=cycles(Duration::from_millis(600));

@@ -132,7 +132,7 @@ impl PhysicsSimulation {
         }
     }
 
-    /// What the fingers squeeze.
+    /// What the fingers hold, as measured.
     pub fn grip(&self) -> MeasuredGrip {
         self.grip
     }
@@ -151,7 +151,7 @@ impl PhysicsSimulation {
         self.outside = DVec3::from_array(felt.outside.to_array().map(f64::from));
     }
 
-    /// Lets the person pull at what the hand holds, as far as the grip withstands it: what gives way goes along.
+    /// Lets the person pull at what the hand holds, as far as the grip withstands it; beyond that the part slips.
     fn pull_at(&mut self, held: Option<usize>, pull: DVec3) {
         if let Some(body) = self.pulled.take().and_then(|part| self.world.bodies.get_mut(self.parts[part])) {
             body.reset_forces(true);

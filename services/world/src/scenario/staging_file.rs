@@ -5,7 +5,7 @@ use coact_joint_task::{Agent, Part, Task};
 use serde::Deserialize;
 use toml::Spanned;
 
-/// Least room between two parts on the table, m.
+/// Smallest distance between two parts on the table, m: the physics engine must not begin in a penetration.
 const ROOM: f64 = 0.01;
 
 /// `[start]`: how the scene is when the run begins.
@@ -210,12 +210,12 @@ impl ScenarioSource<'_> {
     }
 }
 
-/// Radius of the round room that a part needs on the table, m.
+/// Radius of the circle that a part needs on the table, m.
 fn radius(task: &Task, part: usize) -> f64 {
     task.kinds[task.parts[part].kind].shape.radius()
 }
 
-fn on_table(task: &Task, at: [f64; 2], margin: f64) -> bool {
+fn on_table(task: &Task, at: [f64; 2], radius: f64) -> bool {
     let scene = &task.scene;
-    (0..2).all(|axis| (at[axis] - scene.table_centre[axis]).abs() + margin <= 0.5 * scene.table_size[axis])
+    (0..2).all(|axis| (at[axis] - scene.table_centre[axis]).abs() + radius <= 0.5 * scene.table_size[axis])
 }

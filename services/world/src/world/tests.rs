@@ -1,13 +1,13 @@
 #![allow(clippy::unwrap_used)]
 
 mod carrying;
-mod erring;
 mod fake_robot;
 mod grasping;
 mod handover;
 mod hidden;
 mod inserting;
 mod manipulator;
+mod mistakes;
 mod partner;
 mod physics;
 mod profiles;

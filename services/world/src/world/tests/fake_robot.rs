@@ -15,11 +15,11 @@ pub(in super::super) struct FakeRobot {
     busy_until: u64,
     /// Ticks to stay away after something was given.
     pause: u64,
-    errand: Errand,
+    skill: Skill,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Errand {
+enum Skill {
     None,
     /// Grasp the part, then go on with `Insert` or `Give`.
     Insert(usize, usize),
@@ -34,7 +34,7 @@ impl FakeRobot {
             finger_closure: 0.0,
             busy_until: 0,
             pause: 0,
-            errand: Errand::None,
+            skill: Skill::None,
         }
     }
 
@@ -58,33 +58,33 @@ impl FakeRobot {
 
     fn act(&mut self, world: &World) {
         let held = world.simulation.robot.held.get();
-        match (self.errand, held) {
-            (Errand::None, _) => self.errand = self.choose(world),
-            (Errand::Receive(part), None) if !world.parts.is(part, Holder::Person) => self.abandon(),
-            (Errand::Insert(part, _) | Errand::Give(part) | Errand::Receive(part), None) => {
+        match (self.skill, held) {
+            (Skill::None, _) => self.skill = self.choose(world),
+            (Skill::Receive(part), None) if !world.parts.is(part, Holder::Person) => self.abandon(),
+            (Skill::Insert(part, _) | Skill::Give(part) | Skill::Receive(part), None) => {
                 self.grasp(part, world)
             }
-            (Errand::Receive(part), Some(_)) if world.parts.is(part, Holder::Robot) => {
+            (Skill::Receive(part), Some(_)) if world.parts.is(part, Holder::Robot) => {
                 let goal = goal(world, world.parts.kind(part), Agent::Robot);
-                self.errand = goal.map_or(Errand::None, |goal| Errand::Insert(part, goal));
+                self.skill = goal.map_or(Skill::None, |goal| Skill::Insert(part, goal));
             }
-            (Errand::Receive(_), Some(_)) => {}
-            (Errand::Insert(part, goal), Some(_)) => self.insert(part, goal, world),
-            (Errand::Give(part), Some(_)) => self.give(part, world),
+            (Skill::Receive(_), Some(_)) => {}
+            (Skill::Insert(part, goal), Some(_)) => self.insert(part, goal, world),
+            (Skill::Give(part), Some(_)) => self.give(part, world),
         }
     }
 
-    fn choose(&mut self, world: &World) -> Errand {
+    fn choose(&mut self, world: &World) -> Skill {
         let task = &world.task;
         let held_out = super::held_by(world, Holder::Person)
             .into_iter()
             .find(|part| world.parts.position(*part).distance(task.scene.handover.into()) < 0.01);
         if let Some(part) = held_out {
-            return Errand::Receive(part);
+            return Skill::Receive(part);
         }
         for goal in open_goals(world, Agent::Robot) {
             if let Some(part) = lying(world, task.subgoals[goal].kind) {
-                return Errand::Insert(part, goal);
+                return Skill::Insert(part, goal);
             }
         }
         // It gives when it is asked, and now and then unasked.
@@ -92,13 +92,13 @@ impl FakeRobot {
             world.simulation.person.phase() == ActivityPhase::Show || world.simulation.tick / 10_000 % 2 == 1;
         for goal in open_goals(world, Agent::Person).into_iter().filter(|_| gives) {
             if let Some(part) = lying(world, task.subgoals[goal].kind) {
-                return Errand::Give(part);
+                return Skill::Give(part);
             }
         }
         let asks = !open_goals(world, Agent::Robot).is_empty();
         self.at = if asks { task.scene.handover.into() } else { DVec3::new(0.0, 0.0, 2.0) };
         self.finger_closure = 0.0;
-        Errand::None
+        Skill::None
     }
 
     fn grasp(&mut self, part: usize, world: &World) {
@@ -129,7 +129,7 @@ impl FakeRobot {
 
     fn abandon(&mut self) {
         self.finger_closure = 0.0;
-        self.errand = Errand::None;
+        self.skill = Skill::None;
     }
 }
 

@@ -1,6 +1,6 @@
 //! The partner who reaches behind something.
 
-use super::erring::run;
+use super::mistakes::run;
 use coact_messages::{KeypointName, NONE, SensorSample};
 use coact_person::ActivityPhase;
 

@@ -130,7 +130,7 @@ fn mistakes_in_the_scene_are_named() {
             "FILE:3: key \"occluder.size\": expected three extents above 0",
         ),
         ("[[blind]]\nfrom = 2\nuntil = 1\n", "FILE:3: key \"blind.until\": expected a time after"),
-        ("[[blind]]\nfrom = 2\nwhat = \"ears\"\n", "FILE:3: "),
+        ("[[blind]]\nfrom = 2\nwhat = \"words\"\n", "FILE:3: "),
         ("[[slip]]\nkind = \"nut\"\nafter = 1\nto = [9, 9]\n", "FILE:4: key \"slip.to\": expected a place"),
         ("[[action]]\nsay = \" \"\n", "FILE:2: key \"say\": expected a sentence"),
         ("[[action]]\nidle = 1\nclarity = 1\n", "FILE:3: key \"clarity\": expected beside \"chain\""),

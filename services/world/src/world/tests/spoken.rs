@@ -1,6 +1,6 @@
 //! The partner who says what an action means.
 
-use super::erring::run;
+use super::mistakes::run;
 use coact_person::Activity;
 
 #[test]

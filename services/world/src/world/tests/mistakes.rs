@@ -1,4 +1,4 @@
-//! The partner who errs at random.
+//! The random partner, who makes mistakes.
 
 use super::fake_robot::FakeRobot;
 use super::{Out, robot, task};
@@ -10,14 +10,14 @@ use coact_person::ActivityPhase;
 use coact_pipeline::WorldMode;
 use std::collections::BTreeMap;
 
-fn world(seed: u64, rates: &str) -> World {
-    let partner = Partner::load(&format!("random:{rates}"), &task(), seed).unwrap();
+fn world(seed: u64, settings: &str) -> World {
+    let partner = Partner::load(&format!("random:{settings}"), &task(), seed).unwrap();
     World::new(&task(), &robot(), Settings { seed, partner, mode: WorldMode::Kinematic }).unwrap()
 }
 
 /// Runs with a helpful robot and calls `look` after each tick with the truth before and after.
-pub(super) fn run(seed: u64, seconds: u64, rates: &str, mut look: impl FnMut(u64, &World, &Out, &Truth)) {
-    let (mut world, mut robot, mut out) = (world(seed, rates), FakeRobot::new(), Out::new());
+pub(super) fn run(seed: u64, seconds: u64, settings: &str, mut look: impl FnMut(u64, &World, &Out, &Truth)) {
+    let (mut world, mut robot, mut out) = (world(seed, settings), FakeRobot::new(), Out::new());
     for tick in 1..=seconds * 1000 {
         let before = *out.truth;
         robot.step(tick, &mut world, &mut out);
@@ -26,10 +26,10 @@ pub(super) fn run(seed: u64, seconds: u64, rates: &str, mut look: impl FnMut(u64
 }
 
 /// Actions of several people by their error.
-fn errors(rates: &str) -> BTreeMap<u32, u64> {
+fn errors(settings: &str) -> BTreeMap<u32, u64> {
     let mut counts = BTreeMap::new();
     for seed in 0..6 {
-        run(seed, 200, rates, |_, _, out, before| {
+        run(seed, 200, settings, |_, _, out, before| {
             if out.truth.actions != before.actions {
                 *counts.entry(out.truth.error).or_default() += 1;
             }
@@ -59,19 +59,19 @@ fn every_kind_of_error_occurs_when_it_is_asked_for() {
 fn wrongly_taken_part_is_never_mounted_and_put_back_where_it_lay() {
     let mut returned = 0;
     for seed in 0..6 {
-        let (mut lay, mut stage) = (Vec::new(), ActivityPhase::Rest);
+        let (mut lay, mut phase) = (Vec::new(), ActivityPhase::Rest);
         run(seed, 150, "goal=0.5,request=0,means=0,movement=500..500", |tick, world, out, before| {
             let (person, last) =
-                (&world.simulation.person, std::mem::replace(&mut stage, world.simulation.person.phase()));
+                (&world.simulation.person, std::mem::replace(&mut phase, world.simulation.person.phase()));
             assert!(
-                before.error == 0 || (last, stage) != (ActivityPhase::Mount, ActivityPhase::Withdraw),
+                before.error == 0 || (last, phase) != (ActivityPhase::Mount, ActivityPhase::Withdraw),
                 "seed {seed} tick {tick}"
             );
             if before.phase == PartnerPhase::Idle as u32 {
                 lay = world.parts.all().to_vec();
             }
             if let (ActivityPhase::Return, ActivityPhase::Withdraw, Some(part)) =
-                (last, stage, person.part.get())
+                (last, phase, person.part.get())
             {
                 let (from, to) = (lay[part].position, world.parts.all()[part].position);
                 let moved = (0..2).map(|axis| (from[axis] - to[axis]).powi(2)).sum::<f64>().sqrt();
@@ -99,9 +99,9 @@ fn error_is_noticed_one_to_three_seconds_after_the_grasp() {
 
 #[test]
 fn tracker_loses_the_hand_in_bursts_at_the_rate_that_is_given() {
-    let longest_gap = |rates: &str| {
+    let longest_gap = |settings: &str| {
         let (mut frames, mut last, mut longest) = (0, 0, 0);
-        run(1, 100, rates, |tick, _, out, _| {
+        run(1, 100, settings, |tick, _, out, _| {
             let captured = out.sample.hand.captured_cycle;
             if captured != last {
                 (frames, last) = (frames + 1, captured);
@@ -132,16 +132,16 @@ fn movement_time_stays_within_its_range() {
 
 #[test]
 fn same_seed_gives_the_same_person_also_after_a_restart() {
-    let rates = "goal=0.4,hidden=0.2,words=0.2,dropouts=1";
-    let (mut one, mut hand, mut out) = (world(4, rates), FakeRobot::new(), Out::new());
-    let (mut other, mut other_hand, mut other_out) = (world(4, rates), FakeRobot::new(), Out::new());
+    let settings = "goal=0.4,hidden=0.2,words=0.2,dropouts=1";
+    let (mut one, mut hand, mut out) = (world(4, settings), FakeRobot::new(), Out::new());
+    let (mut other, mut other_hand, mut other_out) = (world(4, settings), FakeRobot::new(), Out::new());
     for tick in 1..=60_000 {
         hand.step(tick, &mut one, &mut out);
         other_hand.step(tick, &mut other, &mut other_out);
         assert!(bytes_of(&*out.state) == bytes_of(&*other_out.state), "tick {tick}");
         assert!(bytes_of(&*out.sample) == bytes_of(&*other_out.sample), "tick {tick}");
         if tick % 977 == 0 {
-            other = world(4, rates);
+            other = world(4, settings);
             other.resume(&other_out.state).unwrap();
         }
     }
