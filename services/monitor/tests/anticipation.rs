@@ -38,7 +38,7 @@ fn from(start: u64, cycle: u64, action: usize) -> Box<FieldFrame> {
 
 #[test]
 fn right_decision_leads_by_the_time_from_its_crossing_to_the_grasp() {
-    let event = one_action(MOUNT, LID, |cycle| from(600, cycle, HOLD_LID));
+    let event = one_action(MOUNT, LID, |cycle| from(600, cycle, STEADY_LID));
     assert_eq!((event.onset_ms, event.grasp_ms, event.decided_ms), (100, 800, Some(600)));
     assert_eq!(event.lead_ms, Some(200));
     assert_eq!(event.decided.as_deref(), Some("steady: lid"));
@@ -60,7 +60,7 @@ fn a_mistake_is_answered_rightly_by_its_correction() {
         play(ticks).remove(0)
     };
     assert!(answered(OBJECT_TO_HINGE).anticipated());
-    let helped = answered(TAKE_HINGE);
+    let helped = answered(RECEIVE_HINGE);
     assert!(helped.wrong() && helped.expected.as_deref() == Some("object: hinge"), "{helped:?}");
 }
 
@@ -70,7 +70,7 @@ fn a_mistake_whose_turn_comes_on_the_way_is_answered_like_any_action() {
         let grasp = if cycle >= 800 { 800 } else { 0 };
         let mut truth = acting(cycle, u32::from(cycle >= 100), MOUNT, LID, 100, grasp);
         truth.error = if cycle < 400 { PartnerError::Early } else { PartnerError::None } as u32;
-        (truth, from(600, cycle, HOLD_LID))
+        (truth, from(600, cycle, STEADY_LID))
     });
     assert!(play(ticks).remove(0).anticipated());
 }
@@ -93,41 +93,41 @@ fn bringing_what_the_next_step_needs_answers_by_understanding() {
 
 #[test]
 fn wrong_decision_during_the_reach_is_counted_as_wrong() {
-    let event = one_action(MOUNT, LID, |cycle| from(600, cycle, TAKE_HINGE));
+    let event = one_action(MOUNT, LID, |cycle| from(600, cycle, RECEIVE_HINGE));
     assert_eq!(event.expected.as_deref(), Some("steady: lid"));
-    assert_eq!(event.decided.as_deref(), Some("take: hinge"));
+    assert_eq!(event.decided.as_deref(), Some("receive: hinge"));
     assert!(event.wrong() && event.decided_before_grasp() && !event.anticipated());
 }
 
 #[test]
 fn what_the_robot_was_doing_before_the_reach_is_no_answer() {
-    let event = one_action(MOUNT, LID, |cycle| from(50, cycle, ASK));
+    let event = one_action(MOUNT, LID, |cycle| from(50, cycle, REQUEST));
     assert_eq!((event.decided, event.lead_ms), (None, None));
 }
 
 #[test]
 fn decision_after_the_grasp_has_a_negative_lead() {
-    let event = one_action(PASS, HINGE, |cycle| from(950, cycle, TAKE_HINGE));
+    let event = one_action(PASS, HINGE, |cycle| from(950, cycle, RECEIVE_HINGE));
     assert_eq!(event.lead_ms, Some(-150));
     assert!(event.correct && !event.anticipated() && !event.wrong());
 }
 
 #[test]
 fn decision_after_the_hand_came_to_rest_is_none() {
-    let event = one_action(PASS, HINGE, |cycle| from(1600, cycle, TAKE_HINGE));
+    let event = one_action(PASS, HINGE, |cycle| from(1600, cycle, RECEIVE_HINGE));
     assert_eq!(event.decided, None);
 }
 
 #[test]
 fn peak_that_does_not_stay_does_not_count_and_its_return_does() {
     let event = one_action(MOUNT, LID, |cycle| match cycle {
-        300..500 => decided(cycle, HOLD_LID, 300),
-        700.. => decided(cycle, HOLD_LID, 700),
+        300..500 => decided(cycle, STEADY_LID, 300),
+        700.. => decided(cycle, STEADY_LID, 700),
         _ => frame(cycle),
     });
     assert_eq!(event.lead_ms, Some(100));
     let event = one_action(MOUNT, LID, |cycle| match cycle {
-        300..799 => decided(cycle, HOLD_LID, 300),
+        300..799 => decided(cycle, STEADY_LID, 300),
         _ => frame(cycle),
     });
     assert_eq!(event.decided, None);
@@ -136,8 +136,8 @@ fn peak_that_does_not_stay_does_not_count_and_its_return_does() {
 #[test]
 fn changed_mind_counts_as_it_stands_at_the_grasp() {
     let event = one_action(MOUNT, LID, |cycle| match cycle {
-        300..500 => decided(cycle, TAKE_HINGE, 300),
-        _ => from(500, cycle, HOLD_LID),
+        300..500 => decided(cycle, RECEIVE_HINGE, 300),
+        _ => from(500, cycle, STEADY_LID),
     });
     assert!(event.anticipated());
     assert_eq!(event.lead_ms, Some(300));
@@ -164,7 +164,7 @@ fn goal_counts_where_no_action_complements_it() {
 fn frames_that_were_lost_on_the_way_change_nothing() {
     let ticks = (0..1500).filter(|cycle| cycle % 20 == 7 || *cycle == 120);
     let truth = |cycle| acting(cycle, 1, MOUNT, LID, 100, if cycle >= 800 { 800 } else { 0 });
-    let actions = play(ticks.map(|cycle| (truth(cycle), from(600, cycle, HOLD_LID))));
+    let actions = play(ticks.map(|cycle| (truth(cycle), from(600, cycle, STEADY_LID))));
     assert_eq!(actions[0].lead_ms, Some(200));
 }
 
@@ -172,8 +172,8 @@ fn frames_that_were_lost_on_the_way_change_nothing() {
 fn action_that_is_broken_off_gives_no_event_and_the_next_one_does() {
     let ticks = (0..1000).map(|cycle| match cycle {
         0..300 => (acting(cycle, 1, MOUNT, LID, 0, 0), frame(cycle)),
-        300..700 => (acting(cycle, 2, PASS, HINGE, 300, 0), from(500, cycle, TAKE_HINGE)),
-        _ => (acting(cycle, 2, PASS, HINGE, 300, 700), from(500, cycle, TAKE_HINGE)),
+        300..700 => (acting(cycle, 2, PASS, HINGE, 300, 0), from(500, cycle, RECEIVE_HINGE)),
+        _ => (acting(cycle, 2, PASS, HINGE, 300, 700), from(500, cycle, RECEIVE_HINGE)),
     });
     let actions = play(ticks);
     assert_eq!(actions.len(), 1);
@@ -186,7 +186,11 @@ fn action_that_is_in_the_report_already_is_not_reported_again() {
     anticipation.resume(1);
     let mut events = Vec::new();
     for cycle in 700..900 {
-        anticipation.observe(&acting(cycle, 1, MOUNT, LID, 100, 600), &from(1, cycle, HOLD_LID), &mut events);
+        anticipation.observe(
+            &acting(cycle, 1, MOUNT, LID, 100, 600),
+            &from(1, cycle, STEADY_LID),
+            &mut events,
+        );
     }
     anticipation.finish(&mut events);
     assert!(events.is_empty());

@@ -47,7 +47,7 @@ fn play(monitor: &mut Monitor, cycles: std::ops::Range<u64>) {
         let mut truth = acting(cycle, 1, MOUNT, LID, 100, if cycle >= 800 { 800 } else { 0 });
         truth.achieved = u64::from(cycle >= 900) | u64::from(cycle >= 1200) << 1;
         monitor.truth(&truth, &mut events);
-        let mut frame = if cycle >= 600 { decided(cycle, HOLD_LID, 600) } else { frame(cycle) };
+        let mut frame = if cycle >= 600 { decided(cycle, STEADY_LID, 600) } else { frame(cycle) };
         let memory = frame.populations(LayerKind::SubgoalsAchieved).start;
         frame.since[memory] = if cycle >= 950 { 950 } else { 0 };
         monitor.frame(&frame, &mut events);
@@ -181,7 +181,7 @@ fn each_rule_that_is_broken_is_one_reason() {
     for cycle in 0..1000 {
         // The wrong action is decided on, and half of the deadlines are missed.
         monitor.truth(&acting(cycle, 1, MOUNT, LID, 100, if cycle >= 800 { 800 } else { 0 }), &mut events);
-        let frame = if cycle >= 600 { decided(cycle, TAKE_HINGE, 600) } else { frame(cycle) };
+        let frame = if cycle >= 600 { decided(cycle, RECEIVE_HINGE, 600) } else { frame(cycle) };
         monitor.frame(&frame, &mut events);
         let mut late = pulse(cycle, 0);
         late.missed = cycle.div_ceil(2);
@@ -213,7 +213,7 @@ fn a_process_may_be_late_as_often_as_the_machine_itself() {
 fn frames_of_another_task_are_not_judged() {
     let folder = tempfile::tempdir().unwrap();
     let mut monitor = open(folder.path());
-    let mut foreign = decided(1, HOLD_LID, 1);
+    let mut foreign = decided(1, STEADY_LID, 1);
     foreign.task = 43;
     let mut events = Vec::new();
     monitor.frame(&foreign, &mut events);

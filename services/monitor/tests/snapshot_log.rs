@@ -171,7 +171,7 @@ fn a_snapshot_tells_who_does_what_and_where_everything_is() {
     let wrist = &mut run.sample.hand.keypoints[KeypointName::Wrist as usize];
     (wrist.position, wrist.confidence) = ([0.3, 0.4, 0.5], 0.9);
     let mut command: coact_messages::Command = bytemuck::Zeroable::zeroed();
-    command.action = TAKE_HINGE as u32;
+    command.action = RECEIVE_HINGE as u32;
     run.log.command(&command);
     run.pass(300);
     run.truth.achieved = 0b01;

@@ -8,15 +8,16 @@ use coact_joint_task::{
 };
 use coact_messages::{FieldFrame, LayerKind, NONE, PartnerPhase, Pulse, Truth};
 use coact_monitor::Intentions;
+use coact_period::PERIOD_NS;
 
 /// Chains, subgoals and actions of [`task`].
 pub const MOUNT: u32 = 0;
 pub const PASS: u32 = 1;
 pub const LID: u32 = 0;
 pub const HINGE: u32 = 1;
-pub const HOLD_LID: usize = 0;
-pub const TAKE_HINGE: usize = 1;
-pub const ASK: usize = 2;
+pub const STEADY_LID: usize = 0;
+pub const RECEIVE_HINGE: usize = 1;
+pub const REQUEST: usize = 2;
 pub const OBJECT_TO_HINGE: usize = 3;
 pub const GIVE_HINGE: usize = 4;
 /// The goal of mounting the lid, in the intention layer.
@@ -53,11 +54,11 @@ pub fn task() -> Task {
         grips: vec![Grip { name: "top".into(), pitch: -1.5 }],
         gestures: Vec::new(),
         acts: vec![Act::Rest, Act::Grasp { grip: 0, kind: 0 }],
-        chains: vec![chain("mount", "steady"), chain("pass", "take")],
+        chains: vec![chain("mount", "steady"), chain("pass", "receive")],
         actions: vec![
             action("steady", ActionType::Steady, 0, "lid"),
-            action("take", ActionType::Receive, 1, "hinge"),
-            action("ask", ActionType::Request, 1, "hinge"),
+            action("receive", ActionType::Receive, 1, "hinge"),
+            action("request", ActionType::Request, 1, "hinge"),
             action("object", ActionType::Speak, 1, "hinge"),
             action("give", ActionType::Give, 1, "hinge"),
         ],
@@ -139,7 +140,7 @@ pub fn resting(cycle: u64, last: &Truth) -> Truth {
 
 /// Cycle number `cycle` of a process: due at its release, started `late_ns` later, done 100 µs after.
 pub fn pulse(cycle: u64, late_ns: u64) -> Pulse {
-    let mut pulse = Pulse { released_ns: (cycle + 1) * 1_000_000, ..Pulse::default() };
+    let mut pulse = Pulse { released_ns: (cycle + 1) * PERIOD_NS, ..Pulse::default() };
     (pulse.header.cycle, pulse.header.sequence) = (cycle, cycle);
     pulse.scheduled_ns = pulse.released_ns;
     pulse.started_ns = pulse.scheduled_ns + late_ns;
