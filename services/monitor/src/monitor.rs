@@ -1,17 +1,17 @@
-use crate::plots::{PlotError, anticipation_timeline, percentile_curve};
+use crate::plots::{anticipation_timeline, percentile_curve};
 use crate::{
-    Anticipation, Faults, Findings, Intentions, Latencies, LatencyError, PipelineNode, Reaction, Rules,
-    SnapshotLog, TaskWatch, Tracking,
+    Anticipation, Faults, Findings, Latencies, MonitorError, Reaction, Rules, SnapshotLog, TaskWatch,
+    Tracking, Watched,
 };
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, NONE, Pulse, SensorSample, Speech, Truth};
 use coact_period::cycles;
 use coact_run_records::{
-    Environment, Event, LogFollower, Record, RecordError, RunLog, Snapshot, Summary, SupervisorEvent,
+    Environment, Event, LogFollower, Record, RunLog, Snapshot, Summary, SupervisorEvent,
 };
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 /// After so many cycles a frame is no longer waited for: the fields are dead or far behind. Twice as long as the
 /// watchdog lets a silent process live, so that a stall alone changes no judgement.
@@ -38,47 +38,6 @@ pub struct Monitor {
     /// Truths that are younger than the newest frame.
     waiting: VecDeque<Truth>,
     truth: Truth,
-}
-
-/// What a monitor watches.
-#[derive(Debug, Clone)]
-pub struct Watched {
-    /// The report directory.
-    pub report: PathBuf,
-    /// The task.
-    pub task: Task,
-    /// The goals that its intention layer can infer.
-    pub intentions: Intentions,
-    /// The processes that send pulses.
-    pub nodes: Vec<PipelineNode>,
-    /// What the run must reach.
-    pub rules: Rules,
-    /// Start of the run, ns of `CLOCK_MONOTONIC`.
-    pub start_ns: u64,
-    /// The same instant by the calendar.
-    pub started: SystemTime,
-}
-
-/// Why a report could not be written.
-#[derive(Debug, thiserror::Error)]
-pub enum MonitorError {
-    /// Histograms and counters.
-    #[error(transparent)]
-    Latency(#[from] LatencyError),
-    /// A log, or the summary.
-    #[error(transparent)]
-    Record(#[from] RecordError),
-    /// Pictures.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
-    /// Another file of the report.
-    #[error("{path}: {cause}")]
-    File {
-        /// Which.
-        path: PathBuf,
-        /// What the system said.
-        cause: std::io::Error,
-    },
 }
 
 impl Monitor {

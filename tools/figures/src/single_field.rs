@@ -83,12 +83,23 @@ pub fn activation(caption: Caption, letters: &Lettering) -> Result<Sheet, Figure
 
 /// Figure 4: four alternatives compete; one gets more input, wins and suppresses the others.
 pub fn decision(caption: Caption, letters: &Lettering) -> Result<Sheet, FigureError> {
+    let evolution = competition()?;
+    let curves = three_instants(&evolution);
+    let mut sheet = evolution_page(caption, evolution).draw(letters);
+    let top = sheet.height as i32;
+    curves.legend(&mut sheet, [MARGIN + 60, top + 50]);
+    curves.draw(&mut sheet, [LEFT, top], [RIGHT, top + 360]);
+    sheet.height = (top + 360 + MARGIN) as u32;
+    Ok(sheet)
+}
+
+/// The alternatives' activity before and after A2 gets more input.
+fn competition() -> Result<Surface, FigureError> {
     let mut field = DrivenField::new(PRESHAPE.len(), 1.5, -3.0)?;
     field.drive(1000, &PRESHAPE);
     let mut strength = PRESHAPE;
-    let alternatives: Vec<String> = (1..=PRESHAPE.len()).map(|number| format!("A{number}")).collect();
     let mut evolution = Surface {
-        labels: alternatives.clone(),
+        labels: (1..=PRESHAPE.len()).map(|number| format!("A{number}")).collect(),
         sites: SITES,
         start_ms: -SHOWN[0],
         period_ms: STEP_MS,
@@ -98,19 +109,26 @@ pub fn decision(caption: Caption, letters: &Lettering) -> Result<Sheet, FigureEr
         strength[1] = PRESHAPE[1] + if ms >= 0 { ADDITIONAL } else { 0.0 };
         evolution.values.extend(field.drive(1, &strength).iter().map(|&u| u as f32));
     }
+    Ok(evolution)
+}
+
+fn three_instants(evolution: &Surface) -> Curves {
     let instant = |ms: f64, colour, dashes| {
         let values = evolution.at(ms).iter().map(|&u| f64::from(u)).collect();
         (format!("t = {ms:.0} ms"), values, LineStyle { colour, dashes })
     };
-    let curves = Curves {
+    Curves {
         title: "activity u(x) at three instants".into(),
         curves: vec![
             instant(0.0, BLACK, &[]),
             instant(60.0, DISTINCT[0], DASHED),
             instant(SHOWN[1], DISTINCT[1], DASH_DOTTED),
         ],
-        populations: alternatives,
-    };
+        populations: evolution.labels.clone(),
+    }
+}
+
+fn evolution_page(caption: Caption, evolution: Surface) -> LayerPage {
     let [low, high] = evolution.extremes();
     let input = Interval {
         name: "t = 0:".into(),
@@ -118,7 +136,7 @@ pub fn decision(caption: Caption, letters: &Lettering) -> Result<Sheet, FigureEr
         from_ms: 0.0,
         to_ms: SHOWN[1],
     };
-    let page = LayerPage {
+    LayerPage {
         caption,
         columns: vec![Column::marked(-SHOWN[0], SHOWN[1], vec![input])],
         maps: vec![HeatMap {
@@ -127,11 +145,5 @@ pub fn decision(caption: Caption, letters: &Lettering) -> Result<Sheet, FigureEr
             limits: [low.floor(), high.ceil()],
             ticks: Vec::new(),
         }],
-    };
-    let mut sheet = page.draw(letters);
-    let top = sheet.height as i32;
-    curves.legend(&mut sheet, [MARGIN + 60, top + 50]);
-    curves.draw(&mut sheet, [LEFT, top], [RIGHT, top + 360]);
-    sheet.height = (top + 360 + MARGIN) as u32;
-    Ok(sheet)
+    }
 }

@@ -1,0 +1,23 @@
+use crate::{Intentions, PipelineNode, Rules};
+use coact_joint_task::Task;
+use std::path::PathBuf;
+use std::time::SystemTime;
+
+/// What a monitor watches.
+#[derive(Debug, Clone)]
+pub struct Watched {
+    /// The report directory.
+    pub report: PathBuf,
+    /// The task.
+    pub task: Task,
+    /// The goals that its intention layer can infer.
+    pub intentions: Intentions,
+    /// The processes that send pulses.
+    pub nodes: Vec<PipelineNode>,
+    /// What the run must reach.
+    pub rules: Rules,
+    /// Start of the run, ns of `CLOCK_MONOTONIC`.
+    pub start_ns: u64,
+    /// The same instant by the calendar.
+    pub started: SystemTime,
+}
