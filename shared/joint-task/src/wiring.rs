@@ -26,24 +26,31 @@ impl NetworkPlan {
     /// # Errors
     /// A [`TaskError`] that names file, line, key and what was expected.
     pub fn load(path: &Path) -> Result<(Task, Self), TaskError> {
-        let (mut task, network, learned) = crate::load_task::load(path)?;
-        let (mut plan, fingerprint) = wire(&task, &network)?;
-        task.fingerprint ^= fingerprint;
+        let (task, network, learned) = crate::load_task::load(path)?;
+        let (mut task, mut plan) = Self::of_task(task, &network)?;
         if let Some(learned) = learned {
             plan.learn(&mut task, &learned)?;
         }
         Ok((task, plan))
     }
-}
 
-/// The network of `task` by the rules at `path`, and the fingerprint of those rules.
-fn wire(task: &Task, path: &Path) -> Result<(NetworkPlan, u64), TaskError> {
-    let source = SourceFile::read(path)?;
-    let file: NetworkFile = source.parse()?;
-    let mut hash = DefaultHasher::new();
-    hash.write(source.text().as_bytes());
-    let plan = Wiring { source: &source, file: &file, task }.plan()?;
-    Ok((plan, hash.finish()))
+    /// Makes the network of a task made in code, by the rules of the network file at `rules`; the rules' fingerprint is
+    /// added to the task's.
+    ///
+    /// # Errors
+    /// A [`TaskError`] that names the network file's line, key and what was expected.
+    ///
+    /// # Panics
+    /// An index in the task is out of the range of the list that it belongs to. Those of a file are checked.
+    pub fn of_task(mut task: Task, rules: &Path) -> Result<(Task, Self), TaskError> {
+        let source = SourceFile::read(rules)?;
+        let file: NetworkFile = source.parse()?;
+        let mut hash = DefaultHasher::new();
+        hash.write(source.text().as_bytes());
+        let plan = Wiring { source: &source, file: &file, task: &task }.plan()?;
+        task.fingerprint ^= hash.finish();
+        Ok((task, plan))
+    }
 }
 
 struct Wiring<'a> {

@@ -1,0 +1,60 @@
+use bytemuck::{Pod, Zeroable};
+use coact_messages::{Header, Percept};
+use coact_realtime::Message;
+use iceoryx2::prelude::ZeroCopySend;
+
+/// How fast the person's hand moves, smoothed (1 kHz).
+///
+/// A message is plain memory that begins with a [`Header`]: `repr(C)`, without pointers and padding. Its type name is
+/// what programs in other languages state to read it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable, ZeroCopySend)]
+#[type_name("example::HandSpeed")]
+pub struct HandSpeed {
+    /// Header; the port that sends the message fills it.
+    pub header: Header,
+    /// Speed now, m/s.
+    pub now: f64,
+    /// Highest speed of the present reach, or of the last one, m/s.
+    pub highest: f64,
+    /// Reaches so far.
+    pub reaches: u64,
+    /// 1 while the person reaches, else 0.
+    pub reaching: u64,
+}
+
+/// Fraction by which the smoothed speed follows in one cycle: a time constant of 20 cycles, shorter than a reach and longer
+/// than the tracker's noise.
+const FOLLOWS: f64 = 0.05;
+
+impl HandSpeed {
+    /// Topic of the process `stage_as_process`.
+    pub const TOPIC: &str = "example/hand-speed";
+
+    /// The stage: one period, from the message of the period before into this one, which may hold anything.
+    pub fn step(&mut self, percept: Option<&Percept>, previous: &Self) {
+        let Some(hand) = percept.map(|percept| percept.hand).filter(|hand| hand.tracked == 1) else {
+            // Nothing is seen of the hand: what is known of it stays.
+            return *self = *previous;
+        };
+        let measured = hand.velocity.iter().map(|velocity| velocity * velocity).sum::<f64>().sqrt();
+        let begins = hand.reaching == 1 && previous.reaching == 0;
+        self.now = previous.now + FOLLOWS * (measured - previous.now);
+        self.highest = if begins { self.now } else { previous.highest };
+        if hand.reaching == 1 {
+            self.highest = self.highest.max(self.now);
+        }
+        self.reaches = previous.reaches + u64::from(begins);
+        self.reaching = u64::from(hand.reaching);
+    }
+}
+
+impl Message for HandSpeed {
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn header_mut(&mut self) -> &mut Header {
+        &mut self.header
+    }
+}
