@@ -34,14 +34,14 @@ fn each_stage_has_one_checkpoint_which_the_supervisor_reads() {
     assert_eq!((state_of("monitor"), state_of("voice")), (None, None));
 }
 
-/// `COACT_UPDATE=1 cargo test -p coact-messages --test processes` draws it anew.
+/// `COACT_WRITE_DIAGRAM=1 cargo test -p coact-messages --test processes` draws it anew.
 #[test]
 fn diagram_in_the_documents_is_the_one_that_the_table_draws() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/processes.svg");
-    if std::env::var_os("COACT_UPDATE").is_some() {
+    if std::env::var_os("COACT_WRITE_DIAGRAM").is_some() {
         std::fs::write(&file, drawing::drawing()).unwrap();
     }
     let kept = std::fs::read_to_string(&file).unwrap_or_default();
-    let how = "COACT_UPDATE=1 cargo test -p coact-messages --test processes";
+    let how = "COACT_WRITE_DIAGRAM=1 cargo test -p coact-messages --test processes";
     assert!(kept == drawing::drawing(), "docs/processes.svg is not what the table of topics draws: {how}");
 }
