@@ -4,7 +4,7 @@ use parry3d_f64::query::ClosestPoints;
 use parry3d_f64::query::details::closest_points_segment_segment;
 use parry3d_f64::shape::Segment;
 
-/// All points within a radius of a line: what links, fingers and held parts are to the planner. m.
+/// All points within a radius of a line segment; lengths in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capsule {
     /// One end of the line.
@@ -15,19 +15,22 @@ pub struct Capsule {
     pub radius: f64,
 }
 
-/// Lengths of the inner line that are tried when something is wrapped.
+/// Lengths of the inner line that are tried for a capsule of least volume. Chosen by hand: the volume is flat near its
+/// minimum.
 const LENGTHS: u32 = 32;
+/// Smallest squared length of the inner line, m²: it only guards a division.
+const TINY: f64 = 1e-18;
 
 impl Capsule {
-    /// The capsule of least volume around a collision_model that reaches `half` along the z axis of `place` and `around` away
+    /// The capsule of least volume around what reaches `half` along the z axis of `place` and `around` away
     /// from that axis.
     pub fn around(place: &Isometry3<f64>, half: f64, around: f64) -> Self {
-        let wrapped = |step: u32| {
+        let enclosing = |step: u32| {
             let line = half * f64::from(step) / f64::from(LENGTHS);
             (line, around.hypot(half - line))
         };
         let volume = |(line, radius): (f64, f64)| radius * radius * (4.0 / 3.0 * radius + 2.0 * line);
-        let least = (0..=LENGTHS).map(wrapped).min_by(|one, other| volume(*one).total_cmp(&volume(*other)));
+        let least = (0..=LENGTHS).map(enclosing).min_by(|one, other| volume(*one).total_cmp(&volume(*other)));
         let (line, radius) = least.unwrap_or((half, around));
         let end = |sign: f64| place * Point3::new(0.0, 0.0, sign * line);
         Self { start: end(-1.0), end: end(1.0), radius }
@@ -62,8 +65,8 @@ impl Capsule {
     /// Distance of a point from the capsule's line, m.
     pub fn distance_of_line(&self, point: &Point3<f64>) -> f64 {
         let line = self.end - self.start;
-        let share = (point - self.start).dot(&line) / line.norm_squared().max(1e-18);
-        (point - (self.start + line * share.clamp(0.0, 1.0))).norm()
+        let fraction = (point - self.start).dot(&line) / line.norm_squared().max(TINY);
+        (point - (self.start + line * fraction.clamp(0.0, 1.0))).norm()
     }
 
     /// Distance of the surfaces of two capsules, m; negative when they overlap.
@@ -87,10 +90,10 @@ impl Capsule {
         }
     }
 
-    /// A distance, m, that two capsules have at least: from this line to a ball around the other.
+    /// A distance, m, that two capsules have at least: from this line to a sphere around the other.
     pub fn least_distance(&self, other: &Self) -> f64 {
-        let ball = 0.5 * (other.end - other.start).norm() + other.radius;
-        self.distance_of_line(&nalgebra::center(&other.start, &other.end)) - ball - self.radius
+        let sphere = 0.5 * (other.end - other.start).norm() + other.radius;
+        self.distance_of_line(&nalgebra::center(&other.start, &other.end)) - sphere - self.radius
     }
 }
 

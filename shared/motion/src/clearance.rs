@@ -1,50 +1,31 @@
 use crate::frames::Frames;
 use crate::solid::pose;
-use crate::{Capsule, CollisionModel, Mechanism, Scene, SegmentKind};
+use crate::{Capsule, CollisionModel, Counterpart, Mechanism, Proximity, Scene, SegmentKind};
 use coact_robot::Posture;
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::{self, Contact};
 use std::ops::ControlFlow;
 
-/// Distances between a collision_model and all it must stay clear of.
+/// The clearance of a robot: its distances from obstacles and from itself.
 #[derive(Clone, Copy)]
 pub struct Clearance<'a> {
-    /// Whose collision_model.
+    /// The arm.
     pub mechanism: &'a Mechanism,
-    /// Arm, hand, held part.
+    /// The forms of arm, hand and held part.
     pub collision_model: &'a CollisionModel,
     /// The surroundings.
     pub scene: &'a Scene,
-    /// What the collision_model is at: the hand, and what it holds, may touch what the scene says on leaving and on the approach, and
-    /// fingers that move with the arm stand differently at each segment.
+    /// The segment of the movement. The hand, and what it holds, may touch what the scene allows while it leaves and while
+    /// it approaches; fingers that move while the arm does stand differently in each segment.
     pub segment: SegmentKind,
 }
 
-/// A link near something.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Proximity {
-    /// Index of the link in the collision_model.
-    pub link: usize,
-    /// What it is near to.
-    pub other: Counterpart,
-    /// Distance of the surfaces, m; negative when they overlap.
-    pub distance: f64,
-    /// Change of the distance for each rad of each arm joint, m/rad.
-    pub gradient: Posture,
-}
-
-/// What a link is near to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Counterpart {
-    /// An obstacle, by its index in the scene.
-    Obstacle(usize),
-    /// Another link of the same collision_model.
-    Link(usize),
-}
+/// Distance of two points below which no direction is computed from them, m: it would be one of rounding.
+const APART: f64 = 1e-4;
 
 impl Clearance<'_> {
-    /// The same at another segment.
+    /// The same in another segment.
     pub(crate) fn at(self, segment: SegmentKind) -> Self {
         Self { segment, ..self }
     }
@@ -68,12 +49,12 @@ impl Clearance<'_> {
         nearest
     }
 
-    /// Whether everything is at least `margin` m away.
-    pub fn is_clear(&self, posture: &Posture, margin: f64) -> bool {
-        self.visit(posture, margin, &mut |_| ControlFlow::Break(())).is_continue()
+    /// Whether everything is at least `least` m away.
+    pub fn is_clear(&self, posture: &Posture, least: f64) -> bool {
+        self.visit(posture, least, &mut |_| ControlFlow::Break(())).is_continue()
     }
 
-    /// Names both sides of a nearness.
+    /// Names of a link and of what it is near to.
     pub(crate) fn names(&self, near: &Proximity) -> (String, String) {
         let other = match near.other {
             Counterpart::Obstacle(index) => &self.scene.obstacles[index].name,
@@ -82,7 +63,7 @@ impl Clearance<'_> {
         (self.collision_model.links[near.link].name.clone(), other.clone())
     }
 
-    /// Calls `found` for what is nearer than `within` m; it answers what to look for from then on.
+    /// Calls `found` for what is nearer than `within` m; `found` returns the distance from then on.
     fn visit(
         &self,
         posture: &Posture,
@@ -94,11 +75,12 @@ impl Clearance<'_> {
         let bounding_capsules: Vec<Capsule> =
             links.iter().map(|link| link.bounding_capsule.within(&frames.carrier(link))).collect();
         let is_there = |link: usize| links[link].segments[self.segment as usize];
-        // What is far from a ball around the hand is far from all of its many links.
-        let ball =
-            self.collision_model.hand.map(|ball| ball.within(&frames.pose[self.mechanism.joints() - 1]));
-        let far_from_hand =
-            |bounding_capsule: &Capsule| ball.is_some_and(|ball| are_apart(&ball, bounding_capsule, within));
+        // What is far from a sphere around the hand is far from all of its many links.
+        let sphere =
+            self.collision_model.hand.map(|sphere| sphere.within(&frames.pose[self.mechanism.joints() - 1]));
+        let far_from_hand = |bounding_capsule: &Capsule| {
+            sphere.is_some_and(|sphere| are_apart(&sphere, bounding_capsule, within))
+        };
         let obstacles = self.scene.obstacles.iter();
         let far_obstacles: Vec<bool> =
             obstacles.map(|obstacle| far_from_hand(&obstacle.bounding_capsule)).collect();
@@ -173,7 +155,7 @@ impl Clearance<'_> {
     }
 }
 
-/// Whether two bounding_capsules are certainly farther apart than `within` m.
+/// Whether two bounding capsules are certainly farther apart than `within` m.
 fn are_apart(one: &Capsule, other: &Capsule, within: f64) -> bool {
     one.least_distance(other) > within || other.least_distance(one) > within
 }
@@ -185,9 +167,6 @@ fn first_side(contact: &Contact) -> (Point3<f64>, Vector3<f64>) {
     let away = (first - second).try_normalize(APART).filter(|_| contact.dist > 0.0);
     (Point3::from(first), away.unwrap_or_else(|| -vector(contact.normal1)))
 }
-
-/// Distance of two points that makes a direction, m.
-const APART: f64 = 1e-4;
 
 fn vector(vector: Vector) -> Vector3<f64> {
     Vector3::new(vector.x, vector.y, vector.z)

@@ -1,4 +1,4 @@
-//! Links of a URDF as links of a collision_model.
+//! The collision geometry of a URDF as links of a collision model.
 
 use crate::Link;
 use crate::{Capsule, Mechanism, Meshes, Solid};
@@ -6,11 +6,13 @@ use coact_robot::{HAND_JOINTS, Joint, RobotError, Urdf, isometry};
 use nalgebra::{Isometry3, Point3, Vector3};
 use std::path::{Path, PathBuf};
 
-/// Turn of a finger joint from one shape that is held against the surroundings to the next, rad: no more than a few
-/// centimetres at the finger tip, of which the finger itself takes one or two.
-const TURN: f64 = 0.4;
-/// Share of an arm link's stand-in radius that stands in for a finger.
-const FINGER: f64 = 1.0 / 6.0;
+/// Largest turn of a finger joint from one shape of the hand that is checked to the next, rad. A trade-off with the time
+/// of planning: the finger tip moves a few centimetres, of which the finger itself fills one or two.
+const FINGER_STEP: f64 = 0.4;
+/// Radius of a capsule that stands in for a finger's mesh, as a fraction of that for an arm link. Chosen by hand.
+const FINGER_RADIUS: f64 = 1.0 / 6.0;
+/// Fingers shorter than this are none, m.
+const SHORTEST_FINGERS: f64 = 1e-3;
 
 /// Distance of the farthest link of the fingers from the palm, with all as straight as they go, m.
 pub(crate) fn finger_length(urdf: &Urdf, palm: &str, arm_joints: usize) -> Result<f64, RobotError> {
@@ -26,13 +28,13 @@ pub(crate) fn finger_length(urdf: &Urdf, palm: &str, arm_joints: usize) -> Resul
             longest = longest.max(pose.translation.vector.norm());
         }
     }
-    if longest < 1e-3 {
+    if longest < SHORTEST_FINGERS {
         return Err(urdf.fault(palm, "has no fingers of any length below it; expected a hand"));
     }
     Ok(longest)
 }
 
-/// Links of all links that the arm's joints alone carry.
+/// The links that the arm's joints alone carry.
 pub(crate) fn arm_links(mechanism: &Mechanism) -> Result<Vec<Link>, RobotError> {
     let mut links = Vec::new();
     for link in mechanism.urdf.links() {
@@ -44,7 +46,7 @@ pub(crate) fn arm_links(mechanism: &Mechanism) -> Result<Vec<Link>, RobotError> 
     Ok(links)
 }
 
-/// Links of the links below the palm, with the fingers at these angles.
+/// The links below the palm, with the fingers at these angles.
 pub(crate) fn hand_links(
     mechanism: &Mechanism,
     angle: &dyn Fn(&str) -> f64,
@@ -70,13 +72,14 @@ pub(crate) fn hand_links(
     Ok(links)
 }
 
-/// These shapes of a hand, and those between them, so many that no joint turns by more than 0.4 rad from one to the next.
+/// These shapes of a hand, and those between them: so many that no joint turns by more than [`FINGER_STEP`] from one to the
+/// next.
 pub(crate) fn passed(shapes: &[[f64; HAND_JOINTS]]) -> Vec<[f64; HAND_JOINTS]> {
     let mut passed: Vec<_> = shapes.first().copied().into_iter().collect();
     for pair in shapes.windows(2) {
         let turn = |joint: usize| pair[1][joint] - pair[0][joint];
         let most = (0..HAND_JOINTS).map(|joint| turn(joint).abs()).fold(0.0, f64::max);
-        let steps = (most / TURN).ceil();
+        let steps = (most / FINGER_STEP).ceil();
         passed.extend((1..=steps as u32).map(|step| -> [f64; HAND_JOINTS] {
             std::array::from_fn(|joint| pair[0][joint] + turn(joint) * f64::from(step) / steps)
         }));
@@ -122,7 +125,7 @@ fn straight(half: f64, radius: f64) -> Solid {
     Solid::Capsule(Capsule { start: end(-1.0), end: end(1.0), radius })
 }
 
-/// The capsule around a mesh, or what stands in for it, in the frame of its geometry.
+/// The bounding capsule of a mesh, or what stands in for it, in the frame of its geometry.
 fn mesh(
     mechanism: &Mechanism,
     link: &urdf_rs::Link,
@@ -151,7 +154,7 @@ fn mesh(
             ),
         )),
         (None, Meshes::OrCapsules(radius)) => {
-            let radius = if finger { FINGER * radius } else { radius };
+            let radius = if finger { FINGER_RADIUS * radius } else { radius };
             let next = urdf.model().joints.iter().find(|joint| joint.parent.link == link.name);
             let end = next.map_or_else(Isometry3::identity, |joint| isometry(&joint.origin));
             Ok(Some(Capsule { start: Point3::origin(), end: Point3::from(end.translation.vector), radius }))

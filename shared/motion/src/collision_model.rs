@@ -3,22 +3,27 @@ use crate::{Capsule, Clearance, Counterpart, Link, Mechanism, Scene, SegmentKind
 use coact_robot::Posture;
 use nalgebra::{Isometry3, Point3};
 
-/// Arm, hand and what it holds, as forms that move with the arm's joints. The fingers stand still in it, or pass from one
-/// shape to another on the way.
+/// The forms of arm, hand and held part, which move with the arm's joints. The fingers stand still in it, or pass from one
+/// shape of the hand to another during a movement.
 #[derive(Debug, Clone)]
 pub struct CollisionModel {
     pub(crate) links: Vec<Link>,
     /// Pairs of links that could touch each other.
     pub(crate) pairs: Vec<(usize, usize)>,
-    /// A ball around all links of the hand, in the frame of the arm's last joint.
+    /// A sphere around all links of the hand, in the frame of the arm's last joint.
     pub(crate) hand: Option<Capsule>,
 }
 
+/// Difference of the numbers of joints that carry two links from which on their distance is watched. Chosen by hand: the
+/// forms of links that are nearer to each other along the arm overlap around the joints between them.
+const SEPARATING: usize = 3;
+
 impl CollisionModel {
-    /// A collision_model of these links. Pairs that at least two joints separate are watched, but for those that touch each other
-    /// at rest: their forms are too coarse to tell what is between them, or one is mounted on the other.
+    /// A collision model of these links. Pairs whose numbers of carrying joints differ by at least [`SEPARATING`] are
+    /// watched, but for those that touch each other in the park posture: their forms are too coarse to tell how far they
+    /// are apart, or one is mounted on the other.
     pub(crate) fn new(mechanism: &Mechanism, links: Vec<Link>) -> Self {
-        let apart = |one: &Link, other: &Link| one.carriers.abs_diff(other.carriers) >= 3;
+        let apart = |one: &Link, other: &Link| one.carriers.abs_diff(other.carriers) >= SEPARATING;
         let mut pairs = Vec::new();
         for one in 0..links.len() {
             pairs.extend(
@@ -58,7 +63,7 @@ impl CollisionModel {
         &self.links
     }
 
-    /// The same collision_model with a part in its hand, its form's frame at `place` in the palm frame.
+    /// The same with a part in the hand, the frame of the part's form at `place` in the palm frame.
     pub fn holding(
         mut self,
         mechanism: &Mechanism,
@@ -71,7 +76,7 @@ impl CollisionModel {
         Self::new(mechanism, self.links)
     }
 
-    /// Capsules around all links that the arm's joints move, in the world, for a posture of the arm.
+    /// Bounding capsules of all links that the arm's joints move, in the world, for a posture of the arm.
     pub fn moving_bounding_capsules(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Capsule> {
         let bounding_capsules = self.links.iter().zip(self.bounding_capsules(mechanism, posture));
         bounding_capsules
@@ -81,7 +86,7 @@ impl CollisionModel {
     }
 
     /// Distance of what the arm's joints move, with or without the hand and what it holds, from the nearest of `others`
-    /// (world), for a posture of the arm, m, measured between capsules; `most` when it is more. Nothing is allocated.
+    /// (world), for a posture of the arm, m, measured between bounding capsules; `most` when it is more. Nothing is allocated.
     pub fn distance(
         &self,
         mechanism: &Mechanism,
@@ -104,16 +109,16 @@ impl CollisionModel {
         };
         let moving = self.links.iter().filter(|link| link.carriers > 0);
         let nearest = moving.clone().filter(|link| !link.hand).fold(most, nearer);
-        // What is far from a ball around the hand is far from all of its many links.
-        let ball = self.hand.map(|ball| ball.within(&frames.pose[mechanism.joints() - 1]));
-        let far = |ball: &Capsule| others.iter().all(|other| other.least_distance(ball) >= nearest);
-        if !with_hand || ball.is_some_and(|ball| far(&ball)) {
+        // What is far from a sphere around the hand is far from all of its many links.
+        let sphere = self.hand.map(|sphere| sphere.within(&frames.pose[mechanism.joints() - 1]));
+        let far = |sphere: &Capsule| others.iter().all(|other| other.least_distance(sphere) >= nearest);
+        if !with_hand || sphere.is_some_and(|sphere| far(&sphere)) {
             return nearest;
         }
         moving.filter(|link| link.hand).fold(nearest, nearer)
     }
 
-    /// Capsules around all links in the world, for a posture of the arm.
+    /// Bounding capsules of all links in the world, for a posture of the arm.
     pub fn bounding_capsules(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Capsule> {
         let frames = Frames::of(mechanism, posture);
         self.links.iter().map(|link| link.bounding_capsule.within(&frames.carrier(link))).collect()

@@ -21,8 +21,8 @@ impl Frames {
         frames
     }
 
-    /// Change of the position of `point` (world, carried by the first `carriers` joints) along `direction`, for each
-    /// rad of each joint: m/rad.
+    /// Gradient, by the joints, of the position along `direction` of `point` (world, carried by the first `carriers`
+    /// joints), m/rad.
     pub fn gradient(
         &self,
         point: &nalgebra::Point3<f64>,
@@ -38,7 +38,7 @@ impl Frames {
         })
     }
 
-    /// Change of the position of `point` (world, carried by the first `carriers` joints), m/rad.
+    /// Jacobian, by the joints, of the position of `point` (world, carried by the first `carriers` joints), m/rad.
     pub fn jacobian(&self, point: &nalgebra::Point3<f64>, carriers: usize) -> SMatrix<f64, 3, 7> {
         let mut columns = SMatrix::<f64, 3, 7>::zeros();
         for joint in 0..carriers {

@@ -1,7 +1,7 @@
 use crate::{Mechanism, Plan};
 use nalgebra::{Point3, Vector3};
 
-/// The path of the hand in a movement, as an observer sees it.
+/// The path of the hand in a movement, with its speed: what an observer sees, and what movements are measured by.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HandPath {
     /// Places of the grasp point at equal steps of time, m, world.
@@ -12,10 +12,12 @@ pub struct HandPath {
     pub speed: Vec<f64>,
 }
 
-/// A valley between two peaks of speed is one when it lies below this share of the lower peak.
+/// A valley between two peaks of speed counts when it lies below this fraction of both. Chosen by hand: it ignores ripples.
 const VALLEY: f64 = 0.9;
-/// Peaks below this share of the highest are none.
+/// Peaks below this fraction of the highest do not count. Chosen by hand.
 const LEAST_PEAK: f64 = 0.1;
+/// Shortest path by which jerk is divided, m: it only guards a division.
+const TINY_LENGTH: f64 = 1e-9;
 
 impl HandPath {
     /// Of a plan, at `count` + 1 places.
@@ -35,7 +37,7 @@ impl HandPath {
         self.speed.iter().sum::<f64>() * self.step
     }
 
-    /// sqrt(1/2 integral of jerk² x T⁵ / L²): 19 for a straight movement of minimum jerk.
+    /// Normalised jerk: sqrt(1/2 integral of jerk² x T⁵ / L²); 19 (the root of 360) for a straight movement of minimum jerk.
     pub fn normalised_jerk(&self) -> f64 {
         let places: Vec<Vector3<f64>> = self.places.iter().map(|place| place.coords).collect();
         let difference = |values: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
@@ -44,10 +46,10 @@ impl HandPath {
         let jerk = difference(&difference(&difference(&places)));
         let energy: f64 = jerk.iter().map(|jerk| jerk.norm_squared() * self.step).sum();
         let duration = self.step * (self.places.len() - 1) as f64;
-        (0.5 * energy * duration.powi(5)).sqrt() / self.length().max(1e-9)
+        (0.5 * energy * duration.powi(5)).sqrt() / self.length().max(TINY_LENGTH)
     }
 
-    /// PointToPoint units: peaks of its speed.
+    /// Movement units: rises and falls of its speed.
     pub fn units(&self) -> u32 {
         units(&self.speed)
     }
@@ -79,9 +81,9 @@ mod tests {
 
     #[test]
     fn peaks_are_counted_where_a_valley_lies_between_them() {
-        let bell = |at: f64| (-(at * at)).exp();
+        let peak = |at: f64| (-(at * at)).exp();
         let speed = |apart: f64| -> Vec<f64> {
-            (-500..500).map(|t| f64::from(t) / 100.0).map(|t| bell(t - apart) + bell(t + apart)).collect()
+            (-500..500).map(|t| f64::from(t) / 100.0).map(|t| peak(t - apart) + peak(t + apart)).collect()
         };
         assert_eq!((units(&speed(0.2)), units(&speed(2.0))), (1, 2));
     }

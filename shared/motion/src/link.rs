@@ -3,10 +3,11 @@ use crate::{Capsule, Solid};
 use nalgebra::Isometry3;
 use parry3d_f64::shape::SharedShape;
 
-/// A form that is carried by a joint of the arm.
+/// A link, or a part of its collision geometry, as the planner sees it: a form that a joint of the arm carries. What the
+/// hand holds is a link, too.
 #[derive(Clone)]
 pub struct Link {
-    /// The link, or the part, that it stands for.
+    /// The name of the link in the URDF, or of the held part.
     pub name: String,
     /// Arm joints that move it: the first `carriers` of them.
     pub carriers: usize,
@@ -16,10 +17,11 @@ pub struct Link {
     pub place: Isometry3<f64>,
     /// Whether it belongs to the hand, or to what the hand holds.
     pub hand: bool,
-    /// Whether it is there at each segment of a movement, in the order of [`SegmentKind`]: where fingers move with the arm,
-    /// they are there as they stand at first, on the way in all shapes that they pass, and at last as they shall stand.
+    /// Whether it is there in each segment of a movement, in the order of [`SegmentKind`](crate::SegmentKind). Fingers that
+    /// move while the arm does are there as they stand at first while the hand leaves, in all shapes that they pass while
+    /// it reaches, and as they stand at last while it approaches.
     pub(crate) segments: [bool; 3],
-    /// A capsule around it, where `place` is.
+    /// A capsule that encloses it, where `place` is.
     pub(crate) bounding_capsule: Capsule,
     pub(crate) shape: SharedShape,
     /// Place of the geometry library's frame.

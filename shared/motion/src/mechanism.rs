@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 /// Most joints of an arm that is planned for.
 pub const MAX_JOINTS: usize = 7;
 
-/// An arm of six or seven joints with a hand, as the planner sees it.
+/// An arm of six or seven joints with a hand, as the planner sees it: kinematics, limits and collision geometry.
 #[derive(Debug, Clone)]
 pub struct Mechanism {
     /// The robot's name in its URDF.
@@ -29,12 +29,20 @@ pub struct Mechanism {
 pub enum Meshes {
     /// Refuse the robot.
     Required,
-    /// A capsule of this radius, m, from the link's frame to the next joint, stands in for it (a sixth of it in fingers).
+    /// A capsule of this radius, m, from the link's frame to the next joint, stands in for it; in fingers one of a sixth of
+    /// that radius.
     OrCapsules(f64),
 }
 
-/// Acceleration, rad/s², and jerk, rad/s³, of joints whose files state none: a reach of one to two seconds.
+/// Limits of acceleration (rad/s²) and jerk (rad/s³) of joints whose files state none: those of the robot ARoS, with which
+/// a reach takes one to two seconds.
 const USUAL: (f64, f64) = (10.0, 200.0);
+/// Bend of the fourth joint (the elbow of an arm of seven) in the park posture of a robot that states none, rad: half of
+/// this, or of the upper limit where that is less. Chosen by hand: the arm is neither straight nor folded.
+const ELBOW: f64 = 1.6;
+/// Where the finger tips of a hand meet that does not state it, as a fraction of the fingers' length. Chosen by hand:
+/// fingers that bend inwards meet nearer to the palm than they are long.
+const MEETING: f64 = 0.6;
 
 impl Mechanism {
     /// A robot of ours, described by a robot file.
@@ -75,7 +83,7 @@ impl Mechanism {
         for (angle, joint) in park.iter_mut().zip(&arm.joints) {
             *angle = 0.5 * (joint.limits.lower + joint.limits.upper);
         }
-        park[3] = 0.5 * arm.joints[3].limits.upper.clamp(0.0, 1.6);
+        park[3] = 0.5 * arm.joints[3].limits.upper.clamp(0.0, ELBOW);
         let name = urdf.name().to_owned();
         let mechanism = Self { name, arm, closed_form, park, grasp_distance, urdf, meshes };
         collision_geometry::arm_links(&mechanism)?;
@@ -116,8 +124,8 @@ impl Mechanism {
         std::array::from_fn(|joint| self.arm.joints.get(joint).map_or(unused, |joint| joint.limits))
     }
 
-    /// Arm and hand with the fingers at these angles, rad, by joint name; those that are not named stand at their lower
-    /// limit, those that mimic others follow them.
+    /// The collision model of arm and hand with the fingers at these angles, rad, by joint name; joints that mimic others
+    /// follow them.
     ///
     /// # Errors
     /// [`RobotError`] when a link's collision geometry cannot be used.
@@ -139,9 +147,8 @@ impl Mechanism {
         self.with_moving_fingers(hand, &[*angles])
     }
 
-    /// The same with fingers that pass through all of these shapes while the arm reaches: on leaving the hand has the
-    /// first, on the approach the last. Between one shape and the next the fingers are thought to be wherever they are on
-    /// the way.
+    /// The same with fingers that pass through all of these shapes of the hand, and those between them, while the arm
+    /// reaches. While the hand leaves it has the first shape, while it approaches the last.
     ///
     /// # Errors
     /// As [`collision_model`](Self::collision_model).
@@ -170,7 +177,7 @@ impl Mechanism {
         nalgebra::Point3::new(0.0, 0.0, self.grasp_distance)
     }
 
-    /// The goal that is reached with the palm there, in one turn only.
+    /// The goal that is reached with the palm there, and with no other roll.
     pub(crate) fn goal_of(&self, palm: &Isometry3<f64>) -> HandGoal {
         HandGoal {
             point: palm * self.grasp_point(),
@@ -209,7 +216,7 @@ fn is_an_arm(urdf: &Urdf, palm: &str, joints: usize) -> Result<(), RobotError> {
     }
 }
 
-/// Where fingers meet that are so long as these, m from the palm.
+/// Distance from the palm at which fingers of this length meet, m.
 fn grasp_distance(urdf: &Urdf, palm: &str, arm_joints: usize) -> Result<f64, RobotError> {
-    Ok(0.6 * collision_geometry::finger_length(urdf, palm, arm_joints)?)
+    Ok(MEETING * collision_geometry::finger_length(urdf, palm, arm_joints)?)
 }

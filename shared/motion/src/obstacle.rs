@@ -13,10 +13,10 @@ pub struct Obstacle {
     pub solid: Solid,
     /// The place of its form's frame, world.
     pub place: Isometry3<f64>,
-    /// A capsule around it, world.
+    /// A capsule that encloses it, world.
     pub bounding_capsule: Capsule,
-    /// Whether the capsules around the links keep clear of its capsule, and not form of form: as coarse as somebody who
-    /// moves is known.
+    /// Whether distances from it are measured between bounding capsules instead of forms: as coarsely as a person who moves
+    /// is known.
     pub coarse: bool,
     pub(crate) shape: SharedShape,
     pub(crate) pose: Pose,
@@ -30,7 +30,7 @@ impl Obstacle {
         Self { name: name.into(), solid, place: *place, bounding_capsule, coarse: false, shape, pose }
     }
 
-    /// Somebody, or something, that moves: a capsule of which the capsules around the links keep clear.
+    /// A person, or something else that moves, within a capsule.
     pub fn moving(name: impl Into<String>, capsule: Capsule) -> Self {
         Self { coarse: true, ..Self::new(name, Solid::Capsule(capsule), &Isometry3::identity()) }
     }

@@ -2,17 +2,17 @@ use crate::{SegmentKind, Target};
 use bytemuck::{Pod, Zeroable};
 use coact_robot::{JointLimits, MotionState, Posture, Quintic};
 
-/// A planned movement: states of all joints at instants, and between them the polynomials of fifth degree that join
-/// them with continuous velocity and acceleration.
+/// A planned trajectory: states of all joints at instants (knots), joined by polynomials of fifth degree, so that velocity
+/// and acceleration are continuous.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// The states, in the order of their instants; the first at 0 s.
     pub knots: Vec<Knot>,
-    /// Segments, each with the instant at which it ends, s.
+    /// The kind of each segment, and when it ends, s.
     pub segments: Vec<(SegmentKind, f64)>,
-    /// Whether something stood in the way of the direct movement.
+    /// Whether the direct movement was not clear: the arm goes around something.
     pub bounces: bool,
-    /// The goal that was chosen; none for a posture.
+    /// The posture at the goal of the hand that was chosen; none when the goal was a posture.
     pub target: Option<Target>,
 }
 
@@ -26,13 +26,16 @@ pub struct Knot {
     pub states: [MotionState; 7],
 }
 
-/// Instants between two knots at which a plan is held against the limits.
+/// Steps between two knots at whose ends limits are checked. Chosen by hand: peaks between them lie within what
+/// [`USED`] leaves.
 const CHECKED: u32 = 4;
-/// Share of the limits that a movement from rest uses.
-const USE: f64 = 0.95;
+/// Fraction of the limits that a movement from rest uses. Chosen by hand: the rest is room for peaks between
+/// samples.
+const USED: f64 = 0.95;
 
 impl Plan {
-    /// Most knots of a plan: one fits into memory of a fixed size.
+    /// Most knots of a plan: it fits into messages of a fixed size. A trade-off: 32 follow the path of hand and joints
+    /// closely enough to stay clear, and take 5.6 kB.
     pub const KNOTS: usize = 32;
 
     /// Time of the whole movement, s.
@@ -50,7 +53,7 @@ impl Plan {
         self.knots.last().map_or([0.0; 7], |knot| knot.states.map(|state| state.position))
     }
 
-    /// A joint that breaks a limit on the way, if one does.
+    /// The first joint that breaks a limit during the movement, if one does.
     pub fn broken(&self, limits: &[JointLimits; 7]) -> Option<usize> {
         broken(self.samples(), limits)
     }
@@ -60,7 +63,7 @@ impl Plan {
         load(self.samples(), limits)
     }
 
-    /// The same way, `factor` times slower; only for one that starts at rest.
+    /// The same path, `factor` times slower; only for a plan that starts at rest.
     pub(crate) fn slower(mut self, factor: f64) -> Self {
         for knot in &mut self.knots {
             knot.t *= factor;
@@ -113,7 +116,7 @@ pub(crate) fn broken(
         .find_map(|(states, jerks)| (0..7).find(|&joint| !limits[joint].allows(&states[joint], jerks[joint])))
 }
 
-/// How many times slower a movement with these states and jerks must be to keep the limits, with a little room.
+/// How many times slower a movement with these states and jerks must be to use [`USED`] of the limits.
 pub(crate) fn load(
     samples: impl Iterator<Item = ([MotionState; 7], Posture)>,
     limits: &[JointLimits; 7],
@@ -121,9 +124,9 @@ pub(crate) fn load(
     let [mut velocity, mut acceleration, mut jerk] = [0.0f64; 3];
     for (states, jerks) in samples {
         for ((state, joint_jerk), limit) in states.iter().zip(jerks).zip(limits) {
-            velocity = velocity.max(state.velocity.abs() / (USE * limit.velocity));
-            acceleration = acceleration.max(state.acceleration.abs() / (USE * limit.acceleration));
-            jerk = jerk.max(joint_jerk.abs() / (USE * limit.jerk));
+            velocity = velocity.max(state.velocity.abs() / (USED * limit.velocity));
+            acceleration = acceleration.max(state.acceleration.abs() / (USED * limit.acceleration));
+            jerk = jerk.max(joint_jerk.abs() / (USED * limit.jerk));
         }
     }
     velocity.max(acceleration.sqrt()).max(jerk.cbrt())

@@ -30,7 +30,7 @@ pub enum Refusal {
     /// Postures reach the goal within the limits, but all of them touch something.
     #[error("every posture at the goal touches something: {link} would be {:.0} mm too near to {other}", 1e3 * .short)]
     Blocked {
-        /// Link, in the posture that is least in the way.
+        /// Link, in the posture that would come least too near.
         link: String,
         /// What it would be too near to.
         other: String,
@@ -46,7 +46,7 @@ pub enum Refusal {
         other: String,
         /// By how much.
         short: f64,
-        /// Where on the path: the fraction of the reach's time.
+        /// Where on the path, as the fraction of the reach's duration.
         fraction: f64,
     },
     /// The arm moves so that it cannot come to the goal without breaking a limit: it must brake first.

@@ -1,14 +1,15 @@
 use crate::{Obstacle, SegmentKind};
 
-/// What the arm moves among, and how far it keeps away from it.
+/// What the arm moves among.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
     /// All obstacles.
     pub obstacles: Vec<Obstacle>,
-    /// Names of the obstacles that the hand, and what it holds, may touch where it leaves: what it has let go, or the table
-    /// from which it takes something.
+    /// Names of the obstacles that the hand, and what it holds, may touch while it leaves: what it has let go, or the table
+    /// from which it lifts something.
     pub allowed_leaving: Vec<String>,
-    /// Names of those that they may touch at the goal: the part that is grasped, or the fixture into which one is put.
+    /// Names of those that they may touch while the hand approaches its goal: the part that it grasps, or the fixture into
+    /// which it puts one.
     pub allowed_at_goal: Vec<String>,
 }
 
@@ -20,7 +21,7 @@ impl Scene {
         scene
     }
 
-    /// The same scene, in which the hand may touch the obstacles of these names where it leaves and at the goal.
+    /// The same scene, in which the hand may touch the obstacles of these names while it leaves and while it approaches.
     pub fn touching(&self, names: &[&str]) -> Self {
         let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
         Self { obstacles: self.obstacles.clone(), allowed_leaving: names.clone(), allowed_at_goal: names }

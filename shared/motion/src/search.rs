@@ -1,40 +1,44 @@
-use crate::choice::Choice;
-use crate::route::{Passing, Route};
-use crate::way::Way;
-use crate::work::Work;
-use crate::{Goal, Plan, Problem, Refusal, Segment, SegmentKind, Target, detour};
+use crate::attempt::Attempt;
+use crate::blend::Blend;
+use crate::budget::Budget;
+use crate::incumbent::Incumbent;
+use crate::waypoints::Waypoints;
+use crate::{Goal, Plan, Problem, Refusal, Segment, SegmentKind, Target, rrt_connect};
 use coact_robot::Posture;
 use nalgebra::Vector3;
 
-/// The search for a movement to one of several targets on which the hand moves in one unit.
+/// The search for a movement to one of several targets in which the hand moves in one movement unit: direct movements,
+/// then a bounce, then paths through several postures.
 pub(crate) struct Search<'a> {
     pub problem: &'a Problem<'a>,
-    /// The posture after leaving.
-    pub away: Option<Posture>,
-    /// What it may do.
-    pub work: &'a Work,
-    pub choice: Choice,
-    /// Routes that were looked at.
-    pub routes: Vec<Route>,
+    /// The posture after leaving; none when the hand does not leave first.
+    pub left: Option<Posture>,
+    pub budget: &'a Budget,
+    pub incumbent: Incumbent,
+    /// Waypoints whose durations have been chosen already.
+    pub known: Vec<Waypoints>,
 }
 
-/// How segments are joined where they cannot be joined smoothly: ever more straightly and slowly.
-const STRAIGHT: [Passing; 3] = [Passing::Straight(1.0), Passing::Straight(0.5), Passing::Straight(0.0)];
-/// Targets for which all kinds of ways are tried before the next ones.
+/// How segments are joined where they cannot be joined with least jerk: ever more straightly and slowly.
+const STRAIGHT: [Blend; 3] =
+    [Blend::AlongStraight(1.0), Blend::AlongStraight(0.5), Blend::AlongStraight(0.0)];
+/// Targets for which all kinds of movements are tried before the next ones. Chosen by hand: targets come best first.
 const AT_ONCE: usize = 2;
-/// Excursions that are tried for each target.
-const TRIES: u32 = 2;
-/// And as many more for each where no movement in one unit was found.
-const MORE: u32 = 8;
-/// Distance beyond the margin that a way through several postures keeps before it is made smooth, m: first, then.
-const ROOM: [f64; 2] = [0.02, 0.004];
-/// Share of leaving that is straight.
-const LEAVING: f64 = 0.6;
-/// Postures that a way passes at most.
+/// Bounces that are tried for each target at first, and in all where no movement in one unit was found. Chosen by hand: a
+/// trade-off with the time of planning.
+const BOUNCES: u32 = 2;
+const ALL_BOUNCES: u32 = 10;
+/// Clearance beyond the required one that a path through several postures has before it is smoothed, m: first the one,
+/// then, where there is no such path, the other. Chosen by hand: smoothing takes some of it.
+const EXTRA_CLEARANCE: [f64; 2] = [0.02, 0.004];
+/// Fraction of leaving on which the hand keeps to its line. Chosen by hand: the rest may blend into the reach.
+const STRAIGHT_LEAVING: f64 = 0.6;
+/// Postures up to which a path is refined. A trade-off: a plan has room for [`Plan::KNOTS`] knots.
 const MOST_VIAS: usize = 12;
+const _: () = assert!(2 * MOST_VIAS < Plan::KNOTS);
 
 impl<'a> Search<'a> {
-    /// The first movement in one unit, or else the smoothest one.
+    /// The first plan in one movement unit, or else the smoothest one.
     ///
     /// # Errors
     /// The constraint that binds.
@@ -43,45 +47,46 @@ impl<'a> Search<'a> {
             [Self::direct, Self::through_the_middle, Self::straighter, Self::bounce];
         for few in targets.chunks(AT_ONCE) {
             for target in few {
-                for offer in kinds {
-                    offer(&mut self, target);
-                    if self.choice.is_smooth() {
-                        return self.choice.result();
+                for attempt in kinds {
+                    attempt(&mut self, target);
+                    if self.incumbent.is_smooth() {
+                        return self.incumbent.result();
                     }
                 }
             }
             for target in few {
-                if self.choice.is_open() {
+                if self.incumbent.is_none() {
                     self.detour(target);
                 }
             }
-            if self.choice.is_smooth() || self.work.is_done() {
+            if self.incumbent.is_smooth() || self.budget.is_spent() {
                 break;
             }
         }
-        if !self.choice.is_open() {
-            self.go_on(targets);
+        if !self.incumbent.is_none() {
+            self.improve(targets);
         }
-        self.choice.result()
+        self.incumbent.result()
     }
 
-    /// Looks for a movement in one unit where there is one in more: other excursions, and ways through several postures.
-    fn go_on(&mut self, targets: &[Target]) {
+    /// Looks for a movement in one unit where there is one in more: other bounces, and paths through several postures.
+    fn improve(&mut self, targets: &[Target]) {
         for target in targets.iter().take(AT_ONCE) {
-            if self.choice.is_smooth() || self.work.is_done() {
+            if self.incumbent.is_smooth() || self.budget.is_spent() {
                 return;
             }
             self.detour(target);
         }
-        for attempt in TRIES..TRIES + MORE {
+        for bounce in BOUNCES..ALL_BOUNCES {
             for target in targets {
-                if self.choice.is_smooth() || self.work.is_done() {
+                if self.incumbent.is_smooth() || self.budget.is_spent() {
                     return;
                 }
-                let way = self.way(target, &[], Passing::Smooth);
-                let found = way.direct().and_then(|direct| way.find(&direct, attempt..attempt + 1));
+                let attempt = self.attempt(target, &[], Blend::MinimumJerk);
+                let found =
+                    attempt.direct().and_then(|direct| attempt.find_bounce(&direct, bounce..bounce + 1));
                 if let Ok(segments) = found {
-                    self.offer(&way, target, &segments, true);
+                    self.offer(&attempt, target, &segments, true);
                 }
             }
         }
@@ -89,136 +94,133 @@ impl<'a> Search<'a> {
 
     /// Where the reach begins.
     fn from(&self) -> Posture {
-        self.away.unwrap_or_else(|| self.problem.start.map(|state| state.position))
+        self.left.unwrap_or_else(|| self.problem.start.map(|state| state.position))
     }
 
     /// The direct movement.
     fn direct(&mut self, target: &Target) {
-        let way = self.way(target, &[], Passing::Smooth);
-        match way.direct() {
-            Ok(segments) => self.offer(&way, target, &segments, false),
-            Err(refusal) => self.choice.refuse(refusal),
+        let attempt = self.attempt(target, &[], Blend::MinimumJerk);
+        match attempt.direct() {
+            Ok(segments) => self.offer(&attempt, target, &segments, false),
+            Err(refusal) => self.incumbent.refuse(refusal),
         }
     }
 
     /// The direct movement, but free in how it passes its middle.
     fn through_the_middle(&mut self, target: &Target) {
-        self.follow(target, &detour::denser(&self.from(), &[], &target.before), Passing::Smooth);
+        let middle = rrt_connect::refined(&self.from(), &[], &target.before);
+        self.through(target, &middle, Blend::MinimumJerk);
     }
 
-    /// The direct movement with segments joined less smoothly.
+    /// The direct movement with segments that are joined less smoothly.
     fn straighter(&mut self, target: &Target) {
-        if self.away.is_none() && target.before == target.at {
+        if self.left.is_none() && target.before == target.at {
             return;
         }
-        for passing in STRAIGHT {
-            let way = self.way(target, &[], passing);
-            if let Ok(segments) = way.direct() {
-                self.offer(&way, target, &segments, false);
+        for blend in STRAIGHT {
+            let attempt = self.attempt(target, &[], blend);
+            if let Ok(segments) = attempt.direct() {
+                self.offer(&attempt, target, &segments, false);
             }
-            if self.choice.is_smooth() {
+            if self.incumbent.is_smooth() {
                 return;
             }
         }
     }
 
-    /// The movement with a single excursion.
+    /// The movement with a bounce.
     fn bounce(&mut self, target: &Target) {
-        for passing in [Passing::Smooth].into_iter().chain(STRAIGHT) {
-            let way = self.way(target, &[], passing);
-            match way.direct().and_then(|direct| way.find(&direct, 0..TRIES)) {
-                Ok(segments) => self.offer(&way, target, &segments, true),
-                Err(refusal) => self.choice.refuse(refusal),
+        for blend in [Blend::MinimumJerk].into_iter().chain(STRAIGHT) {
+            let attempt = self.attempt(target, &[], blend);
+            match attempt.direct().and_then(|direct| attempt.find_bounce(&direct, 0..BOUNCES)) {
+                Ok(segments) => self.offer(&attempt, target, &segments, true),
+                Err(refusal) => self.incumbent.refuse(refusal),
             }
-            if self.choice.is_smooth() || self.away.is_none() && target.before == target.at {
+            if self.incumbent.is_smooth() || self.left.is_none() && target.before == target.at {
                 return;
             }
         }
     }
 
-    /// A movement through several postures.
+    /// A movement along a path through several postures.
     fn detour(&mut self, target: &Target) {
-        for room in ROOM {
-            let margin = self.problem.min_clearance.path + room;
-            let found = detour::find(
-                &self.problem.clearance(SegmentKind::Reach),
-                [&self.from(), &target.before],
-                margin,
-                self.work,
-            );
-            let Some(corners) = found else { continue };
+        for extra in EXTRA_CLEARANCE {
+            let clearance = self.problem.clearance(SegmentKind::Reach);
+            let ends = [&self.from(), &target.before];
+            let required = self.problem.min_clearance.path + extra;
+            let Some(corners) = rrt_connect::find(&clearance, ends, required, self.budget) else { continue };
             let mut vias = corners.clone();
-            let way = self.way(target, &[], Passing::Smooth);
-            if let Some(segments) = way.find_near(&vias) {
-                self.offer(&way, target, &segments, true);
+            let attempt = self.attempt(target, &[], Blend::MinimumJerk);
+            if let Some(segments) = attempt.find_bounce_near(&vias) {
+                self.offer(&attempt, target, &segments, true);
             }
-            while !self.choice.is_smooth() && vias.len() < MOST_VIAS {
-                self.follow(target, &vias, Passing::Smooth);
-                vias = detour::denser(&self.from(), &vias, &target.before);
+            while !self.incumbent.is_smooth() && vias.len() < MOST_VIAS {
+                self.through(target, &vias, Blend::MinimumJerk);
+                vias = rrt_connect::refined(&self.from(), &vias, &target.before);
             }
-            if self.choice.is_open() {
-                // As it was found, with a rest at every corner: not beautiful, but clear.
-                self.follow(target, &corners, Passing::Straight(0.0));
+            if self.incumbent.is_none() {
+                // As it was found, with a stop at every corner: not smooth, but clear.
+                self.through(target, &corners, Blend::AlongStraight(0.0));
             }
         }
     }
 
     /// The movement through these postures.
-    fn follow(&mut self, target: &Target, vias: &[Posture], passing: Passing) {
-        let way = self.way(target, vias, passing);
-        if let Ok(segments) = way.direct() {
-            self.offer(&way, target, &segments, true);
+    fn through(&mut self, target: &Target, vias: &[Posture], blend: Blend) {
+        let attempt = self.attempt(target, vias, blend);
+        if let Ok(segments) = attempt.direct() {
+            self.offer(&attempt, target, &segments, true);
         }
     }
 
-    /// Offers segments more smoothly than they are and as they are, as far as they are clear.
-    fn offer(&mut self, way: &Way, target: &Target, segments: &[Segment], bounces: bool) {
+    /// Offers segments smoothed and as they are, as far as they are clear.
+    fn offer(&mut self, attempt: &Attempt, target: &Target, segments: &[Segment], bounces: bool) {
         let target = matches!(self.problem.goal, Goal::Hand(_)).then_some(*target);
-        let clear = way.check(segments);
+        let clear = attempt.check(segments);
         let bounces = bounces || clear.is_err();
-        if let Some(smoother) = way.smooth(segments) {
-            self.choice.offer(way.plan(&smoother), target, bounces);
-            if segments.len() == 1 && self.choice.is_smooth() {
+        if let Some(smoother) = attempt.smooth(segments) {
+            self.incumbent.offer(attempt.plan(&smoother), target, bounces);
+            if segments.len() == 1 && self.incumbent.is_smooth() {
                 return;
             }
         }
         match clear {
-            Ok(()) => self.choice.offer(way.plan(segments), target, bounces),
-            Err(refusal) => self.choice.refuse(refusal),
+            Ok(()) => self.incumbent.offer(attempt.plan(segments), target, bounces),
+            Err(refusal) => self.incumbent.refuse(refusal),
         }
     }
 
-    /// The way to a target through these postures.
-    fn way(&mut self, target: &Target, vias: &[Posture], passing: Passing) -> Way<'a> {
-        Way {
+    /// An attempt to come to a target through these postures.
+    fn attempt(&mut self, target: &Target, vias: &[Posture], blend: Blend) -> Attempt<'a> {
+        Attempt {
             clearance: self.problem.clearance(SegmentKind::Reach),
             limits: self.problem.mechanism.limits(),
-            route: self.route(target, vias, passing),
+            waypoints: self.waypoints(target, vias, blend),
             min_clearance: self.problem.min_clearance,
             lines: [self.line_out(), self.line_in(target)],
-            work: self.work,
+            budget: self.budget,
         }
     }
 
-    /// The smoothest route to a target through these postures, looked for once.
-    fn route(&mut self, target: &Target, vias: &[Posture], passing: Passing) -> Route {
-        let leave = self.away.map(|away| (SegmentKind::Leave, away));
+    /// The waypoints to a target through these postures, with the smoothest durations; computed once.
+    fn waypoints(&mut self, target: &Target, vias: &[Posture], blend: Blend) -> Waypoints {
+        let leave = self.left.map(|left| (SegmentKind::Leave, left));
         let reaches = vias.iter().chain([&target.before]).map(|posture| (SegmentKind::Reach, *posture));
         let approach = (target.before != target.at).then_some((SegmentKind::Approach, target.at));
-        let legs: Vec<_> = leave.into_iter().chain(reaches).chain(approach).collect();
-        let known = self.routes.iter().find(|route| route.legs == legs && route.passing == passing);
+        let ends: Vec<_> = leave.into_iter().chain(reaches).chain(approach).collect();
+        let known = self.known.iter().find(|known| known.ends == ends && known.blend == blend);
         known.cloned().unwrap_or_else(|| {
             let Problem { mechanism, start, .. } = *self.problem;
-            let route = Route::new(mechanism, start, legs, passing);
-            let route = route.smoothest(mechanism, &mechanism.limits());
-            self.routes.push(route.clone());
-            route
+            let waypoints = Waypoints::new(mechanism, start, ends, blend);
+            let waypoints = waypoints.smoothest(mechanism, &mechanism.limits());
+            self.known.push(waypoints.clone());
+            waypoints
         })
     }
 
     /// The first part of leaving, on which the hand keeps to its line, m.
     fn line_out(&self) -> Vector3<f64> {
-        self.problem.leave.map_or_else(Vector3::zeros, |(out, distance)| out * distance * LEAVING)
+        self.problem.leave.map_or_else(Vector3::zeros, |(out, distance)| out * distance * STRAIGHT_LEAVING)
     }
 
     /// The last part of the approach to a target on which it does, m, from the goal outwards.

@@ -1,9 +1,9 @@
-/// Segments of a movement, in their order.
+/// The kinds of a trajectory's segments, in their order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SegmentKind {
-    /// Back from where the hand is.
+    /// Straight back from where the hand is.
     Leave,
-    /// To the goal, or to the pose before it.
+    /// To the goal or, where the hand approaches it, to the pose before it.
     Reach,
     /// To the goal from the pose before it.
     Approach,

@@ -2,8 +2,8 @@ use crate::plan::broken;
 use coact_robot::{JointLimits, MotionState, Posture, Quintic};
 use std::f64::consts::{PI, TAU};
 
-/// One movement of all joints in posture space: the direct movement of minimum jerk between two states and, when
-/// something is in the way, an excursion towards a bounce posture, half-way through and back.
+/// The movement of all joints in one segment: the direct movement of minimum jerk between two states and, where something
+/// blocks it, a bounce: towards a bounce posture, half-way through and back (Rosenbaum et al., Psychol. Rev. 108, 2001).
 ///
 /// theta(s) = direct(s) + (theta_b - theta_0) g(s), g(s) = 4 s (1 - s) sin²(pi s), s = t / T.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,17 +18,17 @@ pub(crate) struct SegmentMotion {
     pub duration: f64,
 }
 
-/// Instants at which a movement is held against the limits.
+/// Steps of time at whose ends limits are checked. Chosen by hand: fine against a bounce, which has two peaks of speed.
 const CHECKED: usize = 64;
 
 impl SegmentMotion {
-    /// Positions at the share `s` of the time, rad.
+    /// Positions at the fraction `s` of the duration, rad.
     pub fn posture(&self, s: f64) -> Posture {
         let direct = |joint: usize| self.direct(joint).position(s * self.duration);
         if !self.bounces() {
             return std::array::from_fn(direct);
         }
-        let [g, ..] = excursion(s);
+        let [g, ..] = bounce_profile(s);
         std::array::from_fn(|joint| direct(joint) + g * self.bounce[joint])
     }
 
@@ -56,11 +56,11 @@ impl SegmentMotion {
         let t = t.clamp(0.0, self.duration);
         let mut states = direct.map(|direct| direct.at(t));
         if self.bounces() {
-            let [g, slope, curve, _] = excursion(t / self.duration);
+            let [g, first, second, _] = bounce_profile(t / self.duration);
             for (state, bounce) in states.iter_mut().zip(self.bounce) {
                 state.position += bounce * g;
-                state.velocity += bounce * slope / self.duration;
-                state.acceleration += bounce * curve / self.duration.powi(2);
+                state.velocity += bounce * first / self.duration;
+                state.acceleration += bounce * second / self.duration.powi(2);
             }
         }
         states
@@ -70,7 +70,7 @@ impl SegmentMotion {
         let t = t.clamp(0.0, self.duration);
         let mut jerks = direct.map(|direct| direct.jerk(t));
         if self.bounces() {
-            let [.., third] = excursion(t / self.duration);
+            let [.., third] = bounce_profile(t / self.duration);
             for (jerk, bounce) in jerks.iter_mut().zip(self.bounce) {
                 *jerk += bounce * third / self.duration.powi(3);
             }
@@ -91,14 +91,14 @@ impl SegmentMotion {
         std::array::from_fn(|joint| self.direct(joint))
     }
 
-    /// A joint that breaks a limit on the way.
+    /// The first joint that breaks a limit.
     pub(crate) fn broken(&self, limits: &[JointLimits; 7]) -> Option<usize> {
         broken(self.samples(), limits)
     }
 }
 
 /// g(s) and its first three derivatives by s.
-pub(crate) fn excursion(s: f64) -> [f64; 4] {
+pub(crate) fn bounce_profile(s: f64) -> [f64; 4] {
     let (a, a1, a2) = (4.0 * s * (1.0 - s), 4.0 - 8.0 * s, -8.0);
     let (b, b1) = ((PI * s).sin().powi(2), PI * (TAU * s).sin());
     let (b2, b3) = (2.0 * PI * PI * (TAU * s).cos(), -4.0 * PI.powi(3) * (TAU * s).sin());
@@ -139,19 +139,19 @@ mod tests {
             let (before, here, after) = (trajectory.at(t - h), trajectory.at(t), trajectory.at(t + h));
             let jerk = trajectory.jerk(t);
             for joint in 0..7 {
-                let slope = |of: fn(&MotionState) -> f64| (of(&after[joint]) - of(&before[joint])) / (2.0 * h);
-                prop_assert!((slope(|state| state.position) - here[joint].velocity).abs() < 1e-5);
-                prop_assert!((slope(|state| state.velocity) - here[joint].acceleration).abs() < 1e-4);
-                prop_assert!((slope(|state| state.acceleration) - jerk[joint]).abs() < 1e-3 * (1.0 + jerk[joint].abs()));
+                let derivative = |of: fn(&MotionState) -> f64| (of(&after[joint]) - of(&before[joint])) / (2.0 * h);
+                prop_assert!((derivative(|state| state.position) - here[joint].velocity).abs() < 1e-5);
+                prop_assert!((derivative(|state| state.velocity) - here[joint].acceleration).abs() < 1e-4);
+                prop_assert!((derivative(|state| state.acceleration) - jerk[joint]).abs() < 1e-3 * (1.0 + jerk[joint].abs()));
             }
         }
     }
 
     #[test]
-    fn the_excursion_is_whole_half_way_and_smooth_at_both_ends() {
-        assert!((excursion(0.5)[0] - 1.0).abs() < 1e-12 && excursion(0.5)[1].abs() < 1e-12);
+    fn the_bounce_is_whole_half_way_and_smooth_at_both_ends() {
+        assert!((bounce_profile(0.5)[0] - 1.0).abs() < 1e-12 && bounce_profile(0.5)[1].abs() < 1e-12);
         for end in [0.0, 1.0] {
-            assert!(excursion(end)[..3].iter().all(|value| value.abs() < 1e-12));
+            assert!(bounce_profile(end)[..3].iter().all(|value| value.abs() < 1e-12));
         }
     }
 }

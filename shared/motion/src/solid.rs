@@ -20,7 +20,7 @@ pub enum Solid {
     Capsule(Capsule),
 }
 
-/// A form as the geometry library knows it: with its own ideas of what lies along which axis.
+/// A form as the geometry library has it, which puts a cylinder's axis along y.
 #[derive(Clone)]
 pub(crate) struct Shape {
     pub shape: SharedShape,
@@ -47,7 +47,7 @@ impl Solid {
         }
     }
 
-    /// A capsule around the form, which stands at `place`.
+    /// A capsule that encloses the form, which stands at `place`.
     pub fn bounding_capsule(&self, place: &Isometry3<f64>) -> Capsule {
         match *self {
             Self::Box(size) => Capsule::around_box(place, size),

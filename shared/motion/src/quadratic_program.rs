@@ -3,10 +3,11 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeCone
 use coact_robot::Posture;
 
 /// A step of sequential quadratic programming: the change of up to seven joints that costs least, keeps within a box,
-/// and satisfies linear demands as well as it can.
+/// and satisfies linear constraints as well as it can. Two slacks (the largest violations of the inequalities and of the
+/// equalities) keep it solvable.
 #[derive(Debug, Clone)]
-pub(crate) struct Quadratic {
-    /// Cost of each joint's place, and the place at which it would cost nothing: cost of x is sum w (x - c)^2.
+pub(crate) struct QuadraticProgram {
+    /// The cost of a change x is sum w (x - c)²: weight and centre of each joint.
     pub weight: Posture,
     pub centre: Posture,
     /// Box of the change.
@@ -16,31 +17,35 @@ pub(crate) struct Quadratic {
     pub above: Vec<(Posture, f64)>,
     /// `row . x = value`.
     pub equal: Vec<(Posture, f64)>,
-    /// Cost of each unit by which the worst demand of a kind is not met.
+    /// Cost of each unit of the two slacks.
     pub penalty: f64,
 }
 
-/// Changes of seven joints, then how far the demands of both kinds are not met.
+/// Variables: the changes of seven joints, then the slacks of the inequalities and of the equalities.
 const VARIABLES: usize = 9;
+const INEQUALITIES: usize = 7;
+const EQUALITIES: usize = 8;
+/// Iterations of the interior-point solver at most. Chosen by hand: a bound on time.
+const ITERATIONS: u32 = 40;
 
-impl Quadratic {
+impl QuadraticProgram {
     /// The best change; none when the solver fails.
     pub fn solve(&self) -> Option<Posture> {
         let mut rows = Rows::default();
         for (row, bound) in &self.above {
-            rows.push(row, 7, *bound);
+            rows.push(row, INEQUALITIES, *bound);
         }
         for (row, value) in &self.equal {
-            rows.push(row, 8, *value);
-            rows.push(&row.map(|entry| -entry), 8, -value);
+            rows.push(row, EQUALITIES, *value);
+            rows.push(&row.map(|entry| -entry), EQUALITIES, -value);
         }
         for joint in 0..7 {
             let unit = |sign: f64| std::array::from_fn(|other| if other == joint { sign } else { 0.0 });
             rows.push_hard(&unit(1.0), self.lower[joint]);
             rows.push_hard(&unit(-1.0), -self.upper[joint]);
         }
-        rows.push_slack(7);
-        rows.push_slack(8);
+        rows.push_slack(INEQUALITIES);
+        rows.push_slack(EQUALITIES);
         let quadratic = self.weight.iter().enumerate().map(|(joint, weight)| (joint, joint, 2.0 * weight));
         let p = CscMatrix::new_from_triplets(
             VARIABLES,
@@ -53,8 +58,12 @@ impl Quadratic {
         q.extend([self.penalty; 2]);
         let count = rows.bounds.len();
         let a = CscMatrix::new_from_triplets(count, VARIABLES, rows.row, rows.column, rows.value);
-        let settings =
-            DefaultSettings { verbose: false, max_iter: 40, presolve_enable: false, ..Default::default() };
+        let settings = DefaultSettings {
+            verbose: false,
+            max_iter: ITERATIONS,
+            presolve_enable: false,
+            ..Default::default()
+        };
         let mut solver =
             DefaultSolver::new(&p, &q, &a, &rows.bounds, &[NonnegativeConeT(count)], settings).ok()?;
         solver.solve();
@@ -109,7 +118,7 @@ mod tests {
     fn the_nearest_point_of_a_half_space_is_found() {
         let mut row = [0.0; 7];
         (row[0], row[1]) = (1.0, 1.0);
-        let problem = Quadratic {
+        let problem = QuadraticProgram {
             weight: [1.0; 7],
             centre: [0.0; 7],
             lower: [-1.0; 7],
@@ -126,7 +135,7 @@ mod tests {
     fn what_cannot_be_met_is_met_as_well_as_possible() {
         let mut row = [0.0; 7];
         row[0] = 1.0;
-        let problem = Quadratic {
+        let problem = QuadraticProgram {
             weight: [1.0; 7],
             centre: [0.0; 7],
             lower: [-0.1; 7],

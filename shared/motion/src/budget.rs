@@ -1,0 +1,27 @@
+use std::cell::Cell;
+
+/// What a search may still do, counted in postures whose clearance is computed. It bounds the search's time without
+/// reading a clock, so that the same problem ends the same way on every machine.
+#[derive(Debug)]
+pub(crate) struct Budget {
+    left: Cell<u32>,
+}
+
+impl Budget {
+    /// So many postures.
+    pub fn of(postures: u32) -> Self {
+        Self { left: Cell::new(postures) }
+    }
+
+    /// Takes some of them; false when none was left before.
+    pub fn spend(&self, postures: u32) -> bool {
+        let left = self.left.get();
+        self.left.set(left.saturating_sub(postures));
+        left > 0
+    }
+
+    /// Whether all of them are spent.
+    pub fn is_spent(&self) -> bool {
+        self.left.get() == 0
+    }
+}

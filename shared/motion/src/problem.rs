@@ -1,0 +1,102 @@
+use crate::budget::Budget;
+use crate::incumbent::Incumbent;
+use crate::numerical_ik::NumericalIk;
+use crate::search::Search;
+use crate::target_search::TargetSearch;
+use crate::{
+    Clearance, CollisionModel, Goal, Mechanism, MinClearance, Plan, Refusal, Scene, SegmentKind, Target,
+};
+use coact_robot::{MotionState, Posture};
+use nalgebra::{Isometry3, Translation3, Vector3};
+
+/// A movement that is asked for.
+#[derive(Debug, Clone)]
+pub struct Problem<'a> {
+    /// The arm.
+    pub mechanism: &'a Mechanism,
+    /// The forms of arm, hand and what it holds.
+    pub collision_model: &'a CollisionModel,
+    /// The surroundings; what the hand may touch may be touched on leaving and at the goal only.
+    pub scene: &'a Scene,
+    /// State of the arm's joints now.
+    pub start: [MotionState; 7],
+    /// Straight back first: direction (unit, world) and distance, m.
+    pub leave: Option<(Vector3<f64>, f64)>,
+    /// Where the movement ends.
+    pub goal: Goal,
+    /// Where a grasped part goes next: the displacement (world) from its place now to each place that serves; a round part
+    /// may be turned about its own axis at will. Goals from which the hand can carry out one of them are preferred.
+    pub next_displacements: Vec<Isometry3<f64>>,
+    /// Length of the last part of the approach on which the hand keeps to a straight line, m: as deep as a part goes
+    /// into something.
+    pub insertion_depth: f64,
+    /// Clearance that is kept.
+    pub min_clearance: MinClearance,
+}
+
+/// Postures that a search may look at. A trade-off: so many take about a second at a laid table, and a search that has not
+/// found a path by then rarely finds one.
+const POSTURES: u32 = 40_000;
+
+impl Problem<'_> {
+    /// Plans the movement: the postures at the goal first, then a clear path to the one that costs the least change.
+    ///
+    /// # Errors
+    /// The constraint that binds.
+    pub fn plan(&self) -> Result<Plan, Refusal> {
+        self.plan_within(POSTURES)
+    }
+
+    /// Plans the movement in bounded time: the search ends after it has looked at `postures` postures, 40 000 of which take
+    /// about a second.
+    ///
+    /// # Errors
+    /// The constraint that binds, as far as the search came.
+    pub fn plan_within(&self, postures: u32) -> Result<Plan, Refusal> {
+        let left = self.left()?;
+        let from = left.unwrap_or_else(|| self.start.map(|state| state.position));
+        let targets = self.targets(&from)?;
+        let budget = Budget::of(postures);
+        let incumbent = Incumbent::default();
+        Search { problem: self, left, budget: &budget, incumbent, known: Vec::new() }.run(&targets)
+    }
+
+    /// The postures that serve as an end, best first; empty when there are none. `from`: the posture from which the change
+    /// of posture counts.
+    pub fn targets_from(&self, from: &Posture) -> Vec<Target> {
+        self.targets(from).unwrap_or_default()
+    }
+
+    /// The clearance in a segment of the movement.
+    pub(crate) fn clearance(&self, segment: SegmentKind) -> Clearance<'_> {
+        let Self { mechanism, collision_model, scene, .. } = *self;
+        Clearance { mechanism, collision_model, scene, segment }
+    }
+
+    /// The posture after leaving; none when the hand is not to leave first.
+    fn left(&self) -> Result<Option<Posture>, Refusal> {
+        let posture = self.start.map(|state| state.position);
+        let clearance = self.clearance(SegmentKind::Leave);
+        if let Some(near) = clearance.nearest(&posture, 0.0) {
+            let (link, other) = clearance.names(&near);
+            return Err(Refusal::Start { link, other, short: -near.distance });
+        }
+        let Some((direction, distance)) = self.leave else { return Ok(None) };
+        let palm = self.mechanism.arm.palm(&posture);
+        let goal = self.mechanism.goal_of(&(Translation3::from(direction * distance) * palm));
+        let solver = NumericalIk { clearance, from: &posture, min_clearance: 0.0 };
+        let left = solver.solve(&goal, 0.0, 0.0, &posture);
+        left.map(Some).ok_or(Refusal::OutOfReach { point: goal.point.coords.into() })
+    }
+
+    fn targets(&self, from: &Posture) -> Result<Vec<Target>, Refusal> {
+        match &self.goal {
+            Goal::Posture(at) => Ok(vec![Target { goal: 0, roll: 0.0, before: *at, at: *at, cost: 0.0 }]),
+            Goal::Hand(goals) => {
+                let clearance = self.clearance(SegmentKind::Approach);
+                let (next_displacements, min_clearance) = (&self.next_displacements, self.min_clearance);
+                TargetSearch { clearance, goals, from, next_displacements, min_clearance }.best()
+            }
+        }
+    }
+}
