@@ -1,6 +1,6 @@
 use crate::{CollisionModel, Link, collision_geometry};
 use coact_robot::{
-    Arm, HAND_JOINTS, Hand, HandGoal, JointLimits, Posture, Robot, RobotError, Srs, Urdf, grip,
+    Arm, HAND_JOINTS, Hand, HandGoal, JointLimits, Posture, Robot, RobotError, Srs, Urdf, grip_frame,
 };
 use nalgebra::{Isometry3, Translation3, Vector3};
 
@@ -193,7 +193,7 @@ impl Mechanism {
     /// Palm pose at a goal, turned by `roll` rad about the approach, `back` m before it.
     pub(crate) fn palm_at(&self, goal: &HandGoal, roll: f64, back: f64) -> Isometry3<f64> {
         let point = goal.point - goal.along * back;
-        let grip = grip::frame(&point, &goal.approach, &goal.closing_axis, roll);
+        let grip = grip_frame(&point, &goal.approach, &goal.closing_axis, roll);
         grip * Translation3::new(0.0, 0.0, -self.grasp_distance)
     }
 }

@@ -26,7 +26,7 @@ impl Arm {
         chain.fold(Isometry3::identity(), |pose, (joint, &angle)| pose * joint.transform(angle))
     }
 
-    /// Places of shoulder, elbow and wrist (of joints 2, 4 and 6), m, world.
+    /// Centres of shoulder, elbow and wrist (joints 2, 4 and 6), m, world.
     pub fn centres(&self, posture: &[f64]) -> [Point3<f64>; 3] {
         [1, 3, 5].map(|index| Point3::from(self.frame(posture, index).translation.vector))
     }

@@ -24,7 +24,7 @@ impl Urdf {
             let moving: Vec<_> = children.iter().filter(|joint| self.has_motion(joint)).collect();
             match (moving.as_slice(), children.as_slice()) {
                 ([only], _) => at = &only.child.link,
-                // A frame at which tools are mounted.
+                // A fixed frame, such as one at which tools are mounted.
                 ([], [only]) => at = &only.child.link,
                 ([], _) => return Ok(ArmEnd::Bare(at.to_owned())),
                 _ => return Ok(ArmEnd::Palm(at.to_owned())),

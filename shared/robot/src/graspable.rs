@@ -1,6 +1,6 @@
 use std::f64::consts::FRAC_PI_2;
 
-/// The form of something that is to be gripped, standing on its underside.
+/// Something that a hand can grip, standing on its underside: what matters of its form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Graspable {
     /// How far the fingers close on it, m.

@@ -47,6 +47,8 @@ pub struct Finger {
 
 /// Joints of a [`Hand`].
 pub const HAND_JOINTS: usize = 7;
+/// Halvings of a finger's range when the angle for a width is looked for: to the last bit of a range of some rad.
+const HALVINGS: u32 = 60;
 
 impl Hand {
     /// Angles of all hand joints (message order) with the spread of grasps and the bases at `base` rad.
@@ -68,7 +70,7 @@ impl Hand {
     }
 
     /// Base, tip joint and end of finger 3 at a base angle, rad: for each its distance from the palm's axis and that along
-    /// it, m. Fingers 1 and 2 are its like on the other side.
+    /// it, m. Fingers 1 and 2 are alike on the other side.
     pub(crate) fn finger(&self, base: f64) -> [[f64; 2]; 3] {
         let Finger { joints, end } = &self.fingers[2];
         let knuckle = joints[0].transform(base);
@@ -81,8 +83,8 @@ impl Hand {
         self.fingers[0].joints[0].origin.translation.y.abs() + self.pad[0]
     }
 
-    /// The hand around something round on the palm's axis, `width` m wide, with `gap` m between it and each finger;
-    /// below zero the fingers are told to close so far into it, which makes them press.
+    /// The hand around something round on the palm's axis, `width` m wide, with `gap` m between it and each finger. With a
+    /// negative gap the fingers are commanded to close so far into it, which makes them press.
     ///
     /// Fingers 1 and 2 stand beside the palm's axis and meet a narrow part with their inner edges, so that their
     /// angles differ from finger 3's.
@@ -109,8 +111,8 @@ impl Hand {
         Grasp { angles, depth: 0.5 * (met(0) + met(2)) }
     }
 
-    /// Clear width between the fingers, m: twice the way of finger 3's end to the palm's axis. Fingers 1 and 2 are
-    /// its like, so that it holds for every spread.
+    /// Clear width between the fingers, m: twice the distance of finger 3's end from the palm's axis. Fingers 1 and 2 are
+    /// alike, so that it holds for every spread.
     pub fn width(&self, base: f64) -> f64 {
         -2.0 * self.ends(&self.posture(base))[2].x
     }
@@ -120,7 +122,7 @@ impl Hand {
     pub fn base_for_width(&self, width: f64) -> f64 {
         let limits = self.joints[1].limits;
         let (mut open, mut closed) = (limits.lower, limits.upper);
-        for _ in 0..60 {
+        for _ in 0..HALVINGS {
             let middle = 0.5 * (open + closed);
             if self.width(middle) > width { open = middle } else { closed = middle }
         }
@@ -141,7 +143,7 @@ impl Hand {
         closing_axis: &Vector3<f64>,
         roll: f64,
     ) -> Isometry3<f64> {
-        let grip = crate::grip::frame(point, approach, closing_axis, roll);
+        let grip = crate::grip_frame(point, approach, closing_axis, roll);
         grip * nalgebra::Translation3::new(0.0, 0.0, -self.grasp_distance)
     }
 }

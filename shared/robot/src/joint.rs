@@ -31,6 +31,9 @@ pub struct JointLimits {
     pub jerk: f64,
 }
 
+/// Rounding of a position that still counts as within its limits, rad.
+const ROUNDING: f64 = 1e-9;
+
 impl Joint {
     /// Pose of the joint's link in the frame of the joint before it, at `angle` rad.
     pub fn transform(&self, angle: f64) -> Isometry3<f64> {
@@ -44,9 +47,9 @@ impl JointLimits {
         angle >= self.lower + margin && angle <= self.upper - margin
     }
 
-    /// Whether position, velocity, acceleration and `jerk` (rad/s³) lie within the limits, to 1e-9 rad in position.
+    /// Whether position, velocity, acceleration and `jerk` (rad/s³) lie within the limits, the position to [`ROUNDING`].
     pub fn allows(&self, state: &MotionState, jerk: f64) -> bool {
-        self.contain(state.position, -1e-9)
+        self.contain(state.position, -ROUNDING)
             && state.velocity.abs() <= self.velocity
             && state.acceleration.abs() <= self.acceleration
             && jerk.abs() <= self.jerk

@@ -1,10 +1,10 @@
 use crate::JointLimits;
 
-/// The last stage before a joint's servo: lets a setpoint pass only if the joint can still be stopped from there
-/// within all limits, and brakes otherwise.
+/// Stands before a joint's servo: lets a setpoint pass only if the joint can still be stopped from there within all limits,
+/// and brakes otherwise.
 ///
 /// Velocity and acceleration are the first and second differences of the setpoints themselves, so that the limits hold
-/// for what is sent, tick by tick. Invariant: from the present state, braking ([`Limiter::brake`]) comes to rest
+/// for what is sent, cycle by cycle. Invariant: from the present state, braking ([`Limiter::brake`]) comes to rest
 /// within position, velocity, acceleration and jerk limits. A candidate is accepted only if the state after it has
 /// that property; braking keeps it. So, from a start at rest within the limits, no input can break them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,16 +17,24 @@ pub struct Limiter {
     pub acceleration: f64,
 }
 
-/// Greatest speed (rad/s) and way (rad) until rest, in one direction.
-struct BrakingWay {
+/// Bounds on braking in one direction, until rest.
+struct BrakingBound {
+    /// Largest speed, rad/s.
     peak: f64,
-    way: f64,
+    /// Distance, rad.
+    distance: f64,
 }
 
-/// Slower than this (rad/s, rad/s²) is standing.
-const STILL: (f64, f64) = (1e-9, 1e-6);
-/// Share of the acceleration and jerk limits that braking uses: the rest is room for rounding.
-const ROOM: f64 = 1.0 - 1e-9;
+/// Velocity (rad/s) and acceleration (rad/s²) below which a joint stands still: in one cycle of 1 ms it moves by less than
+/// a picoradian.
+const STILL_VELOCITY: f64 = 1e-9;
+const STILL_ACCELERATION: f64 = 1e-6;
+/// Fraction of the acceleration and jerk limits that braking uses: what is left is for rounding.
+const USED: f64 = 1.0 - 1e-9;
+/// Braking is followed for so many times the longest time that it can take in theory, and so many cycles more, before it
+/// counts as endless. Chosen by hand, twice what is needed.
+const PATIENCE: f64 = 2.0;
+const EXTRA_CYCLES: usize = 8;
 
 impl Limiter {
     /// At rest at `position` rad.
@@ -39,7 +47,7 @@ impl Limiter {
         self.velocity == 0.0 && self.acceleration == 0.0
     }
 
-    /// The state after moving to `setpoint` within one tick of `dt` s, if that is allowed.
+    /// The state after moving to `setpoint` within one cycle of `dt` s, if that is allowed.
     pub fn accept(&self, setpoint: f64, limits: &JointLimits, dt: f64) -> Option<Self> {
         let velocity = (setpoint - self.position) / dt;
         let acceleration = (velocity - self.velocity) / dt;
@@ -49,39 +57,39 @@ impl Limiter {
         allowed.then_some(next)
     }
 
-    /// The state after one tick of braking: the discrete time-optimal way (Han's fhan, with the acceleration limited)
-    /// to velocity and acceleration zero.
+    /// The state after one cycle of braking: towards velocity and acceleration zero by discrete time-optimal feedback (fhan,
+    /// J. Han, IEEE Trans. Ind. Electron. 56, 2009), with the acceleration limited.
     pub fn brake(&self, limits: &JointLimits, dt: f64) -> Self {
         let jerk =
-            time_optimal(self.velocity - dt * self.acceleration, self.acceleration, ROOM * limits.jerk, dt);
-        let bound = ROOM * limits.acceleration;
+            time_optimal(self.velocity - dt * self.acceleration, self.acceleration, USED * limits.jerk, dt);
+        let bound = USED * limits.acceleration;
         let acceleration = (self.acceleration + dt * jerk).clamp(-bound, bound);
         let velocity = self.velocity + dt * acceleration;
-        if velocity.abs() < STILL.0 && acceleration.abs() < STILL.1 {
+        if velocity.abs() < STILL_VELOCITY && acceleration.abs() < STILL_ACCELERATION {
             return Self::at_rest(self.position);
         }
         Self { position: self.position + dt * velocity, velocity, acceleration }
     }
 
-    /// Whether this state keeps the limits and braking from here does, until rest. Settled by a bound on the way to
-    /// rest where that suffices, else by carrying the braking out.
+    /// Whether this state keeps the limits and braking from here does, until rest. A bound on the braking distance decides
+    /// where it can, else the braking is carried out.
     fn can_stop(&self, limits: &JointLimits, dt: f64) -> bool {
         self.keeps(limits) && (self.surely_stops(limits, dt) || self.stops_within(limits, dt))
     }
 
     fn surely_stops(&self, limits: &JointLimits, dt: f64) -> bool {
-        let (up, down) = (self.braking_way(1.0, limits, dt), self.braking_way(-1.0, limits, dt));
+        let (up, down) = (self.braking_bound(1.0, limits, dt), self.braking_bound(-1.0, limits, dt));
         up.peak.max(down.peak) <= limits.velocity
-            && self.position + up.way <= limits.upper
-            && self.position - down.way >= limits.lower
+            && self.position + up.distance <= limits.upper
+            && self.position - down.distance >= limits.lower
     }
 
     /// A bound on how fast and how far braking from here goes on in the direction `sign`.
     ///
     /// Where the acceleration passes through zero, the speed in that direction is at most v + a²/2J; from there the
-    /// symmetric way to rest, of constant jerk, takes T = v/A + A/J (or 2 √(v/J) when A is not reached) and half of v T.
-    /// Each term has room for the steps of the discrete braking.
-    fn braking_way(&self, sign: f64, limits: &JointLimits, dt: f64) -> BrakingWay {
+    /// symmetric movement to rest, of constant jerk, takes T = v/A + A/J (or 2 √(v/J) when A is not reached) and half of v T.
+    /// Each term is enlarged for the steps of the discrete braking.
+    fn braking_bound(&self, sign: f64, limits: &JointLimits, dt: f64) -> BrakingBound {
         let (velocity, acceleration) = (sign * self.velocity, sign * self.acceleration);
         let pull = acceleration.max(0.0);
         let step = dt * dt * limits.jerk;
@@ -93,13 +101,13 @@ impl Limiter {
         let full = from / limits.acceleration + settling;
         let time =
             if from < limits.acceleration * settling { 2.0 * (from / limits.jerk).sqrt() } else { full };
-        BrakingWay { peak, way: from * (0.5 * time + pull / limits.jerk + 4.0 * dt) }
+        BrakingBound { peak, distance: from * (0.5 * time + pull / limits.jerk + 4.0 * dt) }
     }
 
     fn stops_within(&self, limits: &JointLimits, dt: f64) -> bool {
         let mut state = *self;
         let longest = limits.velocity / limits.acceleration + 4.0 * limits.acceleration / limits.jerk;
-        for _ in 0..(2.0 * longest / dt) as usize + 8 {
+        for _ in 0..(PATIENCE * longest / dt) as usize + EXTRA_CYCLES {
             if state.is_at_rest() {
                 return true;
             }
@@ -136,7 +144,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const DT: f64 = 1e-3;
+    const DT: f64 = coact_period::PERIOD_S;
 
     fn limits() -> impl Strategy<Value = JointLimits> {
         (0.2..3.0f64, 0.5..4.0, 2.0..20.0, 30.0..500.0).prop_map(|(half, velocity, acceleration, jerk)| {
@@ -173,8 +181,8 @@ mod tests {
                 prop_assert!(limits.contain(state.position, 0.0), "position {}", state.position);
                 prop_assert!(state.velocity.abs() <= limits.velocity);
                 prop_assert!(state.acceleration.abs() <= limits.acceleration);
-                // What is slower than standing is taken for it: a last step of less than that.
-                let allowed = limits.jerk * (1.0 + 1e-6) + STILL.1 / DT;
+                // What is slower than standing still is taken for it: the last step is one of less than that.
+                let allowed = limits.jerk * (1.0 + 1e-6) + STILL_ACCELERATION / DT;
                 prop_assert!(jerk.abs() <= allowed, "jerk {jerk} of {}", limits.jerk);
             }
         }
@@ -183,13 +191,13 @@ mod tests {
         fn braking_stays_within_its_bound(limits in limits(), velocity in -1.0..1.0, acceleration in -1.0..1.0) {
             let acceleration = acceleration * limits.acceleration;
             let start = Limiter { position: 0.0, velocity: velocity * limits.velocity, acceleration };
-            let bounds = [1.0, -1.0].map(|sign| start.braking_way(sign, &limits, DT));
+            let bounds = [1.0, -1.0].map(|sign| start.braking_bound(sign, &limits, DT));
             let mut state = start;
             while !state.is_at_rest() {
                 state = state.brake(&limits, DT);
                 for (sign, bound) in [1.0, -1.0].iter().zip(&bounds) {
                     prop_assert!(sign * state.velocity <= bound.peak, "{} of {}", state.velocity, bound.peak);
-                    prop_assert!(sign * state.position <= bound.way, "{} of {}", state.position, bound.way);
+                    prop_assert!(sign * state.position <= bound.distance, "{} of {}", state.position, bound.distance);
                 }
             }
         }
@@ -205,7 +213,7 @@ mod tests {
                 ticks += 1;
                 prop_assert!(ticks < 10_000, "still {state:?}");
             }
-            // The time-optimal way takes at most v/A + 2 A/J, after undoing the acceleration it starts with.
+            // Time-optimal braking takes at most v/A + 2 A/J, after undoing the acceleration it starts with.
             let worst = start.velocity.abs() / limits.acceleration + 4.0 * limits.acceleration / limits.jerk;
             prop_assert!(f64::from(ticks) * DT < 1.5 * worst + 0.02, "{ticks} ticks, {worst} s");
         }

@@ -1,6 +1,6 @@
 use crate::{JointLimits, MotionState, Quintic};
 
-/// A minimum-jerk movement of several joints that start and end together, and end at rest.
+/// A point-to-point movement: several joints start together, move with minimum jerk, and come to rest together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointToPoint<const N: usize> {
     /// State of each joint at the start.
@@ -11,17 +11,23 @@ pub struct PointToPoint<const N: usize> {
     pub duration: f64,
 }
 
-/// Share of each limit that a movement from rest uses.
-const USE: f64 = 0.95;
-/// Share of each limit that a movement under way may use: more, because it may start at a peak of the one before.
-const USE_UNDER_WAY: f64 = 0.98;
-/// Shortest movement, s.
-const SHORTEST: f64 = 0.1;
-/// Points at which a movement that does not start at rest is held against the limits.
+/// Fraction of each limit that a movement from rest uses. Chosen by hand: the rest is left for the servo.
+const USED: f64 = 0.95;
+/// Fraction of each limit that a movement under way may use: more, because it may start at a peak of the one before.
+/// Chosen by hand.
+const USED_UNDER_WAY: f64 = 0.98;
+/// Shortest movement, s: it keeps the duration above zero where start and target coincide. Chosen by hand.
+const SHORTEST_S: f64 = 0.1;
+/// Steps at whose ends the limits of a movement under way are checked. Chosen by hand: what lies between them is within
+/// what [`USED_UNDER_WAY`] leaves.
 const CHECKED: usize = 24;
+/// A movement under way is made longer by this factor until it keeps the limits, so many times at most: up to twenty times
+/// as long. Chosen by hand: it is at most 8 % too long.
+const LONGER: f64 = 1.08;
+const LONGER_TRIES: u32 = 40;
 
 impl<const N: usize> PointToPoint<N> {
-    /// The shortest movement, to about 8 %, from `start` to rest at `target` within the limits; `None` when there is
+    /// The shortest movement (under way: to 8 %) from `start` to rest at `target` within the limits; `None` when there is
     /// none that keeps them, as when a joint is so fast that it must overshoot a position limit. From rest there
     /// always is one, if `start` and `target` lie within the position limits.
     pub fn plan(start: [MotionState; N], target: [f64; N], limits: &[JointLimits; N]) -> Option<Self> {
@@ -29,16 +35,16 @@ impl<const N: usize> PointToPoint<N> {
             let distance = (target[joint] - start[joint].position).abs();
             rest_to_rest_duration(distance, &limits[joint])
         });
-        let mut duration = shortest.fold(SHORTEST, f64::max);
+        let mut duration = shortest.fold(SHORTEST_S, f64::max);
         if start.iter().all(MotionState::is_at_rest) {
             return Some(Self { start, target, duration });
         }
-        for _ in 0..40 {
+        for _ in 0..LONGER_TRIES {
             let movement = Self { start, target, duration };
             if movement.keeps(limits) {
                 return Some(movement);
             }
-            duration *= 1.08;
+            duration *= LONGER;
         }
         None
     }
@@ -67,9 +73,9 @@ impl<const N: usize> PointToPoint<N> {
                 let t = self.duration * point as f64 / CHECKED as f64;
                 let state = path.at(t);
                 limit.contain(state.position, 0.0)
-                    && state.velocity.abs() <= USE_UNDER_WAY * limit.velocity
-                    && state.acceleration.abs() <= USE_UNDER_WAY * limit.acceleration
-                    && path.jerk(t).abs() <= USE_UNDER_WAY * limit.jerk
+                    && state.velocity.abs() <= USED_UNDER_WAY * limit.velocity
+                    && state.acceleration.abs() <= USED_UNDER_WAY * limit.acceleration
+                    && path.jerk(t).abs() <= USED_UNDER_WAY * limit.jerk
             })
         })
     }
@@ -78,9 +84,9 @@ impl<const N: usize> PointToPoint<N> {
 /// Duration, s, of a minimum-jerk movement over `distance` rad from rest to rest. Its peaks are 15/8 D/T (velocity),
 /// 10/√3 D/T² (acceleration) and 60 D/T³ (jerk).
 fn rest_to_rest_duration(distance: f64, limits: &JointLimits) -> f64 {
-    let by_velocity = 1.875 * distance / (USE * limits.velocity);
-    let by_acceleration = (10.0 / 3f64.sqrt() * distance / (USE * limits.acceleration)).sqrt();
-    let by_jerk = (60.0 * distance / (USE * limits.jerk)).cbrt();
+    let by_velocity = 1.875 * distance / (USED * limits.velocity);
+    let by_acceleration = (10.0 / 3f64.sqrt() * distance / (USED * limits.acceleration)).sqrt();
+    let by_jerk = (60.0 * distance / (USED * limits.jerk)).cbrt();
     by_velocity.max(by_acceleration).max(by_jerk)
 }
 
@@ -118,7 +124,7 @@ mod tests {
             let (velocity, acceleration, jerk) = peaks(&movement);
             prop_assert!(velocity <= 2.0 && acceleration <= 10.0 && jerk <= 200.0);
             let used = (velocity / 2.0).max(acceleration / 10.0).max(jerk / 200.0);
-            prop_assert!(used > 0.9 || movement.duration == SHORTEST, "slow: {used}");
+            prop_assert!(used > 0.9 || movement.duration == SHORTEST_S, "slow: {used}");
         }
 
         #[test]

@@ -84,26 +84,8 @@ fn arm(path: &Path, config: &Config, urdf: &Urdf) -> Result<Arm, RobotError> {
 }
 
 fn hand(path: &Path, config: &Config, urdf: &Urdf) -> Result<Hand, RobotError> {
+    let fingers = fingers(path, config, urdf)?;
     let names = &config.hand;
-    let last_arm_joint = config.arm.joints.last().map(String::as_str);
-    let mut fingers = Vec::with_capacity(3);
-    for finger in 0..3 {
-        let (joints, end) = urdf.chain(last_arm_joint, &names.ends[finger])?;
-        let tail = joints.len().saturating_sub(2);
-        let expected = [&names.bases[finger], &names.tips[finger]];
-        if !joints[tail..].iter().map(|joint| &joint.name).eq(expected) || tail > 1 {
-            return Err(Config::fault(
-                path,
-                "ends",
-                "each finger must be an optional spread, a base and a tip joint",
-            ));
-        }
-        fingers.push(Finger { joints, end });
-    }
-    let fingers: [Finger; 3] =
-        fingers.try_into().map_err(|_| Config::fault(path, "ends", "expected three fingers"))?;
-    let (_, palm) = urdf.chain(None, &config.palm)?;
-    let fingers = fingers.map(|finger| from_palm(finger, &palm));
     let pick = |name: &String| {
         let mut all = fingers.iter().flat_map(|finger| &finger.joints);
         all.find(|joint| &joint.name == name).cloned().map(|joint| limited(joint, config))
@@ -113,7 +95,7 @@ fn hand(path: &Path, config: &Config, urdf: &Urdf) -> Result<Hand, RobotError> {
     let joints = joints.ok_or_else(|| Config::fault(path, "spread", "is not a joint of any finger"))?;
     let coupling = urdf.mimicked(&config.hand.tips[0]).map_or(0.0, |(_, factor, _)| factor);
     let HandConfig { grasp_spread, pad, grasp_distance, .. } = config.hand;
-    let [_, palm_breadth, palm_face] = extent(urdf, &config.palm);
+    let [_, half_breadth, palm_face] = extent(urdf, &config.palm);
     let middle = urdf.model().joints.iter().filter(|joint| joint.name == config.hand.tips[2]);
     let middle = middle.map(|joint| extent(urdf, &joint.child.link)[1]).fold(0.0, f64::max);
     let interlaces = fingers[0].joints[0].origin.translation.y.abs() - pad[0] > middle;
@@ -126,10 +108,31 @@ fn hand(path: &Path, config: &Config, urdf: &Urdf) -> Result<Hand, RobotError> {
         grasp_distance,
         palm_face,
         interlaces,
-        half_breadth: palm_breadth,
+        half_breadth,
     };
     hand.half_breadth = hand.half_breadth.max(hand.reach_aside());
     Ok(hand)
+}
+
+/// The chains of the three fingers from the palm frame.
+fn fingers(path: &Path, config: &Config, urdf: &Urdf) -> Result<[Finger; 3], RobotError> {
+    let names = &config.hand;
+    let last_arm_joint = config.arm.joints.last().map(String::as_str);
+    let mut fingers = Vec::with_capacity(3);
+    for finger in 0..3 {
+        let (joints, end) = urdf.chain(last_arm_joint, &names.ends[finger])?;
+        let tail = joints.len().saturating_sub(2);
+        let expected = [&names.bases[finger], &names.tips[finger]];
+        if !joints[tail..].iter().map(|joint| &joint.name).eq(expected) || tail > 1 {
+            let message = "each finger must be an optional spread, a base and a tip joint";
+            return Err(Config::fault(path, "ends", message));
+        }
+        fingers.push(Finger { joints, end });
+    }
+    let fingers: [Finger; 3] =
+        fingers.try_into().map_err(|_| Config::fault(path, "ends", "expected three fingers"))?;
+    let (_, palm) = urdf.chain(None, &config.palm)?;
+    Ok(fingers.map(|finger| from_palm(finger, &palm)))
 }
 
 /// How far the forms of a link reach along its axes, m. (Meshes are not read here.)

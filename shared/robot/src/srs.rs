@@ -47,8 +47,13 @@ pub struct Srs {
     sign: [f64; 7],
 }
 
-/// Largest deviation from an exact S-R-S geometry, m and sine, that is still read as one (URDF files round).
+/// Largest deviation from an exact S-R-S geometry, m and sine, that is still read as one: URDF files round to fractions of
+/// a millimetre.
 const TOLERANCE: f64 = 1e-4;
+/// Distances below these (m), and sines, count as zero: a direction computed from them would be one of rounding.
+const NO_DISTANCE: f64 = 1e-9;
+const NO_OFFSET: f64 = 1e-12;
+const NO_SINE: f64 = 1e-10;
 
 impl Srs {
     /// Recognises the geometry of `arm`.
@@ -109,7 +114,7 @@ impl Srs {
         let line = wrist.translation.vector;
         let (a, b) = (self.upper_arm, self.forearm);
         let cosine = (line.norm_squared() - a * a - b * b) / (2.0 * a * b);
-        if !(-1.0..=1.0).contains(&cosine) || line.norm() < 1e-9 {
+        if !(-1.0..=1.0).contains(&cosine) || line.norm() < NO_DISTANCE {
             return found;
         }
         let target = wrist.rotation.to_rotation_matrix();
@@ -132,7 +137,7 @@ impl Srs {
     fn upper_arm_rotation(&self, line: &Vector3<f64>, elbow: f64, swivel: f64) -> Rotation3<f64> {
         let bent = (self.forearm * elbow.sin()).atan2(self.upper_arm + self.forearm * elbow.cos());
         let raised = line.x.hypot(line.y).atan2(line.z) - bent;
-        let turned = if line.x.hypot(line.y) > 1e-12 { line.y.atan2(line.x) } else { 0.0 };
+        let turned = if line.x.hypot(line.y) > NO_OFFSET { line.y.atan2(line.x) } else { 0.0 };
         let reference = Rotation3::from_axis_angle(&Vector3::z_axis(), turned)
             * Rotation3::from_axis_angle(&Vector3::y_axis(), raised);
         Rotation3::from_axis_angle(&UnitVector3::new_normalize(*line), swivel) * reference
@@ -157,7 +162,7 @@ impl Srs {
 fn euler_zyz(rotation: &Rotation3<f64>) -> [[f64; 3]; 2] {
     let m = rotation.matrix();
     let sine = m[(0, 2)].hypot(m[(1, 2)]);
-    if sine < 1e-10 {
+    if sine < NO_SINE {
         let straight = if m[(2, 2)] > 0.0 { 0.0 } else { PI };
         let turn = m[(1, 0)].atan2(m[(1, 1)]);
         return [[0.0, straight, turn], [PI, -straight, turn - PI]];

@@ -19,6 +19,9 @@ struct Source {
     prefix: String,
 }
 
+/// Length below which an axis is none.
+const NO_AXIS: f64 = 1e-9;
+
 impl Urdf {
     /// Reads a URDF file.
     ///
@@ -70,7 +73,7 @@ impl Urdf {
         Self { sources, robot }
     }
 
-    /// The link that is nobody's child.
+    /// The root link: the only one that is no joint's child.
     ///
     /// # Errors
     /// [`RobotError::Malformed`] when there is none, or more than one.
@@ -158,7 +161,7 @@ impl Urdf {
     }
 
     fn revolute(&self, joint: &urdf_rs::Joint, origin: Isometry3<f64>) -> Result<Joint, RobotError> {
-        let axis = UnitVector3::try_new(Vector3::from(joint.axis.xyz.0), 1e-9)
+        let axis = UnitVector3::try_new(Vector3::from(joint.axis.xyz.0), NO_AXIS)
             .ok_or_else(|| self.fault(&joint.name, "has a zero axis; expected a direction"))?;
         if !origin.translation.vector.iter().chain(axis.iter()).all(|value| value.is_finite()) {
             return Err(self.fault(&joint.name, "has an origin or axis that is not finite"));
