@@ -100,11 +100,11 @@ fn beside_walls_it_is_taken_from_where_there_is_room() {
 
 #[test]
 fn it_is_taken_as_its_next_place_asks_for() {
-    let next = Isometry3::translation(-0.55, 0.35, 1.0);
-    let then = vec![next * column().inverse()];
+    let place = Isometry3::translation(-0.55, 0.35, 1.0);
+    let displacements = vec![place * column().inverse()];
     // Put into something deep, or handed over below something.
-    assert_eq!(side(walls(&next), then.clone()), GripSide::Above);
-    assert_eq!(side(roof(&next), then), GripSide::Beside);
+    assert_eq!(side(walls(&place), displacements.clone()), GripSide::Above);
+    assert_eq!(side(roof(&place), displacements), GripSide::Beside);
 }
 
 #[test]

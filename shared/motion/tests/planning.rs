@@ -50,8 +50,8 @@ fn grasp_point(posture: &Posture) -> Point3<f64> {
     AROS.0.arm.palm(posture) * AROS.0.grasp_point()
 }
 
-fn posture(plan: &Plan, share: f64) -> Posture {
-    plan.at(share * plan.duration()).map(|state| state.position)
+fn posture(plan: &Plan, fraction: f64) -> Posture {
+    plan.at(fraction * plan.duration()).map(|state| state.position)
 }
 
 fn pillar(x: f64, y: f64) -> Scene {
@@ -73,7 +73,7 @@ fn the_hand_comes_to_its_goal_from_the_side_it_was_told() {
 }
 
 #[test]
-fn what_stands_in_the_way_is_passed_at_the_margin() {
+fn what_blocks_the_direct_movement_is_passed_at_the_required_clearance() {
     let goal = grip_at(-0.55, 0.25, 0.9);
     let free = problem(&Scene::default(), parked(), goal).plan().unwrap();
     let middle = grasp_point(&posture(&free, 0.4));
@@ -176,13 +176,16 @@ fn a_part_that_goes_on_is_gripped_so_that_the_hand_can_go_on() {
                 &Vector3::z_axis(),
                 std::f64::consts::FRAC_PI_4 * f64::from(turn),
             );
-        let then = socket * part.inverse();
-        problem.next_displacements = vec![then];
+        let displacement = socket * part.inverse();
+        problem.next_displacements = vec![displacement];
         let plan = problem.plan().unwrap();
-        if !can_stand(&(then * comfortable)) && can_stand(&(then * palm(&plan))) {
+        if !can_stand(&(displacement * comfortable)) && can_stand(&(displacement * palm(&plan))) {
             others += 1;
         }
-        assert!(can_stand(&(then * palm(&plan))) || !can_stand(&(then * comfortable)), "turn {turn}");
+        assert!(
+            can_stand(&(displacement * palm(&plan))) || !can_stand(&(displacement * comfortable)),
+            "turn {turn}"
+        );
     }
     assert!(others > 0, "the comfortable grip could go on everywhere");
 }
@@ -200,10 +203,10 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn a_movement_goes_on_from_the_present_motion(share in 0.1..0.9, x in -0.6..-0.3, y in 0.3..0.7) {
+    fn a_movement_goes_on_from_the_present_motion(fraction in 0.1..0.9, x in -0.6..-0.3, y in 0.3..0.7) {
         let scene = Scene::default();
         let first = problem(&scene, parked(), grip_at(-0.4, 0.55, 0.8)).plan().unwrap();
-        let now = first.at(share * first.duration());
+        let now = first.at(fraction * first.duration());
         match problem(&scene, now, grip_at(x, y, 0.85)).plan() {
             Ok(plan) => {
                 for (begun, now) in plan.at(0.0).iter().zip(&now) {
@@ -218,13 +221,13 @@ proptest! {
     }
 
     #[test]
-    fn distances_change_as_their_slopes_say(turn in prop::array::uniform7(-0.3..0.3)) {
+    fn distances_change_as_their_gradients_say(turn in prop::array::uniform7(-0.3..0.3)) {
         let (mechanism, collision_model) = &*AROS;
         let posture: Posture = std::array::from_fn(|joint| mechanism.park[joint] + turn[joint]);
         let hand = grasp_point(&posture);
-        let ball = Capsule { start: Point3::origin(), end: Point3::origin(), radius: 0.05 };
+        let sphere = Capsule { start: Point3::origin(), end: Point3::origin(), radius: 0.05 };
         let place = Isometry3::translation(hand.x + 0.15, hand.y, hand.z);
-        let scene = Scene { obstacles: vec![Obstacle::new("ball", Solid::Capsule(ball), &place)], ..Scene::default() };
+        let scene = Scene { obstacles: vec![Obstacle::new("sphere", Solid::Capsule(sphere), &place)], ..Scene::default() };
         let clearance = Clearance { mechanism, collision_model, scene: &scene, segment: SegmentKind::Reach };
         let mut found = Vec::new();
         clearance.near(&posture, 0.3, &mut found);
@@ -248,15 +251,15 @@ proptest! {
         }
     }
 
-    /// Against the distance of a box from a ball, which is known exactly. (The geometry library in single precision
+    /// Against the distance of a box from a sphere, which is known exactly. (The geometry library in single precision
     /// was off by 4 mm here.)
     #[test]
     fn distances_are_true(turn in prop::array::uniform7(-0.3..0.3), off in prop::array::uniform3(-0.2..0.2f64)) {
         let (mechanism, collision_model) = &*AROS;
         let posture: Posture = std::array::from_fn(|joint| mechanism.park[joint] + turn[joint]);
         let centre = grasp_point(&posture) + Vector3::from(off);
-        let ball = Solid::Capsule(Capsule { start: centre, end: centre, radius: 0.05 });
-        let scene = Scene { obstacles: vec![Obstacle::new("ball", ball, &Isometry3::identity())], ..Scene::default() };
+        let sphere = Solid::Capsule(Capsule { start: centre, end: centre, radius: 0.05 });
+        let scene = Scene { obstacles: vec![Obstacle::new("sphere", sphere, &Isometry3::identity())], ..Scene::default() };
         let mut found = Vec::new();
         Clearance { mechanism, collision_model, scene: &scene, segment: SegmentKind::Reach }.near(&posture, 0.5, &mut found);
         for near in found.iter().filter(|near| near.other == Counterpart::Obstacle(0) && near.distance > 0.0) {
@@ -270,7 +273,7 @@ proptest! {
 }
 
 #[test]
-fn what_only_passing_fingers_would_touch_counts_on_the_way_alone() {
+fn what_only_passing_fingers_would_touch_counts_on_the_reach_alone() {
     let (robot, mechanism) = (aros(), &AROS.0);
     let [closed, between, open] = [1.5, 1.05, 0.6].map(|base| robot.hand.posture(base));
     let tip = |fingers: &[f64; HAND_JOINTS]| {
@@ -280,8 +283,8 @@ fn what_only_passing_fingers_would_touch_counts_on_the_way_alone() {
     };
     let collision_model = mechanism.with_moving_fingers(&robot.hand, &[closed, open]).unwrap();
     let near = |fingers: &[f64; HAND_JOINTS], segment: SegmentKind| {
-        let ball = Capsule { start: tip(fingers), end: tip(fingers), radius: 0.005 };
-        let thing = Obstacle::new("thing", Solid::Capsule(ball), &Isometry3::identity());
+        let sphere = Capsule { start: tip(fingers), end: tip(fingers), radius: 0.005 };
+        let thing = Obstacle::new("thing", Solid::Capsule(sphere), &Isometry3::identity());
         let scene = Scene { obstacles: vec![thing], ..Scene::default() };
         Clearance { mechanism, collision_model: &collision_model, scene: &scene, segment }
             .nearest(&mechanism.park, 0.015)

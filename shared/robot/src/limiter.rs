@@ -152,13 +152,13 @@ mod tests {
         })
     }
 
-    /// What a careless sender asks for: jumps, ramps, beyond the limits, nothing, not a number.
-    fn wish(kind: u8, value: f64, tick: usize, state: &Limiter) -> f64 {
+    /// Setpoints that a limiter must bear: jumps, ramps, beyond the limits, nothing, not a number.
+    fn setpoint(kind: u8, value: f64, cycle: usize, state: &Limiter) -> f64 {
         match kind % 6 {
             0 => 4.0 * value,
             1 => state.position + 0.002 * value,
             2 => state.position + DT * (state.velocity + DT * (state.acceleration + DT * 400.0 * value)),
-            3 => (tick as f64 * 0.01 * value).sin() * 3.0,
+            3 => (cycle as f64 * 0.01 * value).sin() * 3.0,
             4 => f64::NAN,
             _ => state.position + DT * (state.velocity + DT * (state.acceleration + 0.49)),
         }
@@ -168,13 +168,13 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(200))]
 
         #[test]
-        fn no_wish_breaks_the_limits(limits in limits(), wishes in prop::collection::vec((any::<u8>(), -1.0..1.0), 60)) {
+        fn no_setpoint_breaks_the_limits(limits in limits(), setpoints in prop::collection::vec((any::<u8>(), -1.0..1.0), 60)) {
             let mut state = Limiter::at_rest(0.0);
-            for tick in 0..3000 {
-                let (kind, value) = wishes[tick / 50];
+            for cycle in 0..3000 {
+                let (kind, value) = setpoints[cycle / 50];
                 let before = state;
-                let wish = wish(kind, value, tick, &state);
-                state = state.accept(wish, &limits, DT).unwrap_or_else(|| state.brake(&limits, DT));
+                let setpoint = setpoint(kind, value, cycle, &state);
+                state = state.accept(setpoint, &limits, DT).unwrap_or_else(|| state.brake(&limits, DT));
                 let velocity = (state.position - before.position) / DT;
                 let jerk = (state.acceleration - before.acceleration) / DT;
                 prop_assert!((velocity - state.velocity).abs() < 1e-9);
@@ -207,15 +207,15 @@ mod tests {
             let acceleration = acceleration * limits.acceleration;
             let start = Limiter { position: 0.0, velocity: velocity * limits.velocity, acceleration };
             let mut state = start;
-            let mut ticks = 0;
+            let mut cycles = 0;
             while !state.is_at_rest() {
                 state = state.brake(&limits, DT);
-                ticks += 1;
-                prop_assert!(ticks < 10_000, "still {state:?}");
+                cycles += 1;
+                prop_assert!(cycles < 10_000, "still {state:?}");
             }
             // Time-optimal braking takes at most v/A + 2 A/J, after undoing the acceleration it starts with.
             let worst = start.velocity.abs() / limits.acceleration + 4.0 * limits.acceleration / limits.jerk;
-            prop_assert!(f64::from(ticks) * DT < 1.5 * worst + 0.02, "{ticks} ticks, {worst} s");
+            prop_assert!(f64::from(cycles) * DT < 1.5 * worst + 0.02, "{cycles} cycles, {worst} s");
         }
     }
 
@@ -232,11 +232,11 @@ mod tests {
         let start = [crate::MotionState::at_rest(-0.9)];
         let movement = crate::PointToPoint::plan(start, [0.97], &[limits]).unwrap();
         let mut state = Limiter::at_rest(-0.9);
-        let mut tick = 0;
-        while tick as f64 * DT < movement.duration {
-            tick += 1;
-            let [wish] = movement.at(tick as f64 * DT);
-            state = state.accept(wish.position, &limits, DT).unwrap();
+        let mut cycle = 0;
+        while cycle as f64 * DT < movement.duration {
+            cycle += 1;
+            let [setpoint] = movement.at(cycle as f64 * DT);
+            state = state.accept(setpoint.position, &limits, DT).unwrap();
         }
         assert!((state.position - 0.97).abs() < 1e-12);
         assert!(state.velocity.abs() < 1e-2);

@@ -106,10 +106,10 @@ mod tests {
 
         #[test]
         fn derivatives_agree_with_numeric_ones(
-            start in state(), end in state(), duration in 0.2..3.0, share in 0.1..0.9,
+            start in state(), end in state(), duration in 0.2..3.0, fraction in 0.1..0.9,
         ) {
             let movement = Quintic::new(start, end, duration);
-            let (t, h) = (share * duration, 1e-4 * duration);
+            let (t, h) = (fraction * duration, 1e-4 * duration);
             let slope = |of: fn(&MotionState) -> f64| (of(&movement.at(t + h)) - of(&movement.at(t - h))) / (2.0 * h);
             let here = movement.at(t);
             let scale = 1.0 + movement.jerk(t).abs();

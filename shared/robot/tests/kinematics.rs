@@ -13,10 +13,10 @@ static ROBOT: LazyLock<Robot> = LazyLock::new(|| {
 
 /// A posture anywhere within the limits.
 fn posture() -> impl Strategy<Value = Posture> {
-    prop::array::uniform7(0.0..1.0f64).prop_map(|share| {
+    prop::array::uniform7(0.0..1.0f64).prop_map(|fraction| {
         std::array::from_fn(|joint| {
             let limits = ROBOT.arm().joints[joint].limits;
-            limits.lower + share[joint] * (limits.upper - limits.lower)
+            limits.lower + fraction[joint] * (limits.upper - limits.lower)
         })
     })
 }

@@ -11,11 +11,11 @@ pub struct Case {
     pub scene: Scene,
     /// State of the arm's joints at the start.
     pub start: [MotionState; 7],
-    /// Straight back first: direction and distance, m.
+    /// Straight back first: direction (unit, world) and distance, m.
     pub leave: Option<(Vector3<f64>, f64)>,
-    /// Where to.
+    /// Where the movement ends.
     pub goal: Goal,
-    /// Last part of the approach on which the hand keeps to its line, m.
+    /// Length of the last part of the approach on which the hand keeps to a straight line, m.
     pub insertion_depth: f64,
 }
 
@@ -43,9 +43,9 @@ impl Case {
             scene: &self.scene,
             segment: SegmentKind::Reach,
         };
-        clearance.is_clear(&self.start.map(|state| state.position), ROOM)
+        clearance.is_clear(&self.start.map(|state| state.position), CLEAR_START)
     }
 }
 
-/// Room around the arm at the start, m.
-const ROOM: f64 = 0.02;
+/// Clearance of the arm at the start, m: cases are about the path, not about a start in a corner. Chosen by hand.
+const CLEAR_START: f64 = 0.02;

@@ -1,5 +1,5 @@
-//! The suite of movements by which the planner is measured: randomised cases, what a movement looks like from outside,
-//! and a long sampling search as the judge of what could have been solved.
+//! The suite of movements by which the planner is measured: randomised cases of several scenarios, the quality of a planned
+//! movement as an observer sees it, and a long RRT-Connect search that tells which failures had a solution.
 
 mod case;
 mod chart;

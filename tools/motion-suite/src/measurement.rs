@@ -11,7 +11,7 @@ pub struct Outcome {
     pub planning_ms: f64,
     /// How the movement looks, or why there is none.
     pub result: Result<(Plan, Quality), Refusal>,
-    /// Whether a solution is known: found, or found by the judge.
+    /// Whether a solution is known: planned, or a path found by the long search.
     pub solvable: bool,
 }
 
@@ -30,11 +30,11 @@ pub struct Measurement {
     pub solved: usize,
     /// Time of planning, ms: median, 99th percentile, largest; of solved cases.
     pub planning_ms: [f64; 3],
-    /// Share of the cases in which an excursion was needed.
+    /// Fraction of the cases in which a bounce or a detour was needed.
     pub bounced: f64,
-    /// Largest number of peaks of the hand's speed in one movement, and share of the movements with one.
+    /// Largest number of movement units in one movement.
     pub units: u32,
-    /// Share of movements with one peak.
+    /// Fraction of the movements with one movement unit.
     pub single_unit: f64,
     /// Median of the normalised jerk.
     pub normalised_jerk: f64,
@@ -42,7 +42,7 @@ pub struct Measurement {
     pub duration_s: f64,
     /// Largest distance from the goal at the end, m.
     pub position_error: f64,
-    /// Smallest distance from anything on the way, m.
+    /// Smallest clearance on a reach, m.
     pub clearance: f64,
     /// What was said about the unsolved cases.
     pub refusals: Vec<String>,
@@ -114,7 +114,7 @@ fn summary(setting: &Setting, scenario: Scenario, outcomes: &[Outcome]) -> Measu
         values
     };
     let times = sorted(&|(outcome, ..)| outcome.planning_ms);
-    let share = |of: &dyn Fn(&(&Outcome, &Plan, &Quality)) -> bool| {
+    let fraction = |of: &dyn Fn(&(&Outcome, &Plan, &Quality)) -> bool| {
         solved.iter().filter(|one| of(one)).count() as f64 / solved.len().max(1) as f64
     };
     let refusals = outcomes.iter().filter_map(|outcome| {
@@ -127,10 +127,10 @@ fn summary(setting: &Setting, scenario: Scenario, outcomes: &[Outcome]) -> Measu
         cases: outcomes.len(),
         solvable: outcomes.iter().filter(|outcome| outcome.solvable).count(),
         solved: solved.len(),
-        planning_ms: [0.5, 0.99, 1.0].map(|share| quantile(&times, share)),
-        bounced: share(&|(_, plan, _)| plan.bounces),
+        planning_ms: [0.5, 0.99, 1.0].map(|fraction| quantile(&times, fraction)),
+        bounced: fraction(&|(_, plan, _)| plan.bounces),
         units: solved.iter().map(|(.., quality)| quality.units).max().unwrap_or(0),
-        single_unit: share(&|(.., quality)| quality.units == 1),
+        single_unit: fraction(&|(.., quality)| quality.units == 1),
         normalised_jerk: quantile(&sorted(&|(.., quality)| quality.normalised_jerk), 0.5),
         duration_s: quantile(&sorted(&|(.., quality)| quality.duration_s), 0.5),
         position_error: quantile(&sorted(&|(.., quality)| quality.position_error), 1.0),
@@ -140,7 +140,7 @@ fn summary(setting: &Setting, scenario: Scenario, outcomes: &[Outcome]) -> Measu
 }
 
 /// Quantile of sorted values; NaN without values.
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let index = (share * (sorted.len().max(1) - 1) as f64).round() as usize;
+fn quantile(sorted: &[f64], fraction: f64) -> f64 {
+    let index = (fraction * (sorted.len().max(1) - 1) as f64).round() as usize;
     sorted.get(index).copied().unwrap_or(f64::NAN)
 }

@@ -81,7 +81,7 @@ impl MovementPage<'_> {
         }
     }
 
-    /// A look at all that the arm comes by, and at all that stands around it.
+    /// A view of all places of the arm during the movement, and of all obstacles.
     fn view(&self) -> View {
         let capsules = (0..=4).flat_map(|step| {
             let posture = self.posture(self.plan.duration() * f64::from(step) / 4.0);

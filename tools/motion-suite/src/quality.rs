@@ -9,20 +9,24 @@ pub struct Quality {
     pub path_m: f64,
     /// Largest speed of the hand, m/s.
     pub peak_speed: f64,
-    /// Peaks of the hand's speed.
+    /// Movement units: rises and falls of the hand's speed.
     pub units: u32,
     /// sqrt(1/2 integral of jerk² x T⁵ / L²) of the hand's path; 19 for a straight movement of minimum jerk.
     pub normalised_jerk: f64,
     /// Distance of the grasp point from its goal at the end, m; 0 for a posture.
     pub position_error: f64,
-    /// Smallest distance from anything on the way to the goal (leaving and approaching aside), m; at most [`FAR`].
+    /// Smallest clearance on the reaches, m (leaving and approaching must come near things); at most [`FAR`].
     pub clearance: f64,
 }
 
-/// Distances beyond this are not told apart, m.
+/// Distances beyond this are not told apart, m: far beyond any clearance that is required.
 pub const FAR: f64 = 0.3;
-/// Samples of a movement, 1/s.
+/// Samples of a movement, 1/s, and how many there are at least. Chosen by hand: fine against a rise and fall of speed,
+/// which takes several tenths of a second.
 const RATE: f64 = 500.0;
+const LEAST_SAMPLES: f64 = 8.0;
+/// Steps of each reach at whose ends clearance is measured. Chosen by hand: twice as many as the planner checks.
+const CHECKED: u32 = 200;
 
 impl Quality {
     /// Of a plan for this problem.
@@ -42,7 +46,7 @@ impl Quality {
 
 /// The path of the hand in a plan.
 pub fn path(problem: &Problem, plan: &Plan) -> HandPath {
-    let count = (plan.duration() * RATE).ceil().max(8.0) as usize;
+    let count = (plan.duration() * RATE).ceil().max(LEAST_SAMPLES) as usize;
     HandPath::of(problem.mechanism, plan, count)
 }
 
@@ -52,18 +56,19 @@ fn position_error(problem: &Problem, plan: &Plan) -> f64 {
     (grasp - goals[target.goal].point).norm()
 }
 
-/// Smallest distance while the hand is on its way.
+/// Smallest clearance on the reaches.
 fn clearance(problem: &Problem, plan: &Plan) -> f64 {
     let Problem { mechanism, collision_model, scene, .. } = *problem;
     let clearance = Clearance { mechanism, collision_model, scene, segment: SegmentKind::Reach };
     let ends = plan.segments.iter().map(|(_, end)| *end);
     let begins = std::iter::once(0.0).chain(ends);
-    let ways = plan.segments.iter().zip(begins).filter(|((kind, _), _)| *kind == SegmentKind::Reach);
-    ways.flat_map(|((_, end), begin)| {
-        (0..=200).map(move |step| begin + (end - begin) * f64::from(step) / 200.0)
-    })
-    .map(|t| plan.at(t).map(|state| state.position))
-    .filter_map(|posture| clearance.nearest(&posture, FAR))
-    .map(|near| near.distance)
-    .fold(FAR, f64::min)
+    let reaches = plan.segments.iter().zip(begins).filter(|((kind, _), _)| *kind == SegmentKind::Reach);
+    reaches
+        .flat_map(|((_, end), begin)| {
+            (0..=CHECKED).map(move |step| begin + (end - begin) * f64::from(step) / f64::from(CHECKED))
+        })
+        .map(|t| plan.at(t).map(|state| state.position))
+        .filter_map(|posture| clearance.nearest(&posture, FAR))
+        .map(|near| near.distance)
+        .fold(FAR, f64::min)
 }

@@ -7,7 +7,7 @@ use coact_robot::{HAND_JOINTS, Hand, Robot, RobotError};
 pub struct Setting {
     /// The arm.
     pub mechanism: Mechanism,
-    /// Its hand, when it is a robot of ours.
+    /// Its hand, when a robot file describes it.
     pub hand: Option<Hand>,
     /// The task at which it picks and inserts.
     pub task: Option<Task>,
@@ -15,11 +15,11 @@ pub struct Setting {
     pub open: CollisionModel,
 }
 
-/// Clear width of the open hand, m.
+/// Clear width of the open hand, m: wider than the widest part of the toy vehicle (75 mm).
 const OPEN: f64 = 0.10;
 
 impl Setting {
-    /// A robot of ours at a task.
+    /// A robot that a robot file describes, at a task.
     ///
     /// # Errors
     /// What is wrong with the robot's collision geometry.
@@ -39,7 +39,7 @@ impl Setting {
         Ok(Self { mechanism, hand: None, task: None, open })
     }
 
-    /// The arm with these angles of its hand's joints, rad. None without a hand of ours.
+    /// The arm with these angles of its hand's joints, rad. None for an arm that only a URDF describes.
     pub(crate) fn with_fingers(&self, angles: &[f64; HAND_JOINTS]) -> Option<CollisionModel> {
         self.mechanism.with_fingers(self.hand.as_ref()?, angles).ok()
     }

@@ -8,13 +8,21 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// Distance of the pose before a grasp or a socket, and of leaving, m.
+/// Distance of the pose before a grasp or a socket, and of leaving with a part, m: those of published planners in posture
+/// space.
 const BEFORE: f64 = 0.15;
-const AWAY: f64 = 0.05;
-/// How deep parts go into their sockets at most, m.
+const LIFT: f64 = 0.05;
+/// How deep parts go into their sockets at most, m: the height of the toy vehicle's platform.
 const DEEP: f64 = 0.03;
-/// Turns in which a round part is inserted.
+/// Turns about its axis in which a round part is inserted: every 30 degrees. A trade-off with the time of planning.
 const TURNS: u32 = 12;
+/// How far a part stands from its place in the task at most, along x and along y, m. Chosen by hand.
+const MOVED: f64 = 0.02;
+/// Height above the table at which a part stands, m: it touches nothing.
+const ABOVE_TABLE: f64 = 0.001;
+/// How far a start is from the park posture in each joint at most, and from the joint limits at least, rad. Chosen by hand.
+const NEAR_PARK: f64 = 0.2;
+const FROM_LIMITS: f64 = 0.02;
 
 /// To a part of the robot among others, until the hand is around it.
 pub(super) fn pick(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
@@ -90,7 +98,7 @@ pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
         collision_model,
         scene,
         start: plan.end().map(MotionState::at_rest),
-        leave: Some((Vector3::z(), AWAY)),
+        leave: Some((Vector3::z(), LIFT)),
         goal: Goal::Hand(goals),
         insertion_depth: DEEP,
     };
@@ -117,8 +125,8 @@ fn table(task: &Task, random: &mut Pcg64) -> (Scene, Vec<Isometry3<f64>>) {
     let mut scene = Scene { obstacles: coact_workplace::fixtures(task), ..Scene::default() };
     let mut places = Vec::new();
     for (index, part) in task.parts.iter().enumerate() {
-        let [x, y] = part.at.map(|at| at + random.random_range(-0.02..0.02));
-        let place = Isometry3::translation(x, y, task.scene.table_height + 0.001);
+        let [x, y] = part.at.map(|at| at + random.random_range(-MOVED..MOVED));
+        let place = Isometry3::translation(x, y, task.scene.table_height + ABOVE_TABLE);
         scene.obstacles.push(coact_workplace::upright(
             &part_name(index),
             task.kinds[part.kind].shape,
@@ -141,7 +149,7 @@ fn along(at: [f64; 3], axis: [f64; 3]) -> Isometry3<f64> {
 fn near_park(setting: &Setting, random: &mut Pcg64) -> Posture {
     let limits = setting.mechanism.limits();
     std::array::from_fn(|joint| {
-        let angle = setting.mechanism.park[joint] + random.random_range(-0.2..0.2);
-        angle.clamp(limits[joint].lower + 0.02, limits[joint].upper - 0.02)
+        let angle = setting.mechanism.park[joint] + random.random_range(-NEAR_PARK..NEAR_PARK);
+        angle.clamp(limits[joint].lower + FROM_LIMITS, limits[joint].upper - FROM_LIMITS)
     })
 }
