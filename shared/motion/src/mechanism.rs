@@ -45,7 +45,7 @@ const ELBOW: f64 = 1.6;
 const MEETING: f64 = 0.6;
 
 impl Mechanism {
-    /// A robot of ours, described by a robot file.
+    /// The robot that a robot file describes.
     ///
     /// # Errors
     /// [`RobotError`] when its collision geometry cannot be used.
@@ -135,7 +135,7 @@ impl Mechanism {
         Ok(CollisionModel::new(self, links))
     }
 
-    /// The same with the joints of a hand of ours at these angles, rad, in message order.
+    /// The same with the joints of a hand from a robot file at these angles, rad, in message order.
     ///
     /// # Errors
     /// As [`collision_model`](Self::collision_model).
