@@ -47,7 +47,7 @@ impl JointLimits {
         angle >= self.lower + margin && angle <= self.upper - margin
     }
 
-    /// Whether position, velocity, acceleration and `jerk` (rad/s³) lie within the limits, the position to [`ROUNDING`].
+    /// Whether position (but for rounding), velocity, acceleration and `jerk` (rad/s³) lie within the limits.
     pub fn allows(&self, state: &MotionState, jerk: f64) -> bool {
         self.contain(state.position, -ROUNDING)
             && state.velocity.abs() <= self.velocity
