@@ -22,7 +22,7 @@
 //! The robot of this repository moves its hand over a table, past a pillar.
 //!
 //! ```
-//! use coact_motion::{Clearance, Goal, Mechanism, MinClearance, Obstacle, Problem, Scene, SegmentKind, Solid};
+//! use coact_motion::{Clearance, Goal, Mechanism, Obstacle, Problem, Scene, SegmentKind, Solid};
 //! use coact_robot::{HandGoal, MotionState, Robot};
 //! use nalgebra::{Isometry3, Vector3};
 //!
@@ -44,17 +44,9 @@
 //!
 //! // A grip from above, for something 40 mm high that stands on the table.
 //! let part = Isometry3::translation(-0.55, 0.25, 0.7);
-//! let problem = Problem {
-//!     mechanism: &mechanism,
-//!     collision_model: &collision_model,
-//!     scene: &scene,
-//!     start: robot.park.map(MotionState::at_rest),
-//!     leave: None,
-//!     goal: Goal::Hand(vec![HandGoal::grip(&part, 0.04, 0, 0.15, 0.7)]),
-//!     next_displacements: Vec::new(),
-//!     insertion_depth: 0.0,
-//!     min_clearance: MinClearance::default(),
-//! };
+//! let goal = Goal::Hand(vec![HandGoal::grip(&part, 0.04, 0, 0.15, 0.7)]);
+//! let start = robot.park.map(MotionState::at_rest);
+//! let problem = Problem::new(&mechanism, &collision_model, &scene, start, goal);
 //! let plan = problem.plan()?;
 //! assert!(plan.duration() < 4.0);
 //! assert_eq!(plan.broken(&mechanism.limits()), None);

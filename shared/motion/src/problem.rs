@@ -38,7 +38,29 @@ pub struct Problem<'a> {
 /// found a path by then rarely finds one.
 const POSTURES: u32 = 40_000;
 
-impl Problem<'_> {
+impl<'a> Problem<'a> {
+    /// A movement to this goal that does not leave straight first, puts nothing into anything, and after which nothing
+    /// follows; with the usual clearance.
+    pub fn new(
+        mechanism: &'a Mechanism,
+        collision_model: &'a CollisionModel,
+        scene: &'a Scene,
+        start: [MotionState; 7],
+        goal: Goal,
+    ) -> Self {
+        Self {
+            mechanism,
+            collision_model,
+            scene,
+            start,
+            leave: None,
+            goal,
+            next_displacements: Vec::new(),
+            insertion_depth: 0.0,
+            min_clearance: MinClearance::default(),
+        }
+    }
+
     /// Plans the movement: the postures at the goal first, then a clear path to the one that costs the least change.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Robots that only a URDF describes: planned for, or refused with one clear error.
 #![allow(clippy::unwrap_used)]
 
-use coact_motion::{Goal, Mechanism, Meshes, MinClearance, Problem, Scene};
+use coact_motion::{Goal, Mechanism, Meshes, Problem, Scene};
 use coact_robot::{HandGoal, MotionState, Posture, Robot, RobotError, Urdf};
 use nalgebra::Vector3;
 use std::fmt::Write;
@@ -88,17 +88,8 @@ fn is_reached(mechanism: &Mechanism, posture: &Posture) {
         back: 0.0,
         floor: f64::NEG_INFINITY,
     };
-    let problem = Problem {
-        mechanism,
-        collision_model: &collision_model,
-        scene: &Scene::default(),
-        start: mechanism.park.map(MotionState::at_rest),
-        leave: None,
-        goal: Goal::Hand(vec![goal]),
-        next_displacements: Vec::new(),
-        insertion_depth: 0.0,
-        min_clearance: MinClearance::default(),
-    };
+    let (scene, start) = (Scene::default(), mechanism.park.map(MotionState::at_rest));
+    let problem = Problem::new(mechanism, &collision_model, &scene, start, Goal::Hand(vec![goal]));
     let plan = problem.plan().unwrap();
     let reached = mechanism.arm.palm(&plan.end());
     assert!((reached * mechanism.grasp_point() - goal.point).norm() < 1e-3);

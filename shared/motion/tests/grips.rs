@@ -1,7 +1,7 @@
 //! Which grip is chosen, by what stands around the part and by where it goes next.
 #![allow(clippy::unwrap_used)]
 
-use coact_motion::{Goal, Mechanism, MinClearance, Obstacle, Problem, Scene, Solid};
+use coact_motion::{Goal, Mechanism, Obstacle, Problem, Scene, Solid};
 use coact_robot::{Graspable, Grip, GripKind, GripSide, Grips, HandGoal, MotionState, NextUse, Robot};
 use nalgebra::{Isometry3, Vector3};
 use std::sync::LazyLock;
@@ -39,19 +39,12 @@ fn chosen(
         &(place * Isometry3::translation(0.0, 0.0, 0.5 * HEIGHT)),
     ));
     let offers = grips.goals(place, 0.15, f64::NEG_INFINITY);
-    let plan = Problem {
-        mechanism,
-        collision_model: &collision_model,
-        scene: &scene,
-        start: robot.park.map(MotionState::at_rest),
-        leave: None,
-        goal: Goal::Hand(offers.iter().map(|(_, goal)| *goal).collect()),
-        next_displacements,
-        insertion_depth: 0.0,
-        min_clearance: MinClearance::default(),
-    }
-    .plan()
-    .ok()?;
+    let goal = Goal::Hand(offers.iter().map(|(_, goal)| *goal).collect());
+    let start = robot.park.map(MotionState::at_rest);
+    let plan =
+        Problem { next_displacements, ..Problem::new(mechanism, &collision_model, &scene, start, goal) }
+            .plan()
+            .ok()?;
     let (index, goal) = offers[plan.target?.goal];
     Some((grips.all[index], goal))
 }

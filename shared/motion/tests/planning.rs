@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_motion::{
-    Capsule, Clearance, CollisionModel, Counterpart, Goal, Mechanism, MinClearance, Obstacle, Plan, Problem,
-    Refusal, Scene, SegmentKind, Solid,
+    Capsule, Clearance, CollisionModel, Counterpart, Goal, Mechanism, Obstacle, Plan, Problem, Refusal,
+    Scene, SegmentKind, Solid,
 };
 use coact_robot::{HAND_JOINTS, HandGoal, MotionState, Posture, Robot};
 use nalgebra::{Isometry3, Point3, Vector3};
@@ -28,18 +28,7 @@ fn grip_at(x: f64, y: f64, z: f64) -> HandGoal {
 
 fn problem<'a>(scene: &'a Scene, start: [MotionState; 7], goal: HandGoal) -> Problem<'a> {
     let (mechanism, collision_model) = &*AROS;
-    let (goal, min_clearance) = (Goal::Hand(vec![goal]), MinClearance::default());
-    Problem {
-        mechanism,
-        collision_model,
-        scene,
-        start,
-        leave: None,
-        goal,
-        next_displacements: Vec::new(),
-        insertion_depth: 0.0,
-        min_clearance,
-    }
+    Problem::new(mechanism, collision_model, scene, start, Goal::Hand(vec![goal]))
 }
 
 fn parked() -> [MotionState; 7] {

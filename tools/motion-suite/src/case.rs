@@ -1,4 +1,4 @@
-use coact_motion::{Clearance, CollisionModel, Goal, Mechanism, MinClearance, Problem, Scene, SegmentKind};
+use coact_motion::{Clearance, CollisionModel, Goal, Mechanism, Problem, Scene, SegmentKind};
 use coact_robot::MotionState;
 use nalgebra::Vector3;
 
@@ -22,17 +22,9 @@ pub struct Case {
 impl Case {
     /// The same as a problem for the planner.
     pub fn problem<'a>(&'a self, mechanism: &'a Mechanism) -> Problem<'a> {
-        Problem {
-            mechanism,
-            collision_model: &self.collision_model,
-            scene: &self.scene,
-            start: self.start,
-            leave: self.leave,
-            goal: self.goal.clone(),
-            next_displacements: Vec::new(),
-            insertion_depth: self.insertion_depth,
-            min_clearance: MinClearance::default(),
-        }
+        let goal = self.goal.clone();
+        let problem = Problem::new(mechanism, &self.collision_model, &self.scene, self.start, goal);
+        Problem { leave: self.leave, insertion_depth: self.insertion_depth, ..problem }
     }
 
     /// Whether it starts clear of everything.

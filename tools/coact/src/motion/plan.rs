@@ -3,7 +3,7 @@
 use super::robot::RobotArgs;
 use anyhow::{Context, Result, bail, ensure};
 use coact_drawing::Lettering;
-use coact_motion::{Goal, MinClearance, Obstacle, Plan, Problem, Scene, SegmentKind, Solid};
+use coact_motion::{Goal, Obstacle, Plan, Problem, Scene, SegmentKind, Solid};
 use coact_motion_suite::{MovementPage, Quality, Setting};
 use coact_robot::{HandGoal, MotionState};
 use nalgebra::{Isometry3, Point3, Vector3};
@@ -75,17 +75,8 @@ struct Record<'a> {
 pub fn run(args: Args) -> Result<ExitCode> {
     let setting = args.robot.setting(args.task.as_ref())?;
     let scene = scene(&args, &setting)?;
-    let problem = Problem {
-        mechanism: &setting.mechanism,
-        collision_model: &setting.open,
-        scene: &scene,
-        start: start(&args, &setting)?,
-        leave: None,
-        goal: Goal::Hand(vec![goal(&args)?]),
-        next_displacements: Vec::new(),
-        insertion_depth: 0.0,
-        min_clearance: MinClearance::default(),
-    };
+    let (start, goal) = (start(&args, &setting)?, Goal::Hand(vec![goal(&args)?]));
+    let problem = Problem::new(&setting.mechanism, &setting.open, &scene, start, goal);
     let plan = problem.plan()?;
     let quality = Quality::of(&problem, &plan);
     let sheet = MovementPage { problem: &problem, plan: &plan }.draw();

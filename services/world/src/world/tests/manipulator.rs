@@ -5,7 +5,7 @@ use crate::{Partner, Scenario, Settings, World};
 use bytemuck::zeroed_box;
 use coact_joint_task::{Agent, Part, Subgoal, Task};
 use coact_messages::{ARM_JOINTS, Command};
-use coact_motion::{Goal, Mechanism, MinClearance, Problem, Scene};
+use coact_motion::{Goal, Mechanism, Problem, Scene};
 use coact_pipeline::WorldMode;
 use coact_robot::{
     Grip, GripKind, GripSide, Grips, HandGoal, JointLimits, MotionState, NextUse, PointToPoint, Posture,
@@ -152,17 +152,9 @@ impl Manipulator {
             goals.into_iter().filter(|(grip, _)| self.uses(&grips.all[*grip])).map(|(_, own)| goal(own));
         let from: Posture = self.at[..ARM_JOINTS].try_into().unwrap();
         let mechanism = Mechanism::of(&self.robot).unwrap();
-        let problem = Problem {
-            mechanism: &mechanism,
-            collision_model: &mechanism.with_fingers(&self.robot.hand, &grips.open).unwrap(),
-            scene: &Scene::default(),
-            start: from.map(MotionState::at_rest),
-            leave: None,
-            goal: Goal::Hand(goals.collect()),
-            next_displacements: Vec::new(),
-            insertion_depth: 0.0,
-            min_clearance: MinClearance::default(),
-        };
+        let open = mechanism.with_fingers(&self.robot.hand, &grips.open).unwrap();
+        let (scene, start) = (Scene::default(), from.map(MotionState::at_rest));
+        let problem = Problem::new(&mechanism, &open, &scene, start, Goal::Hand(goals.collect()));
         let target = problem.targets_from(&from)[0];
         (target.before, target.at)
     }
