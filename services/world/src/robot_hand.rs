@@ -126,14 +126,8 @@ impl RobotHand {
         });
         match (lost, grip) {
             (Some(part), _) => {
-                state.held = Slot::EMPTY;
-                if person_holds.get() == Some(part) {
-                    parts.give_to(part, Holder::Person);
-                } else {
-                    let opened = grip.is_none() || state.commanded_closure < state.tightest - OPENED;
-                    state.slipped = if opened { Slot::EMPTY } else { Slot::of(part) };
-                    parts.let_go(part, task);
-                }
+                let opened = grip.is_none() || state.commanded_closure < state.tightest - OPENED;
+                let_go(part, opened, state, person_holds, parts, task);
             }
             (None, Some(grip)) if held.is_none() => {
                 let grasped = grip.part.filter(|part| !parts.is(*part, Holder::Socket));
@@ -143,17 +137,20 @@ impl RobotHand {
             (None, None) if held.is_none() => self.grasp(palm, state, parts, task),
             (None, _) => {}
         }
-        state.finger_closure = palm.finger_closure;
-        state.tightest = if state.held == Slot::EMPTY {
-            state.commanded_closure
-        } else {
-            state.tightest.max(state.commanded_closure)
-        };
-        if palm.finger_closure < self.open {
-            state.slipped = Slot::EMPTY;
-        }
         if grip.is_none() {
             carry(palm, state, parts);
+        }
+        self.follow(palm, state, parts);
+    }
+
+    /// Takes down where palm and fingers are now, and for how long the held part has been carried.
+    fn follow(&self, palm: &Palm, state: &mut RobotHandState, parts: &Parts) {
+        state.finger_closure = palm.finger_closure;
+        let is_empty = state.held == Slot::EMPTY;
+        let tightest = state.tightest.max(state.commanded_closure);
+        state.tightest = if is_empty { state.commanded_closure } else { tightest };
+        if palm.finger_closure < self.open {
+            state.slipped = Slot::EMPTY;
         }
         let lifted = palm.grasp_point.distance(state.taken_at.into()) > LIFTED;
         match state.held.get() {
@@ -223,6 +220,24 @@ impl RobotHand {
 fn lasts(state: &mut RobotHandState, changed: bool, ticks: u64) -> bool {
     state.changing = if changed { state.changing + 1 } else { 0 };
     state.changing > ticks
+}
+
+/// The fingers lose the held part, because they `opened` or because it slipped.
+fn let_go(
+    part: usize,
+    opened: bool,
+    state: &mut RobotHandState,
+    person_holds: Slot,
+    parts: &mut Parts,
+    task: &Task,
+) {
+    state.held = Slot::EMPTY;
+    if person_holds.get() == Some(part) {
+        parts.give_to(part, Holder::Person);
+    } else {
+        state.slipped = if opened { Slot::EMPTY } else { Slot::of(part) };
+        parts.let_go(part, task);
+    }
 }
 
 fn take(palm: &Palm, state: &mut RobotHandState, parts: &mut Parts, part: usize) {

@@ -1,16 +1,15 @@
-use crate::dynamics::{FingerStop, Influence, Joints, KinematicRobot, PhysicsSimulation, SimulatedRobot};
+mod outputs;
+
+use crate::dynamics::{FingerStop, Influence, Joints, SimulatedRobot};
 use crate::palm::Palm;
 use crate::parts::Parts;
 use crate::robot_hand::RobotHand;
-use crate::scenario::{Sense, Staging};
-use crate::sensors::{Capture, read_joints, recognise, track};
+use crate::scenario::Staging;
 use crate::simulation_state::SimulationState;
 use crate::{Partner, ResumeError, Settings, WorldError};
 use bytemuck::Zeroable;
 use coact_joint_task::{Fit, Task};
-use coact_messages::{
-    ARM_JOINTS, Command, JOINTS, NONE, PartnerPhase, SensorSample, Truth, WorldState, is_blocked,
-};
+use coact_messages::{ARM_JOINTS, Command, JOINTS, SensorSample, Truth, WorldState};
 use coact_period::{CYCLES_PER_SECOND, cycles};
 use coact_person::{Holder, Manipulation, Person, Policy, Surroundings};
 use coact_pipeline::WorldMode;
@@ -65,17 +64,11 @@ impl World {
         };
         let parts = Parts::new(&task, staging.mounted(&task), fit);
         let joints = parked(robot);
-        let simulated = match settings.mode {
-            WorldMode::Kinematic => SimulatedRobot::Kinematic(KinematicRobot::new()),
-            WorldMode::Physics => {
-                SimulatedRobot::Physics(Box::new(PhysicsSimulation::new(&task, robot, &joints, &parts)?))
-            }
-        };
         Ok(Self {
             random,
             hand: RobotHand::new(robot, &task),
             person: Person::new(&task.scene, policy, random, recorded),
-            robot: simulated,
+            robot: SimulatedRobot::new(settings.mode, &task, robot, &joints, &parts)?,
             joints,
             parts,
             simulation: SimulationState::zeroed(),
@@ -207,56 +200,6 @@ impl World {
             simulation.assemblies += 1;
             simulation.complete_since = 0;
         }
-    }
-
-    fn sense(&mut self, tick: u64, out: &mut SensorSample) {
-        let last = self.last_tick();
-        let Self { task, random, hand, person, robot, joints, parts, simulation, staging, .. } = self;
-        let by_rules = || hand.touch(&simulation.robot, parts);
-        let touch = robot.grip().map_or_else(by_rules, |grip| grip.force);
-        let of_person = DVec3::from(simulation.person.force);
-        let outside = match (robot.outside(), simulation.person.held.get()) {
-            // A pull goes through the body that measures it; what the person alone has is held by rules.
-            (Some(outside), Some(part)) if parts.is(part, Holder::Person) => outside + of_person,
-            (Some(outside), _) => outside,
-            (None, _) => of_person,
-        };
-        read_joints(tick, random, joints, (touch, outside), &mut out.joints);
-        let (eye, (blocks, count)) =
-            (task.scene.eye(), staging.occluders(tick, simulation.person.occluder()));
-        let occluders = &blocks[..count];
-        let SimulationState { person: moved, tracker, .. } = simulation;
-        let capture = || match person.recorded_keypoints(moved, tick) {
-            _ if staging.is_blind(Sense::Hand, tick) => Capture::Nothing,
-            Some(keypoints) => Capture::Recorded(keypoints),
-            None if person.is_lost(tick) => Capture::Nothing,
-            None => Capture::Simulated(person.keypoints(moved)),
-        };
-        track(tick, last, random, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
-        out.hand = simulation.tracker.delivered;
-        if !staging.is_blind(Sense::Objects, tick) {
-            recognise(tick, last, random, parts, (eye, occluders), &mut simulation.scene);
-        }
-        out.scene = simulation.scene;
-        out.heard = simulation.heard;
-    }
-
-    fn tell(&self, truth: &mut Truth) {
-        let person = &self.simulation.person;
-        truth.actions = person.actions as u32;
-        let phase = person.phase().as_told();
-        let of_action = |index: Slot| if phase == PartnerPhase::Idle { NONE } else { index.or(NONE) };
-        truth.phase = phase as u32;
-        truth.chain = of_action(person.chain);
-        truth.subgoal = of_action(person.subgoal);
-        truth.onset_cycle = person.onset;
-        truth.grasp_cycle = person.grasped;
-        truth.achieved = self.parts.achieved();
-        truth.held = [Holder::Robot, Holder::Person].map(|holder| self.parts.held_by(holder));
-        truth.assemblies = self.simulation.assemblies;
-        truth.error = if phase == PartnerPhase::Idle { 0 } else { person.error as u32 };
-        truth.waiting = u32::from(person.phase().waits_for_robot());
-        truth.hidden = u32::from(phase != PartnerPhase::Idle && person.occluder().is_some());
     }
 
     fn write(&self, checkpoint: &mut WorldState) {

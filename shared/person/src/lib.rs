@@ -63,6 +63,7 @@ mod random_behaviour;
 mod random_policy;
 mod reach_profile;
 mod recorded_hand;
+mod recorded_reach;
 mod recorded_reaches;
 mod robot_hand_view;
 mod script;

@@ -3,7 +3,7 @@
 use crate::reach_profile::{
     FINGERS, minimum_jerk, movement_time, peak_aperture, peak_time, time_before_onset,
 };
-use crate::recorded_reaches::LEAD;
+use crate::recorded_reach::LEAD;
 use crate::{Activity, ActivityPhase, HandMovement, HandPose, Person, PersonState, Surroundings};
 use coact_joint_task::{Act, Task};
 use coact_period::cycles;

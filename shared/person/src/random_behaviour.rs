@@ -35,7 +35,7 @@ pub struct RandomBehaviour {
 }
 
 impl Default for RandomBehaviour {
-    /// One choice in ten goes wrong. Movement time goes from the 5th percentile of real reaches to the longest one.
+    /// One choice in ten goes wrong; all fractions are chosen by hand. Movement time goes from the 5th percentile of real reaches to the longest one.
     fn default() -> Self {
         Self {
             idle: 0.15,
@@ -61,61 +61,56 @@ impl RandomBehaviour {
     /// # Errors
     /// [`PersonError::Behaviour`] for an unknown key, or a value that is out of its range.
     pub fn parse(text: &str) -> Result<Self, PersonError> {
+        let fault = |entry: &str, expected: String| PersonError::Behaviour { entry: entry.into(), expected };
         let mut behaviour = Self::default();
         for entry in text.split(',').filter(|entry| !entry.is_empty()) {
-            let fault =
-                |expected: &str| PersonError::Behaviour { entry: entry.into(), expected: expected.into() };
-            let (key, value) = entry.split_once('=').ok_or_else(|| fault("KEY=VALUE"))?;
-            let number = |highest: f64, expected: &str| {
-                let number = value.parse().ok().filter(|number| (0.0..=highest).contains(number));
-                number.ok_or_else(|| fault(expected))
-            };
-            let fraction = || number(1.0, "a fraction from 0 to 1");
-            match key {
-                "idle" => behaviour.idle = fraction()?,
-                "goal" => behaviour.goal = fraction()?,
-                "request" => behaviour.request = fraction()?,
-                "means" => behaviour.means = fraction()?,
-                "hidden" => behaviour.hidden = fraction()?,
-                "words" => behaviour.words = fraction()?,
-                "withdraws" => behaviour.withdraws = fraction()?,
-                "late" => behaviour.late = fraction()?,
-                "dropouts" => behaviour.dropouts = number(2.0, "bursts per second, from 0 to 2")?,
-                "clarity" => {
-                    behaviour.clarity =
-                        range(value, 0.0..=1.0).ok_or_else(|| fault("LOW..HIGH within 0..1"))?;
-                }
-                "movement" => {
-                    let milliseconds = range(value, 300.0..=3000.0);
-                    behaviour.movement =
-                        milliseconds.ok_or_else(|| fault("LOW..HIGH within 300..3000 ms"))?;
-                }
-                _ => return Err(fault(&format!("one of the keys {KEYS}"))),
-            }
+            let (key, value) = entry.split_once('=').ok_or_else(|| fault(entry, "KEY=VALUE".into()))?;
+            behaviour.set(key, value).map_err(|expected| fault(entry, expected))?;
         }
-        let sum = behaviour.idle
-            + behaviour.goal
-            + behaviour.request
-            + behaviour.means
-            + behaviour.hidden
-            + behaviour.words;
-        match sum <= 1.0 {
-            true => Ok(behaviour),
-            false => Err(PersonError::Behaviour {
-                entry: text.into(),
-                expected: format!(
-                    "idle, goal, request, means, hidden and words to add up to at most 1, not {sum:.2}"
-                ),
-            }),
+        let Self { idle, goal, request, means, hidden, words, .. } = behaviour;
+        let sum = idle + goal + request + means + hidden + words;
+        if sum <= 1.0 {
+            return Ok(behaviour);
         }
+        let all = "idle, goal, request, means, hidden and words to add up to at most 1";
+        Err(fault(text, format!("{all}, not {sum:.2}")))
+    }
+
+    /// Sets one key; an error says what was expected.
+    fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
+        match key {
+            "idle" => self.idle = fraction(value)?,
+            "goal" => self.goal = fraction(value)?,
+            "request" => self.request = fraction(value)?,
+            "means" => self.means = fraction(value)?,
+            "hidden" => self.hidden = fraction(value)?,
+            "words" => self.words = fraction(value)?,
+            "withdraws" => self.withdraws = fraction(value)?,
+            "late" => self.late = fraction(value)?,
+            "dropouts" => self.dropouts = number(value, 2.0, "bursts per second, from 0 to 2")?,
+            "clarity" => self.clarity = range(value, 0.0..=1.0, "LOW..HIGH within 0..1")?,
+            "movement" => self.movement = range(value, 300.0..=3000.0, "LOW..HIGH within 300..3000 ms")?,
+            _ => return Err(format!("one of the keys {KEYS}")),
+        }
+        Ok(())
     }
 }
 
+fn fraction(text: &str) -> Result<f64, String> {
+    number(text, 1.0, "a fraction from 0 to 1")
+}
+
+/// A number from 0 to `highest`.
+fn number(text: &str, highest: f64, expected: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| (0.0..=highest).contains(number));
+    number.ok_or_else(|| expected.to_owned())
+}
+
 /// `LOW..HIGH`, both within `limits`, in this order.
-fn range(text: &str, limits: RangeInclusive<f64>) -> Option<RangeInclusive<f64>> {
-    let (low, high) = text.split_once("..")?;
-    let (low, high) = (low.parse().ok()?, high.parse().ok()?);
-    (limits.contains(&low) && limits.contains(&high) && low <= high).then_some(low..=high)
+fn range(text: &str, limits: RangeInclusive<f64>, expected: &str) -> Result<RangeInclusive<f64>, String> {
+    let bounds = text.split_once("..").and_then(|(low, high)| Some((low.parse().ok()?, high.parse().ok()?)));
+    let ordered = |(low, high): &(f64, f64)| limits.contains(low) && limits.contains(high) && low <= high;
+    bounds.filter(ordered).map(|(low, high)| low..=high).ok_or_else(|| expected.to_owned())
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! A recorded person's hand in place of the model's: while a recorded reach drives it.
 
-use crate::recorded_reaches::{LEAD, RecordedFrame, RecordedReach};
+use crate::recorded_reach::{LEAD, RecordedFrame, RecordedReach};
 use crate::{ActivityPhase, HandPose, Person, PersonState};
 use coact_messages::{Keypoint, KeypointName};
 use coact_period::{PERIOD_S, cycles};

@@ -1,19 +1,9 @@
 use crate::PersonError;
 use crate::hand_model::FOREARM;
+use crate::recorded_reach::RecordedReach;
 use coact_messages::KeypointName;
-use coact_period::{CYCLES_PER_SECOND, PERIOD_S, cycles};
-use coact_recordings::{Frame, Reach, read_folder};
-use glam::DVec2;
+use coact_recordings::{Reach, read_folder};
 use std::path::Path;
-use std::time::Duration;
-
-/// How long before its onset a recorded reach takes the hand over, cycles. The recordings begin half a second before it.
-pub(crate) const LEAD: u64 = cycles(Duration::from_millis(300));
-/// Shortest displacement of the wrist on the image that says where a reach leads, pixels: several times the detector's
-/// jitter.
-const SHORTEST: f64 = 10.0;
-/// Frames further apart than this have lost frames between them, s: more than two frames of 60 Hz.
-const LOST: f64 = 0.04;
 
 /// Reaches of one recorded person, ready to drive the partner's hand.
 ///
@@ -22,32 +12,6 @@ const LOST: f64 = 0.04;
 #[derive(Debug, Clone)]
 pub struct RecordedReaches {
     pub(crate) reaches: Vec<RecordedReach>,
-}
-
-/// One recorded reach, apart from where it began and ended.
-#[derive(Debug, Clone)]
-pub(crate) struct RecordedReach {
-    /// Width of what was grasped, m.
-    pub width: f64,
-    /// Onset to the end of the grasp, cycles.
-    pub movement_time: u64,
-    /// Middle between thumb and index tip at the end, in the hand's plane, m: along and across.
-    pub centre: DVec2,
-    frames: Vec<RecordedFrame>,
-}
-
-/// One frame, in the plane of the hand.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct RecordedFrame {
-    /// Since onset, s.
-    time: f64,
-    /// Fraction of the displacement that the wrist has covered.
-    pub progress: f64,
-    /// How far it is off the straight line, m, towards the thumb's side.
-    pub detour: f64,
-    /// Keypoints against the wrist: along the hand (wrist to knuckles), and across it (towards the thumb), m.
-    pub shape: [DVec2; 9],
-    pub confidence: [f64; 9],
 }
 
 impl RecordedReaches {
@@ -90,98 +54,6 @@ impl RecordedReaches {
         let nearest = self.reaches.iter().map(distance).fold(f64::INFINITY, f64::min);
         (0..self.reaches.len()).filter(move |&index| distance(&self.reaches[index]) <= nearest + 1e-9)
     }
-}
-
-impl RecordedReach {
-    /// `None` when the wrist cannot be followed from before the onset to the grasp.
-    fn new(reach: &Reach, scale: f64) -> Option<Self> {
-        let wrists = followed(reach)?;
-        let at_time = |time: f64| {
-            let distance = |index: &usize| (reach.frames[*index].time - time).abs();
-            (0..reach.frames.len()).min_by(|one, other| distance(one).total_cmp(&distance(other)))
-        };
-        let (start, end) = (at_time(-PERIOD_S * LEAD as f64)?, at_time(reach.movement_time)?);
-        let displacement = wrists[end] - wrists[start];
-        let (ahead, across) = hand_axes(&reach.frames[end], wrists[end])?;
-        if displacement.length() < SHORTEST {
-            return None;
-        }
-        // The thumb's side of the path is where the thumb's side of the hand is at the end of it.
-        let normal = displacement.perp();
-        let side = if normal.dot(across) > 0.0 { normal } else { -normal }.normalize();
-        let mut shape = [DVec2::ZERO; 9];
-        let frames: Vec<_> = (0..reach.frames.len())
-            .map(|index| {
-                let (frame, moved) = (&reach.frames[index], wrists[index] - wrists[start]);
-                for (place, joint) in
-                    shape.iter_mut().zip(&frame.joints).filter(|(_, joint)| joint.confidence > 0.0)
-                {
-                    let reached = DVec2::new(joint.x, joint.y) - wrists[index];
-                    *place = scale * DVec2::new(reached.dot(ahead), reached.dot(across));
-                }
-                RecordedFrame {
-                    time: frame.time,
-                    progress: moved.dot(displacement) / displacement.length_squared(),
-                    detour: scale * moved.dot(side),
-                    shape,
-                    confidence: frame.joints.map(|joint| joint.confidence.clamp(0.0, 1.0)),
-                }
-            })
-            .collect();
-        let tips = &frames[end].shape;
-        let centre = 0.5 * (tips[KeypointName::ThumbTip as usize] + tips[KeypointName::IndexTip as usize]);
-        let movement_time = (reach.movement_time * CYCLES_PER_SECOND as f64).round() as u64;
-        Some(Self { width: reach.size.width(), movement_time, centre, frames })
-    }
-
-    /// What the recording shows `time` s after onset, between its frames; `None` where frames are lost.
-    pub fn at(&self, time: f64) -> Option<RecordedFrame> {
-        let next = self.frames.partition_point(|frame| frame.time <= time);
-        let before = self.frames.get(next.checked_sub(1)?)?;
-        let after = self.frames.get(next)?;
-        let gap = after.time - before.time;
-        if gap > LOST {
-            return None;
-        }
-        let along = ((time - before.time) / gap.max(1e-9)).clamp(0.0, 1.0);
-        let mix = |from: f64, to: f64| from + (to - from) * along;
-        let nearest = if along < 0.5 { before } else { after };
-        Some(RecordedFrame {
-            time,
-            progress: mix(before.progress, after.progress),
-            detour: mix(before.detour, after.detour),
-            shape: std::array::from_fn(|joint| before.shape[joint].lerp(after.shape[joint], along)),
-            confidence: nearest.confidence,
-        })
-    }
-}
-
-/// The wrist in every frame, pixels; where it is lost, where it was last seen.
-fn followed(reach: &Reach) -> Option<Vec<DVec2>> {
-    let seen = |frame: &Frame| {
-        let wrist = frame.joints[KeypointName::Wrist as usize];
-        (wrist.confidence > 0.0).then(|| DVec2::new(wrist.x, wrist.y))
-    };
-    let mut last = reach.frames.iter().find_map(seen)?;
-    let follow = |frame: &Frame| {
-        last = seen(frame).unwrap_or(last);
-        last
-    };
-    Some(reach.frames.iter().map(follow).collect())
-}
-
-/// Directions on the image: from the wrist to the middle of the knuckles, and across it to the thumb's side.
-fn hand_axes(frame: &Frame, wrist: DVec2) -> Option<(DVec2, DVec2)> {
-    let point = |name: KeypointName| {
-        let joint = frame.joints[name as usize];
-        (joint.confidence > 0.0).then(|| DVec2::new(joint.x, joint.y))
-    };
-    let (index, little) = (point(KeypointName::IndexKnuckle)?, point(KeypointName::LittleKnuckle)?);
-    point(KeypointName::ThumbTip)?;
-    point(KeypointName::IndexTip)?;
-    let ahead = (0.5 * (index + little) - wrist).try_normalize()?;
-    let across = if (index - little).dot(ahead.perp()) > 0.0 { ahead.perp() } else { -ahead.perp() };
-    Some((ahead, across))
 }
 
 /// Scale that makes the person's forearm, as seen before the onsets, as long as the model's.

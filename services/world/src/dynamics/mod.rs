@@ -21,7 +21,5 @@ mod simulated_robot;
 pub(crate) use finger_stop::FingerStop;
 pub(crate) use influence::Influence;
 pub(crate) use joints::Joints;
-pub(crate) use kinematic_robot::KinematicRobot;
 pub(crate) use measured_grip::MeasuredGrip;
-pub(crate) use physics_simulation::PhysicsSimulation;
 pub(crate) use simulated_robot::SimulatedRobot;

@@ -60,18 +60,8 @@ impl PhysicsSimulation {
         world.integration_parameters.length_unit = SIZE;
         insert_fixtures(&mut world, task)?;
         let articulation = Articulation::build(&mut world, robot)?;
-        let bodies = parts.all().iter().zip(1..).map(|(part, number)| {
-            let body = world.insert_body(RigidBodyBuilder::dynamic().pose(pose_of(part)));
-            let kind = &task.kinds[part.kind as usize];
-            let collider = part_collider(kind.shape)
-                .mass(kind.mass as f32)
-                .friction(PART_FRICTION)
-                .user_data(number)
-                .collision_groups(Layer::Part.groups());
-            world.insert_collider(collider, Some(body));
-            body
-        });
-        let bodies = bodies.collect();
+        let numbered = parts.all().iter().zip(1..);
+        let bodies = numbered.map(|(part, number)| insert_part(&mut world, task, part, number)).collect();
         let person = world.insert_body(RigidBodyBuilder::kinematic_position_based());
         let ball = ColliderBuilder::ball(PERSON_HAND).collision_groups(Layer::Person.groups());
         world.insert_collider(ball, Some(person));
@@ -257,6 +247,19 @@ impl PhysicsSimulation {
             self.left[index] = parts.all()[index];
         }
     }
+}
+
+/// Makes the body of a part. Its collider carries the `number` as user data.
+fn insert_part(world: &mut PhysicsWorld, task: &Task, part: &PartState, number: u128) -> RigidBodyHandle {
+    let body = world.insert_body(RigidBodyBuilder::dynamic().pose(pose_of(part)));
+    let kind = &task.kinds[part.kind as usize];
+    let collider = part_collider(kind.shape)
+        .mass(kind.mass as f32)
+        .friction(PART_FRICTION)
+        .user_data(number)
+        .collision_groups(Layer::Part.groups());
+    world.insert_collider(collider, Some(body));
+    body
 }
 
 fn body_type(part: &PartState) -> RigidBodyType {

@@ -3,7 +3,11 @@ use super::joints::Joints;
 use super::kinematic_robot::KinematicRobot;
 use super::measured_grip::MeasuredGrip;
 use super::physics_simulation::PhysicsSimulation;
+use crate::WorldError;
 use crate::parts::Parts;
+use coact_joint_task::Task;
+use coact_pipeline::WorldMode;
+use coact_robot::Robot;
 use glam::DVec3;
 
 /// The simulated robot, and how parts that nobody holds behave.
@@ -13,6 +17,25 @@ pub(crate) enum SimulatedRobot {
 }
 
 impl SimulatedRobot {
+    /// A robot whose joints and parts are where they are said to be.
+    ///
+    /// # Errors
+    /// [`WorldError`] when the scene or the robot cannot be simulated with dynamics.
+    pub fn new(
+        mode: WorldMode,
+        task: &Task,
+        robot: &Robot,
+        joints: &Joints,
+        parts: &Parts,
+    ) -> Result<Self, WorldError> {
+        Ok(match mode {
+            WorldMode::Kinematic => Self::Kinematic(KinematicRobot::new()),
+            WorldMode::Physics => {
+                Self::Physics(Box::new(PhysicsSimulation::new(task, robot, joints, parts)?))
+            }
+        })
+    }
+
     /// Moves joints and loose parts by one step.
     pub fn advance(&mut self, influence: &Influence, joints: &mut Joints, parts: &mut Parts) {
         match self {

@@ -3,7 +3,7 @@ use crate::parts::Parts;
 use coact_messages::{SceneView, Sighting};
 use coact_random::{RandomStreams, Stream};
 use glam::{DQuat, DVec3};
-use rand::RngExt;
+use rand::{Rng, RngExt};
 use rand_distr::{Distribution, StandardNormal};
 
 /// Frames per second, as of usual depth cameras.
@@ -38,24 +38,28 @@ pub(crate) fn recognise(
     view.occluder = [[0.0; 6]; _];
     view.occluder[..occluders.len()].copy_from_slice(occluders);
     view.occluders = occluders.len() as u32;
-    let mut seen = 0;
+    view.sightings = 0;
     for part in 0..parts.all().len() {
         let missed = rng.random_bool(MISSED);
-        let confidence = rng.random_range(CONFIDENCE);
-        let mut deviates = || DVec3::from_array(std::array::from_fn(|_| StandardNormal.sample(&mut rng)));
-        let position = parts.position(part) + POSITION * deviates();
-        let turn = DQuat::from_scaled_axis(ORIENTATION * deviates()) * parts.orientation(part);
-        if missed || view.hides(eye, parts.position(part).into(), 0.0) {
-            continue;
+        let sighting = sight(part, parts, &mut rng);
+        if !missed && !view.hides(eye, parts.position(part).into(), 0.0) {
+            view.sighting[view.sightings as usize] = sighting;
+            view.sightings += 1;
         }
-        view.sighting[seen] = Sighting {
-            kind: parts.kind(part) as u32,
-            reserved: 0,
-            confidence,
-            position: position.into(),
-            orientation: turn.normalize().into(),
-        };
-        seen += 1;
     }
-    view.sightings = seen as u32;
+}
+
+/// One part as the recogniser sees it.
+fn sight<R: Rng>(part: usize, parts: &Parts, rng: &mut R) -> Sighting {
+    let confidence = rng.random_range(CONFIDENCE);
+    let mut deviates = || DVec3::from_array(std::array::from_fn(|_| StandardNormal.sample(rng)));
+    let position = parts.position(part) + POSITION * deviates();
+    let turn = DQuat::from_scaled_axis(ORIENTATION * deviates()) * parts.orientation(part);
+    Sighting {
+        kind: parts.kind(part) as u32,
+        reserved: 0,
+        confidence,
+        position: position.into(),
+        orientation: turn.normalize().into(),
+    }
 }

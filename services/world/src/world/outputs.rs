@@ -1,0 +1,71 @@
+//! What the sensors deliver, and what the monitor is told.
+
+use super::World;
+use crate::scenario::Sense;
+use crate::sensors::{Capture, read_joints, recognise, track};
+use crate::simulation_state::SimulationState;
+use coact_messages::{NONE, PartnerPhase, SensorSample, Truth, is_blocked};
+use coact_person::Holder;
+use coact_stage_state::Slot;
+use glam::DVec3;
+
+impl World {
+    /// Reads all sensors.
+    pub(super) fn sense(&mut self, tick: u64, out: &mut SensorSample) {
+        let last = self.last_tick();
+        let forces = self.forces();
+        let Self { task, random, person, joints, parts, simulation, staging, .. } = self;
+        read_joints(tick, random, joints, forces, &mut out.joints);
+        let (eye, (blocks, count)) =
+            (task.scene.eye(), staging.occluders(tick, simulation.person.occluder()));
+        let occluders = &blocks[..count];
+        let SimulationState { person: moved, tracker, .. } = simulation;
+        let capture = || match person.recorded_keypoints(moved, tick) {
+            _ if staging.is_blind(Sense::Hand, tick) => Capture::Nothing,
+            Some(keypoints) => Capture::Recorded(keypoints),
+            None if person.is_lost(tick) => Capture::Nothing,
+            None => Capture::Simulated(person.keypoints(moved)),
+        };
+        track(tick, last, random, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
+        out.hand = simulation.tracker.delivered;
+        if !staging.is_blind(Sense::Objects, tick) {
+            recognise(tick, last, random, parts, (eye, occluders), &mut simulation.scene);
+        }
+        out.scene = simulation.scene;
+        out.heard = simulation.heard;
+    }
+
+    /// What the fingers hold a part with, and what the outside exerts on the wrist, N.
+    fn forces(&self) -> (f64, DVec3) {
+        let Self { hand, robot, parts, simulation, .. } = self;
+        let by_rules = || hand.touch(&simulation.robot, parts);
+        let touch = robot.grip().map_or_else(by_rules, |grip| grip.force);
+        let of_person = DVec3::from(simulation.person.force);
+        let outside = match (robot.outside(), simulation.person.held.get()) {
+            // The dynamics measure a pull at what the robot holds; a part that the person alone has follows rules.
+            (Some(outside), Some(part)) if parts.is(part, Holder::Person) => outside + of_person,
+            (Some(outside), _) => outside,
+            (None, _) => of_person,
+        };
+        (touch, outside)
+    }
+
+    /// Tells the truth.
+    pub(super) fn tell(&self, truth: &mut Truth) {
+        let person = &self.simulation.person;
+        truth.actions = person.actions as u32;
+        let phase = person.phase().as_told();
+        let of_action = |index: Slot| if phase == PartnerPhase::Idle { NONE } else { index.or(NONE) };
+        truth.phase = phase as u32;
+        truth.chain = of_action(person.chain);
+        truth.subgoal = of_action(person.subgoal);
+        truth.onset_cycle = person.onset;
+        truth.grasp_cycle = person.grasped;
+        truth.achieved = self.parts.achieved();
+        truth.held = [Holder::Robot, Holder::Person].map(|holder| self.parts.held_by(holder));
+        truth.assemblies = self.simulation.assemblies;
+        truth.error = if phase == PartnerPhase::Idle { 0 } else { person.error as u32 };
+        truth.waiting = u32::from(person.phase().waits_for_robot());
+        truth.hidden = u32::from(phase != PartnerPhase::Idle && person.occluder().is_some());
+    }
+}
