@@ -4,20 +4,19 @@ use coact_joint_task::{ActionType, Agent, Task};
 use coact_messages::{FieldFrame, PartnerPhase, Truth};
 use coact_run_records::{ActionEvent, Event};
 
-/// Finds for each of the partner's actions whether the robot had decided on the right answer before the grasp
-/// was complete, and by how much.
+/// Finds for each of the partner's actions whether the right decision stood before the grasp was complete, and how long
+/// before.
 ///
-/// The state that counts is that of the first frame at or after grasp completion: a peak that crossed threshold
-/// before and has stayed until then still shows the cycle at which it crossed. So frames may be missing now and
-/// then, and a peak that rose and fell again does not count. A wrong peak counts only if it rose during the
-/// reach: what the robot was doing anyway is no answer. An action that is unanswered when the fingers close may
-/// still be answered, late, until the partner's hand rests or reaches again. Where the partner takes the very part
-/// that the robot is giving, the robot's hand is full until then: the inferred goal is what counts.
+/// The first frame at or after grasp completion counts. A peak in it shows the cycle at which it crossed threshold, so
+/// that frames may be missing, and a peak that rose and fell again does not count. A wrong peak counts only if it rose
+/// during the reach; one that stood before belongs to what the robot was doing already. An action without an answer at
+/// grasp completion may still be answered late, until the partner rests or reaches again. Where the partner takes the
+/// part that the robot is giving, the robot cannot act on it, for its hand is full: there the inferred goal counts.
 #[derive(Debug)]
 pub struct Anticipation {
     task: Task,
     intentions: Intentions,
-    /// Number of the newest action that is dealt with, or under way.
+    /// Number of the newest action that was seen.
     seen: u32,
     open: Option<OpenAction>,
 }
@@ -33,7 +32,7 @@ struct OpenAction {
     /// What is wrong with it: [`Truth::error`].
     error: u32,
     expectation: Option<Expectation>,
-    /// The state at grasp completion was looked at, and nothing was decided then.
+    /// Nothing was decided at grasp completion.
     late: bool,
 }
 
@@ -105,8 +104,8 @@ impl Anticipation {
         }
     }
 
-    /// Whether the robot brings the very part, or the one that the person's next step needs (chapter, section 5.2): its
-    /// hand is full, so that it answers by understanding alone.
+    /// Whether the robot is giving this part, or the one that the person's next step needs (chapter, section 5.2): its hand
+    /// is full, so that it can understand the action, but not act on it.
     fn is_served(&self, open: &OpenAction, frame: &FieldFrame) -> bool {
         let action = self.task.actions.get(frame.decision.action as usize);
         let goal =

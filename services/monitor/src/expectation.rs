@@ -21,13 +21,13 @@ impl Expectation {
         task.complement(chain, subgoal).map(Self::Action).or_else(intention)
     }
 
-    /// The correction that a mistake calls for: a word about the subgoal, or a hint at the part that lies at hand. None
-    /// for an action without one, and where the task knows no such answer.
+    /// What corrects the person's error: speech about the subgoal, or pointing at the part that lies at hand. None for an
+    /// action without error, and where the task has no such action.
     pub(crate) fn of_error(task: &Task, error: u32, subgoal: usize) -> Option<Self> {
         let kind = task.subgoals.get(subgoal)?.kind;
         let intention = [PartnerError::Early as u32, PartnerError::Done as u32].contains(&error);
         let at_hand = error == PartnerError::AtHand as u32;
-        let answers = |motion: ActionType, of: Option<usize>, own: Option<usize>| match motion {
+        let answers = |action_type: ActionType, of: Option<usize>, own: Option<usize>| match action_type {
             ActionType::Speak => intention && of == Some(subgoal),
             ActionType::Point => at_hand && own == Some(kind),
             _ => false,

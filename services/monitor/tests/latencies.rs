@@ -1,4 +1,4 @@
-//! Histograms and accounts: what is written is read back, a restart goes on, damage is found.
+//! Histograms and counters: what is written is read back, a restart goes on, damage is found.
 #![allow(clippy::unwrap_used)]
 
 mod support;
