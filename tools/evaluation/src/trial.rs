@@ -82,24 +82,24 @@ pub enum ErrorKind {
     Early,
     /// Intention: the subgoal is achieved already.
     Done,
-    /// Intention: a part is asked for whose turn has not come. A gesture names no part: that an error is detected counts,
+    /// Intention: a part is requested whose turn has not come. A gesture names no part: that an error is detected counts,
     /// whatever the part.
-    Asked,
-    /// Means: a part is asked for that lies in the person's own workspace.
+    Requested,
+    /// Means: a part is requested that lies in the person's own workspace.
     AtHand,
 }
 
 impl ErrorKind {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Early, Self::Done, Self::Asked, Self::AtHand];
+    pub const ALL: [Self; 4] = [Self::Early, Self::Done, Self::Requested, Self::AtHand];
 
     /// In words.
     pub fn name(self) -> &'static str {
         match self {
             Self::Early => "taken too early",
             Self::Done => "taken for what is done",
-            Self::Asked => "asked for too early",
-            Self::AtHand => "asked for what is at hand",
+            Self::Requested => "requested too early",
+            Self::AtHand => "requested though at hand",
         }
     }
 }

@@ -149,18 +149,18 @@ impl<'a> TrialRecorder<'a> {
         let (Some(rule), Some(goal)) = (self.task.chains.get(chain), self.task.subgoals.get(subgoal)) else {
             return;
         };
-        let asks = matches!(rule.act, Act::Gesture(_));
+        let requests = matches!(rule.act, Act::Gesture(_));
         let error = match truth.error {
             error if error == PartnerError::None as u32 => None,
             error if error == PartnerError::AtHand as u32 => Some(ErrorKind::AtHand),
-            _ if asks => Some(ErrorKind::Asked),
+            _ if requests => Some(ErrorKind::Requested),
             error if error == PartnerError::Done as u32 => Some(ErrorKind::Done),
             _ => Some(ErrorKind::Early),
         };
         let counts = |meaning: &Population| match error {
             None => false,
             // A gesture names no part, so that any error counts.
-            Some(ErrorKind::AtHand | ErrorKind::Asked) => meaning.role != Role::Loss,
+            Some(ErrorKind::AtHand | ErrorKind::Requested) => meaning.role != Role::Loss,
             Some(ErrorKind::Early) => meaning.role == Role::Goal && meaning.subgoal == Some(subgoal),
             Some(ErrorKind::Done) => meaning.role == Role::Done && meaning.subgoal == Some(subgoal),
         };
