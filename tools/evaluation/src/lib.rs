@@ -4,7 +4,7 @@
 //! A [`Trial`] is what one assembly was like. [`run`] makes many of them, an [`EvaluationReport`] counts them, and a
 //! [`Comparison`] sets two [`NetworkVariant`]s side by side that had the same partners.
 
-mod activity;
+mod active_agents;
 mod campaign;
 mod comparison;
 mod evaluation_report;

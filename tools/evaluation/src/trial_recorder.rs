@@ -1,4 +1,4 @@
-use crate::activity::Activity;
+use crate::active_agents::ActiveAgents;
 use crate::fluency::FluencyCounter;
 use crate::trial::{Alarm, Detection, DoublePeak, ErrorKind, Inference, PartnerAction, Trial};
 use coact_joint_task::{Act, NetworkPlan, Population, Role, Task};
@@ -69,7 +69,7 @@ impl<'a> TrialRecorder<'a> {
     /// Adds one tick.
     pub fn tick(&mut self, stages: &Lockstep) {
         let (truth, frame) = (&*stages.truth, &*stages.frame);
-        self.fluency.tick(Activity::now(self.task, truth, &stages.command));
+        self.fluency.tick(ActiveAgents::now(self.task, truth, &stages.command));
         let mut events = Vec::new();
         self.anticipation.observe(truth, frame, &mut events);
         self.add_answers(&events);

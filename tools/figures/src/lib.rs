@@ -4,7 +4,7 @@
 //! which peak stood. A [`Figure`] makes a [`Sheet`](coact_drawing::Sheet) of it, which is written as SVG and as PNG.
 //! [`Gallery`] does it all.
 
-mod curves;
+mod field_curves;
 mod figure;
 mod figure_error;
 mod gallery;

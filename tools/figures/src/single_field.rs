@@ -1,6 +1,6 @@
 //! Figures 3 and 4: one field by itself, before it is part of any architecture.
 
-use crate::curves::Curves;
+use crate::field_curves::FieldCurves;
 use crate::heat_map::HeatMap;
 use crate::layer_page::{Column, LayerPage};
 use crate::line_style::LineStyle;
@@ -65,7 +65,7 @@ pub fn activation(caption: Caption, letters: &Lettering) -> Result<Sheet, Figure
     driven.drive(300, &[3.0]);
     let peak = driven.drive(3000, &[0.0]);
     let curve = |name: &str, values, colour, dashes| (name.to_owned(), values, LineStyle { colour, dashes });
-    let curves = Curves {
+    let curves = FieldCurves {
         title: "activity u(x)".into(),
         populations: vec!["field position x: grasping".into()],
         curves: vec![
@@ -112,12 +112,12 @@ fn competition() -> Result<Surface, FigureError> {
     Ok(evolution)
 }
 
-fn three_instants(evolution: &Surface) -> Curves {
+fn three_instants(evolution: &Surface) -> FieldCurves {
     let instant = |ms: f64, colour, dashes| {
         let values = evolution.at(ms).iter().map(|&u| f64::from(u)).collect();
         (format!("t = {ms:.0} ms"), values, LineStyle { colour, dashes })
     };
-    Curves {
+    FieldCurves {
         title: "activity u(x) at three instants".into(),
         curves: vec![
             instant(0.0, BLACK, &[]),

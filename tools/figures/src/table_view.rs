@@ -1,6 +1,6 @@
 //! Figure 6: what the object memory holds, beside the table as the robot's camera saw it.
 
-use crate::curves::Curves;
+use crate::field_curves::FieldCurves;
 use crate::line_style::LineStyle;
 use crate::page::{Caption, LETTERS, MARGIN, RIGHT, WIDTH};
 use crate::{Quantity, RunTrace};
@@ -20,7 +20,7 @@ pub fn object_memory(caption: Caption, trace: &RunTrace, letters: &Lettering) ->
     let field = |layer: LayerKind, title: &str| {
         let surface = trace.surface(layer, Quantity::Activity);
         let values = surface.at(RunTrace::SCENE_MS).iter().map(|&u| f64::from(u)).collect();
-        Curves {
+        FieldCurves {
             title: title.into(),
             curves: vec![(String::new(), values, LineStyle { colour: DISTINCT[0], dashes: &[] })],
             populations: surface.labels.clone(),

@@ -1,10 +1,10 @@
 //! Pictures of an evaluation, as SVG.
 
-mod fluency;
-mod leads;
+mod fluency_plot;
+mod lead_plot;
 
-pub use fluency::draw_fluency;
-pub use leads::draw_leads;
+pub use fluency_plot::draw_fluency;
+pub use lead_plot::draw_leads;
 
 use plotters::prelude::RGBColor;
 

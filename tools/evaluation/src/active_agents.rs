@@ -9,13 +9,13 @@ use coact_messages::{Command, MotionPhase, PartnerPhase, Truth};
 /// the person mounts something on; not at rest, and not while it holds out a part or its open hand, or is at the base
 /// before the person.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Activity {
+pub(crate) struct ActiveAgents {
     /// By [`coact_joint_task::Agent::index`].
     pub active: [bool; 2],
     pub person_waits: bool,
 }
 
-impl Activity {
+impl ActiveAgents {
     pub fn now(task: &Task, truth: &Truth, command: &Command) -> Self {
         let acts = truth.phase != PartnerPhase::Idle as u32;
         let person_waits = truth.waiting != 0;

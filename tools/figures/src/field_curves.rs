@@ -2,9 +2,9 @@ use crate::line_style::LineStyle;
 use crate::page::{LETTERS, number};
 use coact_drawing::{Anchor, BLACK, FAINT, Sheet};
 
-/// Curves of activity over field position.
+/// FieldCurves of activity over field position.
 #[derive(Debug, Clone)]
-pub struct Curves {
+pub struct FieldCurves {
     /// What is shown.
     pub title: String,
     /// The curves: name, values at all sites, how they are drawn.
@@ -13,7 +13,7 @@ pub struct Curves {
     pub populations: Vec<String>,
 }
 
-impl Curves {
+impl FieldCurves {
     /// Draws them between two corners.
     pub fn draw(&self, sheet: &mut Sheet, [left, top]: [i32; 2], [right, bottom]: [i32; 2]) {
         sheet.text(&self.title, [left, top + 10], LETTERS + 2, Anchor::Start);
