@@ -161,17 +161,9 @@ impl SkillPlanner {
         goal: Goal,
     ) -> Problem<'a> {
         let PlannerLimits { path_clearance, goal_clearance, .. } = self.limits;
-        Problem {
-            mechanism: &self.models.mechanism,
-            collision_model,
-            scene,
-            start,
-            leave: None,
-            goal,
-            next_displacements: Vec::new(),
-            insertion_depth: 0.0,
-            min_clearance: MinClearance { path: path_clearance, goal: goal_clearance },
-        }
+        let problem = Problem::new(&self.models.mechanism, collision_model, scene, start, goal);
+        let min_clearance = MinClearance { path: path_clearance, goal: goal_clearance };
+        Problem { min_clearance, ..problem }
     }
 }
 
