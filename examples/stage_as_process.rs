@@ -1,19 +1,19 @@
 //! A stage of one's own as a process of a running set, in the same real-time shell as coact's own.
 //!
-//! Build it, and add it to a copy of the process table:
+//! Build it, and run it in a set whose process table is a copy of the shipped one with an entry more:
 //!
 //! ```text
 //! cargo build --release -p coact-examples --example stage_as_process
-//!
-//! cp rt-config/pipeline.toml rt-config/mine.toml, and at its end:
+//! cp rt-config/pipeline.toml rt-config/verdict.toml /tmp
+//! cat >> /tmp/pipeline.toml <<END
 //! [[process]]
 //! name = "hand-speed"
-//! program = "examples/stage_as_process"   # seen from the folder of the program coact
-//! order = 2
+//! program = "target/release/examples/stage_as_process"
+//! order = 1
 //! trigger = "coact/percept"
 //! latest_start_us = 700
-//!
-//! tools/launch --pipeline rt-config/mine.toml
+//! END
+//! tools/launch --pipeline /tmp/pipeline.toml
 //! ```
 //!
 //! The supervisor starts, watches and restarts it, and the report tells its latencies, as those of all others.

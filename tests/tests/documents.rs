@@ -1,4 +1,4 @@
-//! What the documents name exists: every path, and in CONTRIBUTING every item of a file.
+//! What the documents name exists: every path, and in CONTRIBUTING every item of a file; and shared crates have examples.
 #![allow(clippy::unwrap_used)]
 
 use coact_tests::checkout;
@@ -149,4 +149,21 @@ fn every_item_that_contributing_names_is_in_its_file() {
 /// All between backticks in one line.
 fn code(line: &str) -> Vec<&str> {
     line.split('`').skip(1).step_by(2).collect()
+}
+
+#[test]
+fn every_shared_crate_begins_with_an_example_that_runs() {
+    let shared = checkout().join("shared");
+    let without = entries(&shared).into_iter().filter(|name| {
+        let text = std::fs::read_to_string(shared.join(name).join("src/lib.rs")).unwrap();
+        // The front page stands before the first item; of its fences each second one closes.
+        let front_page = text.lines().take_while(|line| line.starts_with("//!"));
+        let mut begins = front_page.filter(|line| line.starts_with("//! ```")).step_by(2);
+        !begins.any(|line| line == "//! ```")
+    });
+    assert_eq!(
+        without.collect::<Vec<_>>(),
+        Vec::<String>::new(),
+        "no example that runs: a fence of ``` alone"
+    );
 }
