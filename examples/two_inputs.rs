@@ -1,4 +1,5 @@
-//! A field decides between two inputs: only one peak can stand, and it stands although the other input is a little stronger.
+//! A field decides between two inputs: only one peak can stand, and it stands on when the other input becomes a little
+//! stronger.
 //!
 //! `cargo run -p coact-examples --example two_inputs`
 
@@ -6,15 +7,16 @@ use coact_neural_field::{Field, Kernel, ParameterError, Parameters};
 
 /// Two things that could be decided for: one population each.
 const NAMES: [&str; 2] = ["left", "right"];
-/// Resting level: an input below 2 leaves its population below the threshold.
-const RESTING: f64 = -2.0;
+/// Resting level h; the threshold is 0.
+const RESTING: f64 = -3.0;
 
 fn main() -> Result<(), ParameterError> {
-    // Excitation that reaches a few sites, and inhibition that reaches everywhere: so all populations compete.
-    let kernel = Kernel { amplitude: 3.0, sigma: 2.0, inhibition: 0.6, range: None };
+    // Excitation that reaches a few sites, and inhibition that reaches everywhere: so all populations compete. The values
+    // are those of the layer AEL in rt-config/joint-action.toml; with an inhibition of 0.5, both peaks would stand.
+    let kernel = Kernel { amplitude: 3.0, sigma: 2.0, inhibition: 1.5, range: None };
     let parameters =
-        Parameters { tau: 20.0, slope: 5.0, threshold: 0.0, spacing: 0.5, input_sigma: 2.0, kernel };
-    let mut field = Field::new(parameters, NAMES.len(), 32)?;
+        Parameters { tau: 20.0, slope: 5.0, threshold: 0.0, spacing: 1.0, input_sigma: 2.0, kernel };
+    let mut field = Field::new(parameters, NAMES.len(), 10)?;
 
     // The caller owns the activation: one step reads one buffer and writes the other.
     let (mut now, mut next) = (vec![RESTING; field.sites()], vec![0.0; field.sites()]);
@@ -25,7 +27,7 @@ fn main() -> Result<(), ParameterError> {
         ("nothing", [0.0, 0.0]),
         ("both, left a little stronger", [4.2, 4.0]),
         ("both, right a little stronger", [4.0, 4.2]),
-        ("right alone", [0.0, 6.0]),
+        ("right alone", [0.0, 4.2]),
     ];
     for (what, strength) in phases {
         for _ in 0..400 {
