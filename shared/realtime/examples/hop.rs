@@ -169,6 +169,7 @@ fn process_table(cores: &str) -> String {
     let priorities = [83, 82, 81, 84];
     let entries = NAMES.iter().zip(triggers).zip(priorities).zip(cores.split(',')).enumerate();
     let entries = entries.map(|(index, (((name, trigger), priority), core))| {
+        // Offsets in µs, one stage after another, all of them within the period; chosen by hand.
         let latest = 500 + 100 * index;
         format!(
             "[[process]]\nname = \"{name}\"\nprogram = \"hop\"\norder = 1\nrealtime = true\npriority = {priority}\n\
