@@ -3,6 +3,7 @@
 use bytemuck::zeroed_box;
 use coact_joint_task::Task;
 use coact_messages::{Command, SensorSample, Truth, WorldState};
+use coact_period::seconds;
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
 use coact_world::{Partner, Settings, World};
@@ -24,7 +25,7 @@ fn step(criterion: &mut Criterion) {
         criterion.bench_function(&format!("world step, {mode:?}"), |bench| {
             bench.iter(|| {
                 tick += 1;
-                command.position[0] = robot.park[0] + 0.1 * (tick as f64 * 1e-3).sin();
+                command.position[0] = robot.park[0] + 0.1 * seconds(tick).sin();
                 world.step(tick, Some(&command), &mut sample, &mut truth, &mut state);
             });
         });

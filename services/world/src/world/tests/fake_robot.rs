@@ -87,7 +87,7 @@ impl FakeRobot {
                 return Skill::Insert(part, goal);
             }
         }
-        // It gives when it is asked, and now and then unasked.
+        // It gives what is requested, and now and then what is not.
         let gives =
             world.simulation.person.phase() == ActivityPhase::Show || world.simulation.tick / 10_000 % 2 == 1;
         for goal in open_goals(world, Agent::Person).into_iter().filter(|_| gives) {
@@ -95,8 +95,8 @@ impl FakeRobot {
                 return Skill::Give(part);
             }
         }
-        let asks = !open_goals(world, Agent::Robot).is_empty();
-        self.at = if asks { task.scene.handover.into() } else { DVec3::new(0.0, 0.0, 2.0) };
+        let requests = !open_goals(world, Agent::Robot).is_empty();
+        self.at = if requests { task.scene.handover.into() } else { DVec3::new(0.0, 0.0, 2.0) };
         self.finger_closure = 0.0;
         Skill::None
     }

@@ -4,6 +4,7 @@ use super::manipulator::{Fingers, Manipulator};
 use super::{Out, robot, task};
 use crate::palm::Palm;
 use crate::{Partner, Scenario, Settings, World};
+use coact_period::seconds;
 use coact_person::Holder;
 use coact_person::{ActivityPhase, Person, Policy, RandomBehaviour};
 use coact_pipeline::WorldMode;
@@ -93,7 +94,7 @@ impl Meeting {
 const TAKES: &str = "chain = \"insert\"\nkind = \"nut\"";
 
 #[test]
-fn person_pulls_at_an_offered_part_until_the_robot_lets_go() {
+fn person_pulls_at_a_given_part_until_the_robot_lets_go() {
     let mut meeting = Meeting::giving(TAKES);
     let nut = meeting.nut();
     meeting.until(ActivityPhase::AwaitRelease);
@@ -188,7 +189,7 @@ fn person_who_takes_a_part_back_has_not_dropped_it() {
     assert!(meeting.world.parts.position(wheel).truncate().distance(home.into()) < 0.01);
 }
 
-/// Seconds from an offer to the person's setting out for it.
+/// Seconds from when the robot gives to the person's setting out for it.
 fn answered_after(settings: &str) -> f64 {
     let mut meeting = Meeting::giving(TAKES);
     let policy = Policy::Random(RandomBehaviour::parse(settings).unwrap());
@@ -197,9 +198,9 @@ fn answered_after(settings: &str) -> f64 {
     while meeting.world.simulation.robot.giving_since == 0 {
         meeting.live(1);
     }
-    let offered = meeting.tick;
+    let given = meeting.tick;
     meeting.until(ActivityPhase::AwaitRelease);
-    1e-3 * (meeting.tick - offered) as f64
+    seconds(meeting.tick - given)
 }
 
 #[test]

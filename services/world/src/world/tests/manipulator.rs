@@ -6,6 +6,7 @@ use bytemuck::zeroed_box;
 use coact_joint_task::{Agent, Part, Subgoal, Task};
 use coact_messages::{ARM_JOINTS, Command};
 use coact_motion::{Goal, Mechanism, Problem, Scene};
+use coact_period::{CYCLES_PER_SECOND, seconds};
 use coact_pipeline::WorldMode;
 use coact_robot::{
     Grip, GripKind, GripSide, Grips, HandGoal, JointLimits, MotionState, NextUse, PointToPoint, Posture,
@@ -176,9 +177,9 @@ impl Manipulator {
         target[..ARM_JOINTS].copy_from_slice(arm);
         target[ARM_JOINTS..].copy_from_slice(&angles);
         let movement = PointToPoint::plan(self.at.map(MotionState::at_rest), target, &self.limits).unwrap();
-        let ticks = (movement.duration * 1e3).ceil() as u64;
+        let ticks = (movement.duration * CYCLES_PER_SECOND as f64).ceil() as u64;
         for tick in 1..=ticks {
-            self.step(&movement.at((tick as f64 * 1e-3).min(movement.duration)));
+            self.step(&movement.at(seconds(tick).min(movement.duration)));
             look(self);
         }
         self.at = target;

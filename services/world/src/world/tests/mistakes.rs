@@ -6,6 +6,7 @@ use crate::world::World;
 use crate::{Partner, Settings};
 use bytemuck::bytes_of;
 use coact_messages::{PartnerError, PartnerPhase, Truth};
+use coact_period::CYCLES_PER_SECOND;
 use coact_person::ActivityPhase;
 use coact_pipeline::WorldMode;
 use std::collections::BTreeMap;
@@ -18,7 +19,7 @@ fn world(seed: u64, settings: &str) -> World {
 /// Runs with a helpful robot and calls `look` after each tick with the truth before and after.
 pub(super) fn run(seed: u64, seconds: u64, settings: &str, mut look: impl FnMut(u64, &World, &Out, &Truth)) {
     let (mut world, mut robot, mut out) = (world(seed, settings), FakeRobot::new(), Out::new());
-    for tick in 1..=seconds * 1000 {
+    for tick in 1..=seconds * CYCLES_PER_SECOND {
         let before = *out.truth;
         robot.step(tick, &mut world, &mut out);
         look(tick, &world, &out, &before);

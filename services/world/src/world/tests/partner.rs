@@ -2,12 +2,13 @@ use super::fake_robot::FakeRobot;
 use super::{Out, world};
 use coact_joint_task::Act;
 use coact_messages::PartnerPhase;
+use coact_period::CYCLES_PER_SECOND;
 use coact_person::Holder;
 
 /// Runs `seconds` with a helpful robot and calls `look` after each tick with the truth before and after.
 fn run(seed: u64, seconds: u64, mut look: impl FnMut(u64, &super::World, &Out, &super::Truth)) -> u64 {
     let (mut world, mut robot, mut out) = (world(seed), FakeRobot::new(), Out::new());
-    for tick in 1..=seconds * 1000 {
+    for tick in 1..=seconds * CYCLES_PER_SECOND {
         let before = *out.truth;
         robot.step(tick, &mut world, &mut out);
         look(tick, &world, &out, &before);
@@ -104,19 +105,21 @@ fn grasp_is_told_before_the_part_moves() {
 }
 
 #[test]
-fn gesture_is_answered_by_taking_what_is_offered() {
+fn gesture_is_answered_by_taking_what_is_given() {
     let mut taken = 0;
     for seed in 60..72 {
-        let mut asked = false;
+        let mut requested = false;
         run(seed, 120, |_, world, out, before| {
             if out.truth.actions == before.actions {
                 return;
             }
             let gesture = matches!(world.task.chains[out.truth.chain as usize].act, Act::Gesture(_));
             taken += u32::from(
-                asked && !gesture && world.simulation.person.activity() == coact_person::Activity::Receive,
+                requested
+                    && !gesture
+                    && world.simulation.person.activity() == coact_person::Activity::Receive,
             );
-            asked = gesture;
+            requested = gesture;
         });
     }
     assert!(taken >= 3, "{taken} requests were answered");

@@ -3,6 +3,7 @@ use crate::{Partner, Settings, World};
 use bytemuck::zeroed_box;
 use coact_joint_task::Task;
 use coact_messages::Command;
+use coact_period::seconds;
 use coact_person::Holder;
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
@@ -21,7 +22,7 @@ fn world(seed: u64) -> World {
 fn sway(tick: u64) -> Box<Command> {
     static ROBOT: LazyLock<Robot> = LazyLock::new(robot);
     let mut command: Box<Command> = zeroed_box();
-    let time = tick as f64 * 1e-3;
+    let time = seconds(tick);
     for (joint, park) in ROBOT.park.iter().enumerate() {
         let rate = 1.0 + 0.1 * joint as f64;
         command.position[joint] = park + 0.1 * (1.0 - (rate * time).cos());

@@ -1,6 +1,7 @@
 use super::{Out, config, robot, task};
 use crate::{Partner, Scenario, Settings, World};
 use coact_messages::PartnerPhase;
+use coact_period::CYCLES_PER_SECOND;
 use coact_pipeline::WorldMode;
 use std::io::Write;
 
@@ -57,7 +58,7 @@ fn actions(partner: Partner, seconds: u64) -> Vec<(String, u64, u64)> {
     let settings = Settings { seed: 1, partner, mode: WorldMode::Kinematic };
     let (mut world, mut out) = (World::new(&task(), &robot(), settings).unwrap(), Out::new());
     let mut begun = Vec::new();
-    for tick in 1..=seconds * 1000 {
+    for tick in 1..=seconds * CYCLES_PER_SECOND {
         let before = *out.truth;
         world.step(tick, None, &mut out.sample, &mut out.truth, &mut out.state);
         if out.truth.actions != before.actions {
@@ -92,7 +93,7 @@ fn scenario(file: &str) -> World {
 /// Runs `seconds`; `look` sees the world and its messages after each tick.
 fn run(world: &mut World, seconds: u64, mut look: impl FnMut(u64, &World, &Out)) {
     let mut out = Out::new();
-    for tick in 0..seconds * 1000 {
+    for tick in 0..seconds * CYCLES_PER_SECOND {
         world.step(tick, None, &mut out.sample, &mut out.truth, &mut out.state);
         look(tick, world, &out);
     }

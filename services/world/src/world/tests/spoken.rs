@@ -9,7 +9,7 @@ fn each_chosen_action_is_heard_at_its_onset_as_a_sentence_of_its_meaning() {
     run(1, 300, "idle=0,goal=0,request=0,means=0,hidden=0,words=1", |tick, world, out, before| {
         let new = out.sample.heard.sentences - std::mem::replace(&mut sentences, out.sample.heard.sentences);
         let begins = out.truth.actions != before.actions;
-        // To take what the robot offers is no choice.
+        // To receive what the robot gives is no choice.
         let chosen = begins && world.simulation.person.activity() != Activity::Receive;
         assert_eq!(new, u64::from(chosen), "tick {tick}");
         if chosen {
