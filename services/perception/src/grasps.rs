@@ -4,7 +4,7 @@ use crate::objects::{PartTrack, TaskPlaces};
 use crate::perception_state::PerceptionState;
 use crate::present_movement::PresentMovement;
 use crate::preshape::{Classifier, LAST_READ};
-use coact_joint_task::{Grip, Kind, Task};
+use coact_joint_task::{Kind, PersonGrip, Task};
 use coact_messages::{MAX_KINDS, PERSON, Percept};
 use nalgebra::Vector3;
 
@@ -33,7 +33,7 @@ pub(crate) const OFFERED: f64 = 0.25;
 #[derive(Debug, Clone)]
 pub(crate) struct Grasps {
     kinds: Vec<Kind>,
-    grips: Vec<Grip>,
+    grips: Vec<PersonGrip>,
     handover: Vector3<f64>,
     rest: Vector3<f64>,
 }

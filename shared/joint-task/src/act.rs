@@ -1,21 +1,3 @@
-/// A way to grasp that tells what is meant.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Grip {
-    /// Its name.
-    pub name: String,
-    /// Direction from wrist to knuckles against the table plane, rad; -pi/2 is straight down.
-    pub pitch: f64,
-}
-
-/// A gesture of the empty hand, held out over the middle of the table.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Gesture {
-    /// Its name.
-    pub name: String,
-    /// Direction from wrist to knuckles against the table plane, rad.
-    pub pitch: f64,
-}
-
 /// What perception can observe of the person's hand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Act {

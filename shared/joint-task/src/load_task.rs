@@ -8,7 +8,7 @@ mod subgoals;
 
 use crate::source_file::SourceFile;
 use crate::task_file::{Name, TaskFile};
-use crate::{Gesture, Grip, Kind, Part, Task, TaskError};
+use crate::{Gesture, Kind, Part, PersonGrip, Task, TaskError};
 use chains::acts;
 use coact_messages::{MAX_ACTS, MAX_KINDS, MAX_PARTS};
 use scene::{corners, scene};
@@ -109,13 +109,13 @@ impl TaskReader<'_> {
             .collect()
     }
 
-    fn grips(&self) -> Result<Vec<Grip>, TaskError> {
+    fn grips(&self) -> Result<Vec<PersonGrip>, TaskError> {
         self.distinct("grip", self.file.grip.iter().map(|grip| &grip.name))?;
         Ok(self
             .file
             .grip
             .iter()
-            .map(|grip| Grip { name: grip.name.get_ref().clone(), pitch: grip.pitch.to_radians() })
+            .map(|grip| PersonGrip { name: grip.name.get_ref().clone(), pitch: grip.pitch.to_radians() })
             .collect())
     }
 

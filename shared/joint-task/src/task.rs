@@ -1,4 +1,4 @@
-use crate::{Act, Action, ActionType, Chain, Gesture, Grip, Kind, Part, Scene, Subgoal, TaskError};
+use crate::{Act, Action, ActionType, Chain, Gesture, Kind, Part, PersonGrip, Scene, Subgoal, TaskError};
 use std::path::Path;
 
 /// A joint task as its file describes it: parts, plan, what the person's hand can show, what the robot can do.
@@ -16,7 +16,7 @@ pub struct Task {
     /// The plan: subgoals in partial order.
     pub subgoals: Vec<Subgoal>,
     /// Grips that tell what is meant.
-    pub grips: Vec<Grip>,
+    pub grips: Vec<PersonGrip>,
     /// Gestures of the empty hand.
     pub gestures: Vec<Gesture>,
     /// What perception can observe of the person: one population of the action observation layer each.

@@ -4,7 +4,7 @@
 pub mod schema;
 
 use coact_joint_task::{
-    Act, Action, ActionType, Agent, Chain, Grip, Kind, Part, Scene, Shape, Subgoal, Task,
+    Act, Action, ActionType, Agent, Chain, Kind, Part, PersonGrip, Scene, Shape, Subgoal, Task,
 };
 use coact_messages::{FieldFrame, LayerKind, NONE, PartnerPhase, Pulse, Truth};
 use coact_monitor::Intentions;
@@ -51,7 +51,7 @@ pub fn task() -> Task {
         }],
         parts: vec![Part { kind: 0, workspace: Agent::Person, at: [0.0; 2] }; 2],
         subgoals: vec![subgoal("lid", true, vec![]), subgoal("hinge", false, vec![0])],
-        grips: vec![Grip { name: "top".into(), pitch: -1.5 }],
+        grips: vec![PersonGrip { name: "top".into(), pitch: -1.5 }],
         gestures: Vec::new(),
         acts: vec![Act::Rest, Act::Grasp { grip: 0, kind: 0 }],
         chains: vec![chain("mount", "steady"), chain("pass", "receive")],
