@@ -5,7 +5,8 @@
 
 use coact_fields::Network;
 use coact_joint_task::{
-    Act, Action, ActionType, Agent, Chain, Fit, Grip, Kind, NetworkPlan, Part, Scene, Shape, Subgoal, Task,
+    Act, Action, ActionType, Agent, Chain, Fit, Kind, NetworkPlan, Part, PersonGrip, Scene, Shape, Subgoal,
+    Task,
 };
 use coact_messages::{FieldFrame, NONE, PERSON, Percept, ROBOT};
 use std::path::Path;
@@ -74,7 +75,7 @@ fn task() -> Task {
         kind: Some(0),
         subgoal: Some(subgoal),
     };
-    let grip = |name: &str, pitch: f64| Grip { name: name.into(), pitch: pitch.to_radians() };
+    let grip = |name: &str, pitch: f64| PersonGrip { name: name.into(), pitch: pitch.to_radians() };
     let shape = Shape::Cylinder { radius: 0.03, height: 0.04 };
     Task {
         name: "one block".into(),

@@ -1,4 +1,5 @@
 use coact_joint_task::Task;
+use coact_messages::HandView;
 use coact_perception::{
     CLASSES, FEATURES, Level, Perception, PreshapeModel, READ, ReachRecord, SingularModel, WHOLE_LENGTH,
 };
@@ -35,6 +36,7 @@ pub(crate) fn extract(
         for tick in span.begin..span.end {
             replay.step(tick, &mut sample, &mut truth);
             sample.header.cycle = tick;
+            believe_all(&mut sample.hand);
             perception.step(tick, Some(&sample), &mut percept);
         }
         let record = *perception.reach();
@@ -47,6 +49,14 @@ pub(crate) fn extract(
         }
     }
     Ok(labelled)
+}
+
+/// Makes perception believe every keypoint that the detector found, however faint. A model is made from all of them; one
+/// from the surer ones alone tells sizes apart no better (84.2 % of the reaches instead of 84.0 %).
+fn believe_all(view: &mut HandView) {
+    for keypoint in view.keypoints.iter_mut().filter(|keypoint| keypoint.confidence > 0.0) {
+        keypoint.confidence = 1.0;
+    }
 }
 
 /// A model without any knowledge: features are read alike under every model.

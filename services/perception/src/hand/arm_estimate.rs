@@ -3,7 +3,7 @@ use coact_messages::{KeypointName, PersonArm, TrackedPoint};
 use coact_period::seconds;
 use nalgebra::Vector3;
 
-/// Scatter of a keypoint, m. Recorded ones lie 0.7 pixels (median; 4 mm) off the line between their neighbours in time,
+/// Scatter of a keypoint, m. Recorded ones lie 0.7 pixels (median; 6 mm) off the line between their neighbours in time,
 /// simulated ones scatter by 2 mm along each axis.
 const SCATTER: f64 = 0.005;
 /// Standard deviation of an acceleration that nothing foretold, m/s². A prediction with constant velocity over 0.1 to

@@ -18,7 +18,7 @@ const AVERAGED: usize = 3;
 /// have a confidence up to this one. Compared with the line between its neighbours in time that are sure (above 0.5), such
 /// a keypoint is off by 3.3 pixels (median; a hand is 29 long), the last sure one by 1.8: whoever believes it does worse
 /// than with what was seen before. From 0.2 to 0.3 they are about equal (2.3, 1.9), above that the new one is the better
-/// (1.3, 1.5). Of the recorded reaches, 84.2 % are understood before contact with this threshold, 82.9 % with none (three
+/// (1.3, 1.5). Of the recorded reaches, 84.0 % are understood before contact with this threshold, 82.9 % with none (three
 /// sizes, people unseen in training). The simulated tracker says 0, or 0.7 to 0.95.
 const BELIEVED: f64 = 0.2;
 /// How far a keypoint may lie from the origin, m: no hand beyond it concerns the robot, the tracker is mistaken.
