@@ -36,7 +36,8 @@ pub struct Fit {
     pub angle: f64,
 }
 
-/// Where the robot's eye is: behind the world's origin, where the robot stands, and so high above the table top, m.
+/// Where the robot's eye is: so far behind the world's origin, where the robot stands, and so high above the table top, m.
+/// Chosen by hand: it sees both workspaces over the robot's own arm.
 const EYE: (f64, f64) = (0.10, 1.05);
 
 impl Scene {

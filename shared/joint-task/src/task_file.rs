@@ -135,6 +135,7 @@ pub(crate) struct FitEntry {
     pub angle: f64,
 }
 
+/// Tolerances of a task that gives none: those of the shipped tasks, chosen by hand.
 impl Default for FitEntry {
     fn default() -> Self {
         Self { position: 0.008, angle: 8.0 }
