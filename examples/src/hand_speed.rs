@@ -1,6 +1,5 @@
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{Header, Percept};
-use coact_realtime::Message;
 use iceoryx2::prelude::ZeroCopySend;
 
 /// How fast the person's hand moves, smoothed (1 kHz).
@@ -49,12 +48,4 @@ impl HandSpeed {
     }
 }
 
-impl Message for HandSpeed {
-    fn header(&self) -> &Header {
-        &self.header
-    }
-
-    fn header_mut(&mut self) -> &mut Header {
-        &mut self.header
-    }
-}
+coact_realtime::message!(HandSpeed);

@@ -22,9 +22,20 @@ const CHECKPOINT_POLL: Duration = Duration::from_micros(200);
 /// Opens ports on one run's topics: a process's iceoryx2 node, kept apart from other runs by the run's prefix.
 #[derive(Debug)]
 pub struct Bus {
-    node: Node<ipc::Service>,
+    node: Box<dyn Joined>,
     process: String,
     generation: u32,
+}
+
+/// A node behind a trait, for the same reason as ports: who drops a bus need not compile iceoryx2.
+trait Joined: std::fmt::Debug {
+    fn node(&self) -> &Node<ipc::Service>;
+}
+
+impl Joined for Node<ipc::Service> {
+    fn node(&self) -> &Node<ipc::Service> {
+        self
+    }
 }
 
 impl Bus {
@@ -43,7 +54,7 @@ impl Bus {
             .signal_handling_mode(SignalHandlingMode::Disabled)
             .create::<ipc::Service>()
             .map_err(|error| refused(format!("{error:?}")))?;
-        Ok(Self { node, process: process.to_owned(), generation })
+        Ok(Self { node: Box::new(node), process: process.to_owned(), generation })
     }
 
     /// A writer of `topic`. It announces each message by an event if [`topic::announces`] says so.
@@ -51,14 +62,7 @@ impl Bus {
     /// # Errors
     /// [`PortError::Refused`].
     pub fn output<T: Message>(&self, topic: &str) -> Result<Output<T>, PortError> {
-        let service = self.service(topic)?;
-        let notifier = match topic::announces(topic) {
-            true => Some(self.event(topic)?.notifier_builder().create()),
-            false => None,
-        };
-        let notifier =
-            notifier.transpose().map_err(|error| PortError::refused(topic, "opening its event", error))?;
-        Output::new(topic, &service, notifier, self.generation)
+        Ok(Output::new(topic, T::writer(self, topic)?, self.generation))
     }
 
     /// A reader of `topic`.
@@ -67,7 +71,7 @@ impl Bus {
     /// [`PortError::Refused`], or [`PortError::Closed`].
     pub fn input<T: Message>(&self, topic: &str) -> Result<Input<T>, PortError> {
         self.may_read(topic)?;
-        Input::new(topic, &self.service(topic)?, None)
+        Ok(Input::new(topic, T::reader(self, topic, false)?))
     }
 
     /// A reader of `topic` that can wait for its messages.
@@ -76,9 +80,7 @@ impl Bus {
     /// As [`Bus::input`].
     pub fn trigger<T: Message>(&self, topic: &str) -> Result<Input<T>, PortError> {
         self.may_read(topic)?;
-        let listener = self.event(topic)?.listener_builder().create();
-        let listener = listener.map_err(|error| PortError::refused(topic, "listening", error))?;
-        Input::new(topic, &self.service(topic)?, Some(listener))
+        Ok(Input::new(topic, T::reader(self, topic, true)?))
     }
 
     /// The checkpoint of a killed predecessor: its newest message on `topic`, as the supervisor's
@@ -90,7 +92,7 @@ impl Bus {
     /// [`PortError::Refused`] or [`PortError::Layout`].
     pub fn checkpoint<T: Message>(&self, topic: &str, within: Duration) -> Result<Option<Box<T>>, PortError> {
         let topic = topic::resume(topic);
-        let mut input = Input::<T>::new(&topic, &self.service(&topic)?, None)?;
+        let mut input = Input::new(&topic, T::reader(self, &topic, false)?);
         let since = Instant::now();
         while since.elapsed() < within {
             input.receive_any()?;
@@ -109,7 +111,7 @@ impl Bus {
     ///
     /// Takes 1 to 9 ms for each: never to be called on a real-time thread.
     pub fn clean_dead(&self) -> u64 {
-        self.node.try_cleanup_dead_nodes().cleanups
+        self.node.node().try_cleanup_dead_nodes().cleanups
     }
 
     /// Name of the process.
@@ -130,6 +132,7 @@ impl Bus {
         topic: &str,
     ) -> Result<publish_subscribe::PortFactory<ipc::Service, T, ()>, PortError> {
         self.node
+            .node()
             .service_builder(&service_name(topic)?)
             .publish_subscribe::<T>()
             // A reader that hangs loses old messages; it never delays the writer.
@@ -148,6 +151,7 @@ impl Bus {
     /// The event that announces the topic's messages.
     pub(crate) fn event(&self, topic: &str) -> Result<event::PortFactory<ipc::Service>, PortError> {
         self.node
+            .node()
             .service_builder(&service_name(topic)?)
             .event()
             .max_listeners(MAX_READERS)

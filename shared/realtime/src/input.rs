@@ -1,35 +1,19 @@
-use crate::monotonic_clock::{now, timespec};
+use crate::monotonic_clock::now;
+use crate::port::Reader;
 use crate::{Message, PortError};
 use coact_messages::{Header, LAYOUT};
-use iceoryx2::port::{listener::Listener, subscriber::Subscriber};
-use iceoryx2::prelude::*;
-use iceoryx2::sample::Sample;
-use iceoryx2::service::port_factory::publish_subscribe;
-use rustix::event::{PollFd, PollFlags, poll};
-use std::os::fd::BorrowedFd;
 
 /// Reader of one topic. It keeps the newest message where its writer wrote it: nothing is copied.
 #[derive(Debug)]
 pub struct Input<T: Message> {
     topic: String,
-    // Declared before the subscriber: the message is given back before the port closes.
-    newest: Option<Sample<ipc::Service, T, ()>>,
-    subscriber: Subscriber<ipc::Service, T, ()>,
-    listener: Option<Listener<ipc::Service>>,
+    port: Box<dyn Reader<T>>,
     received_ns: u64,
 }
 
 impl<T: Message> Input<T> {
-    pub(crate) fn new(
-        topic: &str,
-        service: &publish_subscribe::PortFactory<ipc::Service, T, ()>,
-        listener: Option<Listener<ipc::Service>>,
-    ) -> Result<Self, PortError> {
-        let subscriber = service
-            .subscriber_builder()
-            .create()
-            .map_err(|error| PortError::refused(topic, "reading", error))?;
-        Ok(Self { topic: topic.to_owned(), newest: None, subscriber, listener, received_ns: 0 })
+    pub(crate) fn new(topic: &str, port: Box<dyn Reader<T>>) -> Self {
+        Self { topic: topic.to_owned(), port, received_ns: 0 }
     }
 
     /// Takes in what has arrived, keeps the newest, and returns whether there was anything newer.
@@ -50,13 +34,7 @@ impl<T: Message> Input<T> {
 
     /// As [`Input::refresh`], but leaves the check of the layout to the caller.
     pub(crate) fn receive_any(&mut self) -> Result<bool, PortError> {
-        let mut fresh = false;
-        while let Some(sample) = self.receive()? {
-            if self.latest().is_none_or(|newest| Message::header(&*sample).cycle >= newest.header().cycle) {
-                self.newest = Some(sample);
-                fresh = true;
-            }
-        }
+        let fresh = self.port.take_newest()?;
         if fresh {
             self.received_ns = now();
         }
@@ -68,15 +46,15 @@ impl<T: Message> Input<T> {
     /// # Errors
     /// As [`Input::refresh`].
     pub fn each(&mut self, mut visit: impl FnMut(&T)) -> Result<usize, PortError> {
-        let mut count = 0;
-        while let Some(sample) = self.receive()? {
-            if Message::header(&*sample).layout != LAYOUT {
-                return Err(PortError::layout(&self.topic, Message::header(&*sample)));
+        let (mut count, topic) = (0, &self.topic);
+        self.port.visit(&mut |message| {
+            if message.header().layout != LAYOUT {
+                return Err(PortError::layout(topic, message.header()));
             }
-            visit(&sample);
-            self.newest = Some(sample);
+            visit(message);
             count += 1;
-        }
+            Ok(())
+        })?;
         Ok(count)
     }
 
@@ -87,7 +65,7 @@ impl<T: Message> Input<T> {
 
     /// The newest message taken in so far, however old it is.
     pub fn latest(&self) -> Option<&T> {
-        self.newest.as_deref()
+        self.port.newest()
     }
 
     /// Its header.
@@ -116,24 +94,7 @@ impl<T: Message> Input<T> {
             if now >= until_ns {
                 return Ok(false);
             }
-            self.wait_for_event(until_ns - now)?;
+            self.port.wait(until_ns - now)?;
         }
-    }
-
-    /// Sleeps until the topic's event or for `span_ns`. iceoryx2's own waits round up to whole milliseconds.
-    fn wait_for_event(&self, span_ns: u64) -> Result<(), PortError> {
-        let Some(listener) = &self.listener else {
-            return Err(PortError::refused(&self.topic, "waiting", "the input was not opened as a trigger"));
-        };
-        // SAFETY: the descriptor belongs to the listener, which outlives this call and keeps it open.
-        let socket = unsafe { BorrowedFd::borrow_raw(listener.file_descriptor().native_handle()) };
-        // An interrupted or failed poll is a spurious wake-up: the caller looks for the message and the time.
-        let _ = poll(&mut [PollFd::new(&socket, PollFlags::IN)], Some(&timespec(span_ns)));
-        listener.try_wait(|_| {}).map_err(|error| PortError::refused(&self.topic, "waiting", error))?;
-        Ok(())
-    }
-
-    fn receive(&self) -> Result<Option<Sample<ipc::Service, T, ()>>, PortError> {
-        self.subscriber.receive().map_err(|error| PortError::refused(&self.topic, "receiving", error))
     }
 }

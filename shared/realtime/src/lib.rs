@@ -46,6 +46,8 @@ mod memory_lock;
 mod message;
 mod monotonic_clock;
 mod output;
+#[doc(hidden)]
+pub mod port;
 mod port_error;
 mod process;
 mod process_error;
@@ -56,6 +58,8 @@ mod signals;
 mod tick;
 mod topic_anchors;
 mod wake_up_lateness;
+mod zero_copy_reader;
+mod zero_copy_writer;
 
 pub use arguments::Arguments;
 pub use bus::Bus;

@@ -1,17 +1,14 @@
-use crate::{Message, PortError, now};
+use crate::{Message, Output, PortError, now};
 use coact_messages::{Header, LAYOUT};
-use iceoryx2::port::notifier::Notifier;
-use iceoryx2::prelude::ipc;
-use iceoryx2::sample_mut::SampleMut;
 use std::ops::{Deref, DerefMut};
+use std::ptr::NonNull;
 
 /// A message that is being written, in the memory that readers will see. Dropped unsent, nobody sees it.
 pub struct Loan<'a, T: Message> {
-    pub(crate) topic: &'a str,
-    pub(crate) notifier: Option<&'a Notifier<ipc::Service>>,
-    pub(crate) generation: u32,
-    pub(crate) sequence: &'a mut u64,
-    pub(crate) sample: SampleMut<ipc::Service, T, ()>,
+    pub(crate) output: &'a mut Output<T>,
+    /// The message that the output's port has loaned. It is the port's until it is sent or another one is loaned; both need
+    /// the output, which is borrowed as long as this lives.
+    pub(crate) message: NonNull<T>,
 }
 
 impl<T: Message> Loan<'_, T> {
@@ -22,31 +19,26 @@ impl<T: Message> Loan<'_, T> {
     ///
     /// # Errors
     /// [`PortError::Refused`].
-    pub fn send(self, cycle: u64, sensor_ns: u64) -> Result<Header, PortError> {
-        let Self { topic, notifier, generation, sequence, mut sample } = self;
+    pub fn send(mut self, cycle: u64, sensor_ns: u64) -> Result<Header, PortError> {
         let header = Header {
             layout: LAYOUT,
-            generation,
-            sequence: *sequence,
+            generation: self.output.generation,
+            sequence: self.output.sequence,
             cycle,
             sensor_ns,
             published_ns: now(),
             reserved: 0,
         };
-        *sample.payload_mut().header_mut() = header;
-        sample.send().map_err(|error| PortError::refused(topic, "sending", error))?;
-        *sequence += 1;
-        if let Some(notifier) = notifier {
-            // A listener that just died cannot be told, and need not be: nobody waits beyond the latest start.
-            let _ = notifier.notify();
-        }
+        *self.header_mut() = header;
+        self.output.port.send()?;
+        self.output.sequence += 1;
+        self.output.port.announce();
         Ok(header)
     }
 
     /// Publishes the message with the header that it has.
     pub(crate) fn send_as_is(self) -> Result<(), PortError> {
-        self.sample.send().map_err(|error| PortError::refused(self.topic, "sending", error))?;
-        Ok(())
+        self.output.port.send()
     }
 }
 
@@ -54,12 +46,14 @@ impl<T: Message> Deref for Loan<'_, T> {
     type Target = T;
 
     fn deref(&self) -> &T {
-        self.sample.payload()
+        // SAFETY: the port keeps the loaned message as long as this lives, and nobody else refers to it.
+        unsafe { self.message.as_ref() }
     }
 }
 
 impl<T: Message> DerefMut for Loan<'_, T> {
     fn deref_mut(&mut self) -> &mut T {
-        self.sample.payload_mut()
+        // SAFETY: as above; this is borrowed mutably, so there is no other reference.
+        unsafe { self.message.as_mut() }
     }
 }

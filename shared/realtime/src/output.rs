@@ -1,8 +1,6 @@
+use crate::port::Writer;
 use crate::{Loan, Message, PortError};
 use coact_messages::Header;
-use iceoryx2::port::{notifier::Notifier, publisher::Publisher, update_connections::UpdateConnections};
-use iceoryx2::prelude::*;
-use iceoryx2::service::port_factory::publish_subscribe;
 
 /// Writer of one topic.
 ///
@@ -10,27 +8,14 @@ use iceoryx2::service::port_factory::publish_subscribe;
 #[derive(Debug)]
 pub struct Output<T: Message> {
     topic: String,
-    publisher: Publisher<ipc::Service, T, ()>,
-    notifier: Option<Notifier<ipc::Service>>,
-    generation: u32,
-    sequence: u64,
+    pub(crate) port: Box<dyn Writer<T>>,
+    pub(crate) generation: u32,
+    pub(crate) sequence: u64,
 }
 
 impl<T: Message> Output<T> {
-    pub(crate) fn new(
-        topic: &str,
-        service: &publish_subscribe::PortFactory<ipc::Service, T, ()>,
-        notifier: Option<Notifier<ipc::Service>>,
-        generation: u32,
-    ) -> Result<Self, PortError> {
-        let publisher = service
-            .publisher_builder()
-            // One that is being written, and one that a caller keeps by mistake: then loaning fails, with a reason.
-            .max_loaned_samples(2)
-            .backpressure_strategy(BackpressureStrategy::DiscardData)
-            .create()
-            .map_err(|error| PortError::refused(topic, "writing", error))?;
-        Ok(Self { topic: topic.to_owned(), publisher, notifier, generation, sequence: 0 })
+    pub(crate) fn new(topic: &str, port: Box<dyn Writer<T>>, generation: u32) -> Self {
+        Self { topic: topic.to_owned(), port, generation, sequence: 0 }
     }
 
     /// Name of the topic.
@@ -46,17 +31,10 @@ impl<T: Message> Output<T> {
     /// The next message's memory, with the contents of some earlier message or zeros.
     ///
     /// # Errors
-    /// [`PortError::Refused`] when two loans are out already.
+    /// [`PortError::Refused`] when readers hold all memory that there is.
     pub fn loan(&mut self) -> Result<Loan<'_, T>, PortError> {
-        let sample = self
-            .publisher
-            .loan_uninit()
-            .map_err(|error| PortError::refused(&self.topic, "loaning a message", error))?;
-        // SAFETY: the payload lies in a shared-memory segment that the kernel filled with zeros and that only
-        // messages were written to since, so every byte is initialised; `T: Pod` accepts any bit pattern.
-        let sample = unsafe { sample.assume_init() };
-        let Self { topic, notifier, generation, sequence, .. } = self;
-        Ok(Loan { topic, notifier: notifier.as_ref(), generation: *generation, sequence, sample })
+        let message = self.port.loan()?;
+        Ok(Loan { output: self, message })
     }
 
     /// Connects to readers that joined since the last message, and hands them that message.
@@ -64,8 +42,6 @@ impl<T: Message> Output<T> {
     /// # Errors
     /// [`PortError::Refused`].
     pub(crate) fn connect_new_readers(&self) -> Result<(), PortError> {
-        self.publisher
-            .update_connections()
-            .map_err(|error| PortError::refused(&self.topic, "connecting readers", error))
+        self.port.connect_new_readers()
     }
 }

@@ -1,0 +1,74 @@
+use crate::monotonic_clock::timespec;
+use crate::port::Reader;
+use crate::{Bus, Message, PortError};
+use iceoryx2::port::{listener::Listener, subscriber::Subscriber};
+use iceoryx2::prelude::{FileDescriptorBased, ipc};
+use iceoryx2::sample::Sample;
+use rustix::event::{PollFd, PollFlags, poll};
+use std::os::fd::BorrowedFd;
+
+/// A reader over iceoryx2.
+#[derive(Debug)]
+pub(crate) struct ZeroCopyReader<T: Message> {
+    topic: String,
+    // Declared before the subscriber: the message is given back before the port closes.
+    newest: Option<Sample<ipc::Service, T, ()>>,
+    subscriber: Subscriber<ipc::Service, T, ()>,
+    listener: Option<Listener<ipc::Service>>,
+}
+
+impl<T: Message> ZeroCopyReader<T> {
+    pub fn open(bus: &Bus, topic: &str, waits: bool) -> Result<Self, PortError> {
+        let listener = match waits {
+            true => Some(bus.event(topic)?.listener_builder().create()),
+            false => None,
+        };
+        let listener = listener.transpose().map_err(|error| PortError::refused(topic, "listening", error))?;
+        let subscriber = bus.service::<T>(topic)?.subscriber_builder().create();
+        let subscriber = subscriber.map_err(|error| PortError::refused(topic, "reading", error))?;
+        Ok(Self { topic: topic.to_owned(), newest: None, subscriber, listener })
+    }
+
+    fn receive(&self) -> Result<Option<Sample<ipc::Service, T, ()>>, PortError> {
+        self.subscriber.receive().map_err(|error| PortError::refused(&self.topic, "receiving", error))
+    }
+}
+
+impl<T: Message> Reader<T> for ZeroCopyReader<T> {
+    fn take_newest(&mut self) -> Result<bool, PortError> {
+        let mut fresh = false;
+        while let Some(sample) = self.receive()? {
+            let cycle = Message::header(&*sample).cycle;
+            if self.newest().is_none_or(|newest| cycle >= newest.header().cycle) {
+                self.newest = Some(sample);
+                fresh = true;
+            }
+        }
+        Ok(fresh)
+    }
+
+    fn visit(&mut self, visit: &mut dyn FnMut(&T) -> Result<(), PortError>) -> Result<(), PortError> {
+        while let Some(sample) = self.receive()? {
+            visit(&sample)?;
+            self.newest = Some(sample);
+        }
+        Ok(())
+    }
+
+    fn newest(&self) -> Option<&T> {
+        self.newest.as_deref()
+    }
+
+    /// iceoryx2's own waits round up to whole milliseconds.
+    fn wait(&self, span_ns: u64) -> Result<(), PortError> {
+        let Some(listener) = &self.listener else {
+            return Err(PortError::refused(&self.topic, "waiting", "the input was not opened as a trigger"));
+        };
+        // SAFETY: the descriptor belongs to the listener, which outlives this call and keeps it open.
+        let socket = unsafe { BorrowedFd::borrow_raw(listener.file_descriptor().native_handle()) };
+        // An interrupted or failed poll is a spurious wake-up: the caller looks for the message and the time.
+        let _ = poll(&mut [PollFd::new(&socket, PollFlags::IN)], Some(&timespec(span_ns)));
+        listener.try_wait(|_| {}).map_err(|error| PortError::refused(&self.topic, "waiting", error))?;
+        Ok(())
+    }
+}
