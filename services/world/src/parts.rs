@@ -54,7 +54,9 @@ impl Parts {
     /// Takes over where the parts were, unless one of them is where or what it cannot be.
     pub fn restore(&mut self, state: &[PartState; MAX_PARTS], task: &Task) -> Result<(), Implausible> {
         for (part, laid) in state.iter().zip(&task.parts) {
-            finite("part: place", &[&part.position[..], &part.orientation, &part.velocity].concat())?;
+            finite("part: place", &[part.position, part.velocity].concat())?;
+            let is_turn = DQuat::from_array(part.orientation).is_normalized();
+            ensure(is_turn, "part.orientation", "a unit quaternion")?;
             ensure(part.kind as usize == laid.kind, "part.kind", "that of the task")?;
             ensure(part.state <= Holder::Socket as u32, "part.state", "0, 1, 2 or 3")?;
             let is_somewhere =

@@ -1,6 +1,7 @@
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_person::RobotHandView;
 use coact_stage_state::{Flag, Implausible, Slot, ensure, finite};
+use glam::DQuat;
 
 /// What the robot's hand has, and since when it has stood where the person pays attention to it (ticks of the run; 0: it
 /// does not).
@@ -52,7 +53,10 @@ impl RobotHandState {
             "robot: count",
             "no more than the ticks so far",
         )?;
-        finite("robot: grip", &[&self.offset[..], &self.turn, &self.taken_at].concat())?;
+        finite("robot: grip", &[self.offset, self.taken_at].concat())?;
+        let turn = DQuat::from_array(self.turn);
+        let is_turn = turn.is_finite() && (turn.is_normalized() || self.held == Slot::EMPTY);
+        ensure(is_turn, "robot.turn", "a unit quaternion")?;
         finite("robot: fingers", &[self.finger_closure, self.commanded_closure, self.tightest])
     }
 

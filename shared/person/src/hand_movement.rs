@@ -1,6 +1,7 @@
 use crate::HandPose;
 use crate::reach_profile::minimum_jerk;
 use bytemuck::{Pod, Zeroable};
+use coact_stage_state::{Implausible, ensure, finite};
 
 /// Fraction of a grasping movement in which the hand's pitch reaches that of the grip: about when the aperture is largest.
 const PITCH_TIME: f64 = 0.7;
@@ -40,9 +41,15 @@ impl HandMovement {
         tick >= self.end
     }
 
-    /// Whether its times stand in their order, far from overflow.
-    pub(crate) fn is_ordered(&self) -> bool {
-        self.start <= self.onset && self.onset <= self.end && self.end <= u64::from(u32::MAX) << 16
+    /// Refuses times that do not stand in their order, or are near overflow, and numbers that are none.
+    pub(crate) fn check(&self) -> Result<(), Implausible> {
+        let ordered = self.start <= self.onset && self.onset <= self.end;
+        let far = u64::from(u32::MAX) << 16;
+        ensure(ordered && self.end <= far, "person.movement", "start, onset and end in this order")?;
+        let peaks_within = self.peak_aperture == 0.0 || (self.peak_time > 0.0 && self.peak_time < 1.0);
+        ensure(peaks_within, "person.movement.peak_time", "a fraction of the movement")?;
+        finite("person.movement", bytemuck::cast_slice(&[self.from, self.to]))?;
+        finite("person.movement", &[self.arch, self.peak_aperture, self.peak_time])
     }
 
     /// The hand at `tick`.

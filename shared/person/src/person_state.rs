@@ -3,6 +3,7 @@ use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_joint_task::Task;
 use coact_messages::PartnerError;
 use coact_stage_state::{Implausible, Slot, ensure, finite};
+use glam::DQuat;
 
 /// Everything about the person that changes from tick to tick.
 ///
@@ -114,21 +115,23 @@ impl PersonState {
             && self.held.is_below(task.parts.len())
             && self.recording.is_below(recordings);
         ensure(indices, "person: chain, subgoal, part or recording", "one that there is")?;
-        let since =
-            [self.ended, self.onset, self.grasped, self.felt_since, self.waiting_since, self.contact_since];
+        let since = [self.onset, self.grasped, self.felt_since, self.waiting_since, self.contact_since];
         ensure(since.iter().all(|tick| *tick <= now.max(1)), "person: tick", "one that has been")?;
-        ensure(self.movement.is_ordered(), "person.movement", "a start before its end")?;
         let counts =
             [self.ended >> 16, self.actions, self.skipped, self.script_done, self.variation.gives_up_after];
         ensure(counts.iter().all(|count| *count <= u64::from(u32::MAX)), "person: count", "32 bits at most")?;
-        let Self { hand, movement, .. } = self;
-        finite("person.hand", bytemuck::cast_slice(&[*hand, movement.from, movement.to]))?;
-        finite("person.movement", &[movement.arch, movement.peak_aperture, movement.peak_time])?;
-        let carried = [&self.turn_from[..], &self.turn_to, &self.offset, &self.home].concat();
-        finite("person: carried part", &carried)?;
-        finite(
-            "person: occluder, force or blur",
-            &[&self.occluder[..], &self.force, &[self.variation.blur]].concat(),
-        )
+        self.movement.check()?;
+        self.check_numbers()
+    }
+
+    fn check_numbers(&self) -> Result<(), Implausible> {
+        finite("person.hand", bytemuck::cast_slice(&[self.hand]))?;
+        finite("person: place, force", &[self.offset, self.home, self.force].concat())?;
+        finite("person.occluder", &self.occluder)?;
+        finite("person.variation.blur", &[self.variation.blur])?;
+        let carries = matches!(self.phase, ActivityPhase::Carry | ActivityPhase::Return);
+        let turns = [self.turn_from, self.turn_to].map(DQuat::from_array);
+        let are_turns = turns.iter().all(|turn| turn.is_finite() && (turn.is_normalized() || !carries));
+        ensure(are_turns, "person: turn of the carried part", "unit quaternions")
     }
 }

@@ -1,4 +1,5 @@
 use super::fake_robot::FakeRobot;
+use super::script::scenario;
 use super::{Out, robot, swaying, world};
 use crate::ResumeError;
 use bytemuck::bytes_of;
@@ -131,4 +132,17 @@ fn no_damage_of_a_state_makes_the_resumed_world_panic() {
         }
     }
     assert!(refused > 50 && taken > 50, "{refused} states were refused, {taken} were taken");
+}
+
+#[test]
+fn a_world_is_resumed_at_any_tick_of_every_kind_of_scenario() {
+    for file in ["proactive.toml", "occlusion.toml", "errors-and-requests.toml", "words.toml"] {
+        let (mut world, mut successor, mut out) = (scenario(file), scenario(file), Out::new());
+        for tick in 1..=20_000 {
+            world.step(tick, None, &mut out.sample, &mut out.truth, &mut out.state);
+            if tick % 50 == 0 {
+                successor.resume(&out.state).unwrap();
+            }
+        }
+    }
 }

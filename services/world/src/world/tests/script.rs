@@ -83,7 +83,7 @@ fn proactive_scenario_is_idle_insert_idle_hand_over() {
     assert!(begun.iter().all(|action| action.2 > action.1), "{begun:?}");
 }
 
-fn scenario(file: &str) -> World {
+pub(super) fn scenario(file: &str) -> World {
     let task = coact_joint_task::Task::load(&config("tasks/toy-vehicle.toml")).unwrap();
     let name = format!("script:{}", config("scenarios").join(file).display());
     let partner = Partner::load(&name, &task, 0).unwrap();
