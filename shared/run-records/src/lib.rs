@@ -7,6 +7,9 @@
 //! | `supervisor.jsonl`, the supervisor log | [`SupervisorEvent`] | what happened to a process |
 //! | `snapshots.jsonl`, the snapshot log | [`Snapshot`] | what the scene looked like at one instant |
 //!
+//! `at_ms`, `onset_ms` and the like are numbers of cycles from the start of the run: a cycle lasts 1 ms. `at_ns` is an
+//! instant of `CLOCK_MONOTONIC`.
+//!
 //! JSON Schemas of all four are in `docs/schemas`; a test of this crate holds them and the types together.
 //!
 //! ```
