@@ -112,11 +112,11 @@ impl<'a> Inputs<'a> {
     /// Whether the person's hand waits at `place`.
     pub fn person_waits_at(&self, place: &Point3<f64>) -> bool {
         self.percept.is_some_and(|percept| {
-            let hand = &percept.hand;
-            let [x, y, z] = hand.velocity;
+            let wrist = &percept.arm.wrist;
+            let [x, y, z] = wrist.velocity;
             let speed = (x * x + y * y + z * z).sqrt();
-            let distance = (Point3::from(hand.wrist) - place).norm();
-            hand.tracked == 1 && speed < WAITING && distance < HAND_LENGTH
+            let distance = (Point3::from(wrist.position) - place).norm();
+            percept.arm.is_tracked() && speed < WAITING && distance < HAND_LENGTH
         })
     }
 
@@ -129,7 +129,7 @@ impl<'a> Inputs<'a> {
             Some((index, part_capsules.get(seen.kind as usize)?.within(&frame_of(seen)?)))
         });
         let ago = seconds(self.tick.saturating_sub(scene.captured_cycle));
-        let arm = PersonCapsules::of(&self.percept?.hand, &self.sample?.hand, limits)?;
+        let arm = PersonCapsules::of(&self.percept?.arm, limits)?;
         Some(arm.holding(capsules, ago, limits.carried_within))
     }
 

@@ -1,61 +1,66 @@
-use coact_messages::{HandPercept, HandView, KeypointName};
+use coact_messages::PersonArm;
 use coact_motion::Capsule;
 use coact_safety::PersonLimits;
 use nalgebra::{Point3, Vector3};
 
-/// Upper arm, forearm and hand of the person, and what the hand holds, as bounding capsules; and how fast the hand moves.
+/// Upper arm, forearm and hand of the person, and what the hand holds, as bounding capsules; and how they move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PersonCapsules {
-    limbs: [Capsule; 3],
+    limbs: [MovingCapsule; 3],
     /// What is in the hand: index of its sighting, and a capsule around it.
-    held: Option<(usize, Capsule)>,
-    velocity: Vector3<f64>,
-    /// For how long the hand is taken to go on as it moves, s.
+    held: Option<(usize, MovingCapsule)>,
+    /// For how long all that is taken to go on as it moves, s.
     extrapolated: f64,
 }
 
-/// Keypoints below this confidence are not believed.
-const BELIEF: f64 = 0.2;
+/// A capsule whose ends move, m/s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct MovingCapsule {
+    now: Capsule,
+    velocities: [Vector3<f64>; 2],
+}
+
+/// Shorter than this, a forearm has no direction, m.
+const SHORTEST: f64 = 1e-6;
 
 impl PersonCapsules {
     /// Most capsules that there are of a person: three limbs, and what the hand holds.
     pub const MOST: usize = 4;
 
-    /// From perception's estimate of the wrist and the tracker's newest frame; none when the hand is not tracked.
-    pub fn of(hand: &HandPercept, view: &HandView, limits: &PersonLimits) -> Option<Self> {
-        let wrist = Point3::from(hand.wrist);
-        let velocity = Vector3::from(hand.velocity);
-        if hand.tracked != 1 || !wrist.iter().chain(velocity.iter()).all(|value| value.is_finite()) {
+    /// Around the arm that perception has estimated; none when it is not tracked. A hand whose end was never seen goes on
+    /// along the forearm.
+    pub fn of(arm: &PersonArm, limits: &PersonLimits) -> Option<Self> {
+        let points = arm.points();
+        let mut numbers = points.iter().flat_map(|point| point.position.iter().chain(&point.velocity));
+        if !arm.is_tracked() || !numbers.all(|number| number.is_finite()) {
             return None;
         }
-        let seen = |name: KeypointName| {
-            let point = view.keypoints[name as usize];
-            let believed = point.confidence > BELIEF && point.position.iter().all(|value| value.is_finite());
-            believed.then(|| Point3::from(point.position))
-        };
-        // The tracker's frame is some cycles old: the arm is moved to where the wrist is now.
-        let shift = seen(KeypointName::Wrist).map_or_else(Vector3::zeros, |old| wrist - old);
-        let elbow = seen(KeypointName::Elbow).map_or(wrist, |elbow| elbow + 0.5 * shift);
-        let shoulder = seen(KeypointName::Shoulder).unwrap_or(elbow);
-        let along = (wrist - elbow).try_normalize(1e-6).unwrap_or_else(Vector3::zeros);
-        let tip = seen(KeypointName::MiddleTip).map_or(wrist + limits.hand_length * along, |tip| tip + shift);
-        let joints = [shoulder, elbow, wrist, tip];
-        let limb = |index: usize| Capsule {
-            start: joints[index],
-            end: joints[index + 1],
-            radius: limits.radii[index],
+        let mut positions = points.map(|point| Point3::from(point.position));
+        let velocities = points.map(|point| Vector3::from(point.velocity));
+        let [_, elbow, wrist, tip] = &mut positions;
+        if !arm.fingertip.deviation.is_finite() {
+            let along = (*wrist - *elbow).try_normalize(SHORTEST).unwrap_or_else(Vector3::zeros);
+            *tip = *wrist + limits.hand_length * along;
+        }
+        let limb = |index: usize| MovingCapsule {
+            now: Capsule { start: positions[index], end: positions[index + 1], radius: limits.radii[index] },
+            velocities: [velocities[index], velocities[index + 1]],
         };
         let extrapolated = limits.extrapolated.as_secs_f64();
-        Some(Self { limbs: std::array::from_fn(limb), held: None, velocity, extrapolated })
+        Some(Self { limbs: std::array::from_fn(limb), held: None, extrapolated })
     }
 
     /// The same with whichever of these parts is nearest to the hand in it, if it is nearer than `within` m. Each part: index
-    /// of its sighting, and a capsule around where it was seen `ago` s before now.
+    /// of its sighting, and a capsule around where it was seen `ago` s before now. It moves along with the wrist.
     pub fn holding(mut self, seen: impl Iterator<Item = (usize, Capsule)>, ago: f64, within: f64) -> Self {
-        let way = self.way(ago);
         let [.., hand] = self.limbs;
-        let parts = seen.map(|(index, part)| (index, moved(&part, &way)));
-        let gaps = parts.map(|(index, part)| (hand.distance(&part), (index, part)));
+        let [wrist, _] = hand.velocities;
+        let parts = seen.map(|(index, part)| {
+            let then = MovingCapsule { now: part, velocities: [wrist; 2] };
+            let now = then.after(ago.min(self.extrapolated));
+            (index, MovingCapsule { now, ..then })
+        });
+        let gaps = parts.map(|(index, part)| (hand.now.distance(&part.now), (index, part)));
         let nearest = gaps.filter(|(gap, _)| *gap < within).min_by(|one, other| one.0.total_cmp(&other.0));
         self.held = nearest.map(|(_, part)| part);
         self
@@ -66,24 +71,17 @@ impl PersonCapsules {
         self.held.map(|(index, _)| index)
     }
 
-    /// Upper arm, forearm, hand and what it holds `ahead` s from now. The elbow moves half as far as the hand, the shoulder
-    /// stays.
+    /// Upper arm, forearm, hand and what it holds `ahead` s from now.
     pub fn after(&self, ahead: f64) -> impl Iterator<Item = Capsule> + use<> {
-        let way = self.way(ahead);
-        let [upper, fore, hand] = self.limbs;
-        let arm = [
-            Capsule { end: upper.end + 0.5 * way, ..upper },
-            Capsule { start: fore.start + 0.5 * way, end: fore.end + way, ..fore },
-            moved(&hand, &way),
-        ];
-        arm.into_iter().chain(self.held.map(|(_, part)| moved(&part, &way)))
-    }
-
-    fn way(&self, time: f64) -> Vector3<f64> {
-        self.velocity * time.min(self.extrapolated)
+        let time = ahead.min(self.extrapolated);
+        let held = self.held.map(|(_, part)| part);
+        self.limbs.into_iter().chain(held).map(move |capsule| capsule.after(time))
     }
 }
 
-fn moved(capsule: &Capsule, way: &Vector3<f64>) -> Capsule {
-    Capsule { start: capsule.start + way, end: capsule.end + way, ..*capsule }
+impl MovingCapsule {
+    fn after(&self, time: f64) -> Capsule {
+        let [start, end] = self.velocities;
+        Capsule { start: self.now.start + start * time, end: self.now.end + end * time, ..self.now }
+    }
 }

@@ -31,7 +31,7 @@ fn garble(world: &mut KinematicWorld, fault: u8, noise: f64) {
     match fault {
         1 => world.percept.workspace.iter_mut().for_each(|seen| seen.position.fill([bad; 3])),
         2 => world.percept.workspace.iter_mut().for_each(|seen| seen.orientation.fill([bad; 4])),
-        3 => world.percept.hand.wrist = [bad; 3],
+        3 => world.hand_at([bad; 3]),
         4 => world.sample.joints.position.fill(bad),
         5 => world.sample.joints.touch = bad,
         6 => world.percept.robot_holds.fill(noise + 0.5),

@@ -6,6 +6,7 @@ mod kinematic_world;
 use coact_joint_task::ActionType;
 use coact_messages::{ARM_JOINTS, Command, MotionPhase, ROBOT};
 use coact_motion::{Capsule, Mechanism};
+use coact_period::{CYCLES_PER_SECOND, PERIOD_S};
 use kinematic_world::{Holder, KinematicWorld};
 use nalgebra::{Point3, Vector3};
 
@@ -33,12 +34,12 @@ fn nut(world: &KinematicWorld) -> usize {
 /// Distance of arm and hand from a ball around the person's wrist, m, in a posture of all joints.
 fn distance(world: &KinematicWorld, mechanism: &Mechanism, position: &[f64]) -> f64 {
     let fingers = std::array::from_fn(|joint| position[ARM_JOINTS + joint]);
-    let body = mechanism.with_fingers(&world.robot.hand, &fingers).unwrap();
-    let wrist = Point3::from(world.percept.hand.wrist);
-    let hulls = body.bounding_capsules(mechanism, &std::array::from_fn(|joint| position[joint]));
-    let moving = body.links().iter().zip(&hulls).filter(|(bone, _)| bone.carriers > 0);
+    let model = mechanism.with_fingers(&world.robot.hand, &fingers).unwrap();
+    let wrist = Point3::from(world.percept.arm.wrist.position);
+    let capsules = model.bounding_capsules(mechanism, &std::array::from_fn(|joint| position[joint]));
+    let moving = model.links().iter().zip(&capsules).filter(|(link, _)| link.carriers > 0);
     let ball = Capsule { start: wrist, end: wrist, radius: 0.045 };
-    moving.map(|(_, hull)| hull.distance(&ball)).fold(f64::INFINITY, f64::min)
+    moving.map(|(_, capsule)| capsule.distance(&ball)).fold(f64::INFINITY, f64::min)
 }
 
 #[test]
@@ -100,11 +101,10 @@ fn a_hand_that_comes_in_from_the_side_slows_the_arm_without_touching_it() {
     // At most 0.5 m/s: nobody can stand still for a hand that is faster than the arm can brake.
     let line = target - rest;
     let velocity = line.normalize() * 0.5;
-    let steps = (line.norm() / 0.5 * 1e3) as u32;
+    let steps = (line.norm() / 0.5 * CYCLES_PER_SECOND as f64) as u32;
     for step in 0..steps {
-        let at = rest + velocity * (f64::from(step) * 1e-3);
-        world.hand_at(at.coords.into());
-        world.percept.hand.velocity = velocity.into();
+        let at = rest + velocity * (f64::from(step) * PERIOD_S);
+        world.hand_moves(at.coords.into(), velocity.into());
         let before = world.command.position;
         world.step();
         let [before, now] = [before, world.command.position].map(|at| distance(&world, &mechanism, &at));

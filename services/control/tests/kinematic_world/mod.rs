@@ -3,7 +3,9 @@
 
 use coact_control::Control;
 use coact_joint_task::{ActionType, Task};
-use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, PERSON, Percept, ROBOT, SensorSample};
+use coact_messages::{
+    Command, FieldFrame, JOINTS, MotionPhase, NONE, PERSON, Percept, ROBOT, SensorSample, TrackedPoint,
+};
 use coact_motion::Capsule;
 use coact_period::{CYCLES_PER_SECOND, PERIOD_S, seconds};
 use coact_robot::{JointLimits, Robot};
@@ -91,8 +93,8 @@ impl KinematicWorld {
             control,
         };
         world.decide(None);
-        world.percept.hand.wrist = world.task.scene.person_rest;
-        world.percept.hand.tracked = 1;
+        world.hand_at(world.task.scene.person_rest);
+        world.percept.arm.tracked = 1;
         let park = world.robot.hand.posture(world.robot.hand.base_for_width(0.10));
         world.command.position[..7].copy_from_slice(&world.robot.park);
         world.command.position[7..14].copy_from_slice(&park);
@@ -118,8 +120,19 @@ impl KinematicWorld {
 
     /// Puts the person's hand somewhere, still.
     pub fn hand_at(&mut self, place: [f64; 3]) {
-        self.percept.hand.wrist = place;
-        self.percept.hand.velocity = [0.0; 3];
+        self.hand_moves(place, [0.0; 3]);
+    }
+
+    /// The person's hand is there, and moves so fast, m/s; of the arm no more than that is known.
+    pub fn hand_moves(&mut self, place: [f64; 3], velocity: [f64; 3]) {
+        let point = |follows: f64| TrackedPoint {
+            position: place,
+            velocity: velocity.map(|speed| follows * speed),
+            deviation: f64::INFINITY,
+        };
+        let wrist = TrackedPoint { deviation: 0.0, ..point(1.0) };
+        let arm = &mut self.percept.arm;
+        (arm.shoulder, arm.elbow, arm.wrist, arm.fingertip) = (point(0.0), point(0.5), wrist, point(1.0));
     }
 
     /// Somebody pulls at the hand and what it holds, N.
@@ -271,7 +284,7 @@ impl KinematicWorld {
             let upright = (frame.rotation * Vector3::z()).dot(&Vector3::from(subgoal.axis));
             subgoal.kind == kind && (place - Vector3::from(subgoal.socket)).norm() < NEAR && upright > 0.99
         };
-        let wrist = Point3::from(self.percept.hand.wrist);
+        let wrist = Point3::from(self.percept.arm.wrist.position);
         let part = &mut self.parts[index];
         if let Some(goal) = (0..self.task.subgoals.len()).find(matching) {
             let subgoal = &self.task.subgoals[goal];
