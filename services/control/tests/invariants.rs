@@ -70,6 +70,30 @@ proptest! {
     }
 }
 
+/// A word of the state, and what it becomes. Most words are knots of trajectories: the others are hit as often.
+fn damage() -> impl Strategy<Value = (usize, u64)> {
+    let word = prop_oneof![1_usize..1511, 710_usize..790, 1497_usize..1511];
+    let bits = prop_oneof![any::<u64>(), 0_u64..5, any::<f64>().prop_map(f64::to_bits)];
+    (word, bits)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+
+    // A refused state leaves the stage with its own.
+    #[test]
+    fn no_damaged_state_breaks_the_limits(damages in prop::collection::vec(damage(), 1..4)) {
+        let mut world = KinematicWorld::new();
+        world.decide(Some(world.action(coact_joint_task::ActionType::Insert, "nut on the robot's side")));
+        world.run(0.4);
+        for (word, bits) in damages {
+            world.command.state[word] = f64::from_bits(bits);
+            world.run(0.05);
+        }
+        prop_assert!(world.command.position.iter().all(|angle| angle.is_finite()));
+    }
+}
+
 #[test]
 fn decisions_that_change_every_few_cycles_keep_the_limits() {
     let mut world = KinematicWorld::new();
