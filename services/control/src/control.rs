@@ -14,7 +14,7 @@ use coact_stage_state::StageState;
 /// The control stage: decisions in, setpoints out, one period at each step.
 #[derive(Debug)]
 pub struct Control {
-    pub(crate) robot: RobotModel,
+    pub(crate) model: RobotModel,
     pub(crate) goals: HandGoals,
     pub(crate) actions: Vec<Action>,
     pub(crate) limits: SafetyLimits,
@@ -55,21 +55,21 @@ impl Control {
         limits: &SafetyLimits,
         link: impl FnOnce(SkillPlanner) -> (PlannerLink, T),
     ) -> Result<(Self, T), ControlError> {
-        let robot = RobotModel::new(robot, task)?;
-        let goals = HandGoals::new(&robot, task);
-        let models = CollisionModels::new(&robot.robot, task)?;
-        let guard = Guard::new(&robot, &models, limits.guard)?;
-        let planner = SkillPlanner::new(robot.clone(), models, goals.clone(), task, *limits);
+        let model = RobotModel::new(robot, task)?;
+        let goals = HandGoals::new(&model, task);
+        let models = CollisionModels::new(&model.robot, task)?;
+        let guard = Guard::new(&model, &models, limits.guard)?;
+        let planner = SkillPlanner::new(model.clone(), models, goals.clone(), task, *limits);
         reachability::check(&planner, &goals, task)?;
-        let park = robot.park();
+        let park = model.park();
         let (planner, thread) = link(planner);
         let control = Self {
-            servo: Servo::new(robot.limits(), park),
+            servo: Servo::new(model.limits(), park),
             state: ControlState::at_rest(park),
             guard,
             planner,
             actions: task.actions.clone(),
-            robot,
+            model,
             goals,
             limits: *limits,
             started: false,
@@ -118,8 +118,8 @@ impl Control {
             return;
         }
         let position =
-            sample.map_or_else(|| self.robot.park(), |s| self.robot.start_from(&s.joints.position));
-        self.servo = Servo::new(self.robot.limits(), position);
+            sample.map_or_else(|| self.model.park(), |s| self.model.start_from(&s.joints.position));
+        self.servo = Servo::new(self.model.limits(), position);
         self.state = ControlState::at_rest(position);
         self.started = true;
     }
@@ -127,7 +127,7 @@ impl Control {
     /// Takes over state and setpoints of a command; `false`, and nothing changed, when they are not sound.
     fn take_over(&mut self, command: &Command) -> bool {
         let (actions, kinds, grips) =
-            (self.actions.len(), self.robot.part_capsules.len(), self.robot.grips.all().len());
+            (self.actions.len(), self.model.part_capsules.len(), self.model.grips.all().len());
         let state = ControlState::load(&command.state).ok();
         let state = state.filter(|state| state.is_of_task(actions, kinds, grips));
         let sound = state.is_some() && self.servo.resume(command);
@@ -154,7 +154,7 @@ impl Control {
         if self.state.arm_has_arrived() {
             return 1.0;
         }
-        let Some(person) = inputs.person(&self.robot.part_capsules, &self.limits.person) else { return 1.0 };
+        let Some(person) = inputs.person(&self.model.part_capsules, &self.limits.person) else { return 1.0 };
         let (grip, closure) = (self.held_in(), coact_messages::finger_closure(&self.servo.position()));
         let speed_override = self.guard.speed_override(&self.state, grip, closure, &person);
         let is_blocked = speed_override < self.limits.guard.blocked_override;
@@ -167,7 +167,7 @@ impl Control {
     /// The grip in which the held part is held: index into the grip table.
     pub(crate) fn held_in(&self) -> Option<usize> {
         let hand = &self.state.hand;
-        hand.held().map(|kind| self.robot.grips.known(hand.grip.get(), kind))
+        hand.held().map(|kind| self.model.grips.known(hand.grip.get(), kind))
     }
 
     fn report(&self, inputs: &Inputs, out: &mut Command) {

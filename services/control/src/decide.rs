@@ -60,10 +60,10 @@ impl Control {
         *touched = 0;
         (hand.held, hand.from_table) = (Slot::EMPTY, Flag::Unset);
         let posture = self.servo.posture();
-        let grasp_point = self.robot.robot.grasp_point(&posture);
+        let grasp_point = self.model.robot.grasp_point(&posture);
         let seen = found.and_then(|kind| Some((kind, inputs.sighting(kind, &grasp_point, IN_HAND)?.1)));
         if let Some((kind, frame)) = seen {
-            let in_palm = self.robot.robot.palm(&posture).inverse() * frame;
+            let in_palm = self.model.robot.palm(&posture).inverse() * frame;
             (hand.held, hand.in_palm) = (Slot::of(kind), in_palm.into());
         }
     }

@@ -32,16 +32,16 @@ impl Guard {
     /// # Errors
     /// [`RobotError`] when the robot's collision geometry cannot be used.
     pub fn new(
-        robot: &RobotModel,
+        model: &RobotModel,
         models: &CollisionModels,
         limits: GuardLimits,
     ) -> Result<Self, RobotError> {
-        let (hand, bases) = (&robot.robot.hand, robot.robot.hand.joints[1].limits);
+        let (hand, bases) = (&model.robot.hand, model.robot.hand.joints[1].limits);
         let base =
             |shape: usize| bases.lower + (bases.upper - bases.lower) * shape as f64 / (SHAPES - 1) as f64;
         let empty = (0..SHAPES).map(|shape| models.of(&[hand.posture(base(shape))], None));
-        let holding = robot.grips.all().iter().enumerate().map(|(index, grip)| {
-            let closed = robot.hand_angles(FingerShape::Closed(index));
+        let holding = model.grips.all().iter().enumerate().map(|(index, grip)| {
+            let closed = model.hand_angles(FingerShape::Closed(index));
             models.of(&[closed], Some((grip.kind, grip.in_palm)))
         });
         Ok(Self {

@@ -179,7 +179,7 @@ impl Control {
             leave: self.leave(start),
             held: hand.held().map(|kind| (kind, hand.in_palm.isometry())),
             held_in: self.held_in(),
-            person: inputs.person(&self.robot.part_capsules, &self.limits.person),
+            person: inputs.person(&self.model.part_capsules, &self.limits.person),
             in_sight: InSight::of(inputs.parts_in_sight(), inputs.occluders()),
         }
     }
@@ -206,7 +206,7 @@ impl Control {
         if enclosed < OUT {
             return None;
         }
-        let back = self.robot.robot.palm(&start.map(|state| state.position)).rotation * -Vector3::z();
+        let back = self.model.robot.palm(&start.map(|state| state.position)).rotation * -Vector3::z();
         let lifts = !self.state.hand.is_empty() && self.state.hand.from_table.is_set();
         Some(if lifts { (Vector3::z(), LIFT) } else { (back, RETREAT * enclosed) })
     }

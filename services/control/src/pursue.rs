@@ -76,8 +76,8 @@ impl Control {
     /// room for that.
     fn shape_fingers(&mut self) {
         let skill = &self.state.skill;
-        let shape = self.robot.on_the_way(skill.skill, skill.kind.get(), self.held_in());
-        let wanted = self.robot.finger_angles(shape);
+        let shape = self.model.on_the_way(skill.skill, skill.kind.get(), self.held_in());
+        let wanted = self.model.finger_angles(shape);
         let arm = &self.state.arm;
         let may_move = !self.state.planning.query.is_bound() && arm.elapsed >= arm.trajectory.fingers_begin;
         if may_move && self.state.fingers.target != wanted {
@@ -184,9 +184,9 @@ impl Control {
     /// Closes or opens the fingers where the hand is.
     pub(crate) fn move_fingers(&mut self, phase: SkillPhase) {
         let kind = self.state.skill.kind.get();
-        let grip = kind.map(|kind| self.robot.grips.known(self.state.hand.grip.get(), kind));
+        let grip = kind.map(|kind| self.model.grips.known(self.state.hand.grip.get(), kind));
         let shape = if phase == SkillPhase::Close { FingerShape::Closed } else { FingerShape::Open };
-        let angles = self.robot.finger_angles(grip.map_or(FingerShape::Relaxed, shape));
+        let angles = self.model.finger_angles(grip.map_or(FingerShape::Relaxed, shape));
         self.servo.launch_fingers(&mut self.state.fingers, angles);
         self.state.skill.enter(phase);
     }

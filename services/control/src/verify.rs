@@ -54,7 +54,7 @@ impl Control {
         let seen = skill.kind.get().and_then(|kind| inputs.sighting(kind, &expected, IN_SIGHT));
         let progress = &mut skill.progress;
         if let Some((_, at)) = seen.filter(|(frame, _)| *frame >= since && *frame != progress.seen_in) {
-            let in_palm = self.robot.robot.palm(&self.servo.posture()).inverse() * at;
+            let in_palm = self.model.robot.palm(&self.servo.posture()).inverse() * at;
             progress.seen = (Vector3::from(progress.seen) + in_palm.translation.vector).into();
             progress.sightings = progress.sightings.saturating_add(1);
             progress.seen_in = seen.map_or(0, |(frame, _)| frame);
@@ -66,7 +66,7 @@ impl Control {
     fn hold_part(&mut self) {
         let skill = &self.state.skill;
         let frame = skill.place.isometry();
-        let mut in_palm = self.robot.robot.palm(&self.servo.posture()).inverse() * frame;
+        let mut in_palm = self.model.robot.palm(&self.servo.posture()).inverse() * frame;
         if skill.progress.sightings > 0 {
             in_palm.translation.vector = Vector3::from(skill.progress.seen) / skill.progress.sightings as f64;
         }

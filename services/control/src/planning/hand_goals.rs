@@ -44,12 +44,12 @@ const POINTING_REACH: f64 = 0.85;
 const CELLS: usize = 5;
 
 impl HandGoals {
-    pub fn new(robot: &RobotModel, task: &Task) -> Self {
+    pub fn new(model: &RobotModel, task: &Task) -> Self {
         Self {
             scene: task.scene.clone(),
-            shoulder: robot.robot.arm().centres(&robot.robot.park)[0],
-            hand: robot.robot.hand.clone(),
-            grips: robot.grips.clone(),
+            shoulder: model.robot.arm().centres(&model.robot.park)[0],
+            hand: model.robot.hand.clone(),
+            grips: model.grips.clone(),
             sockets: task.subgoals.iter().map(|subgoal| frame(subgoal.socket, subgoal.axis)).collect(),
         }
     }

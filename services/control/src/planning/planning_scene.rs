@@ -30,11 +30,11 @@ const NEIGHBOURS: f64 = 0.04;
 const SAME: f64 = 0.06;
 
 impl PlanningScene {
-    pub fn new(robot: &RobotModel, models: &CollisionModels, task: &Task, limits: SafetyLimits) -> Self {
+    pub fn new(model: &RobotModel, models: &CollisionModels, task: &Task, limits: SafetyLimits) -> Self {
         Self {
             mechanism: models.mechanism.clone(),
             shapes: models.shapes.clone(),
-            part_capsules: robot.part_capsules.clone(),
+            part_capsules: model.part_capsules.clone(),
             fixtures: coact_workplace::fixtures(task),
             limits,
         }

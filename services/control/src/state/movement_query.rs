@@ -8,14 +8,11 @@ use coact_stage_state::Blank;
 /// begins in that very cycle.
 ///
 /// ```text
-///             +--------------- refused, or too late ---------------+
-///             v                                                    |
-///  None --> FromRest --------------------+                         |
-///    |                                   v                         |
-///    +----> InMotion { begins } --> Planned { begins } --> None    |
-///             |                                                    |
-///             +----------------------------------------------------+
+/// None --> FromRest ------------> Planned { begins: now } --> None
+/// None --> InMotion { begins } -> Planned { begins } -------> None
 /// ```
+///
+/// A query that is refused ends as well; one in motion that is answered too late is made again, with more time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, CheckedBitPattern, NoUninit, Zeroable)]
 #[repr(C, u64)]
 pub(crate) enum MovementQuery {
