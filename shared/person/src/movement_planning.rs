@@ -154,7 +154,7 @@ impl Person {
 }
 
 /// The pitch that the present activity's chain shows, rad; receiving a part is grasping it to mount it. A grip of
-/// little clarity lies nearer to the middle between it and the nearest other one.
+/// little clarity lies nearer to the middle of all grips.
 fn pitch(state: &PersonState, task: &Task, clarity: f64) -> f64 {
     let act = state.chain.get().map(|chain| task.chains[chain].act);
     match (act, state.activity()) {

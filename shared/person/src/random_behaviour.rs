@@ -9,11 +9,11 @@ use std::ops::RangeInclusive;
 /// | `goal` | fraction | a part is taken for a subgoal whose turn has not come, or that is achieved |
 /// | `request` | fraction | a part is requested whose turn has not come |
 /// | `means` | fraction | a part is requested that lies in the person's own workspace |
-/// | `hidden` | fraction | valid takings of a part before which an occluder stands: it hides the part, and the hand at it, but not the hand that sets out |
-/// | `words` | fraction | valid actions that come with a sentence of the task that means the same, said at reach onset |
-/// | `clarity` | range in 0..1 | of a grip: 1 is the grip's own pitch, 0 the middle between it and the nearest other grip's |
+/// | `hidden` | fraction | of valid takings of a part, behind an occluder: it hides the part and the hand at it, but not the hand that sets out |
+/// | `words` | fraction | of valid actions, with a sentence of the task that means the same, said at reach onset |
+/// | `clarity` | range in 0..1 | of a grip: 1 is the grip's own pitch, 0 the middle of all grips' |
 /// | `dropouts` | per second | bursts in which the tracker loses the hand, 50 to 300 ms long; at most 2 |
-/// | `withdraws` | fraction | of parts that the person has the fingers on together with the robot, or gives it, the person lets go again, or takes back, before it should |
+/// | `withdraws` | fraction | of handovers, the person lets go of the robot's part again, or takes the given part back, too early |
 /// | `late` | fraction | of parts that the robot gives, the person comes for 2 to 6 s late |
 /// | `movement` | range in ms | movement time of a reach, 300 to 3000 |
 ///
@@ -35,7 +35,8 @@ pub struct RandomBehaviour {
 }
 
 impl Default for RandomBehaviour {
-    /// One choice in ten goes wrong; all fractions are chosen by hand. Movement time goes from the 5th percentile of real reaches to the longest one.
+    /// One choice in ten goes wrong; all fractions are chosen by hand. Movement time goes from the 5th percentile of
+    /// recorded reaches to the longest one.
     fn default() -> Self {
         Self {
             idle: 0.15,
@@ -53,6 +54,7 @@ impl Default for RandomBehaviour {
     }
 }
 
+/// What an error names.
 const KEYS: &str = "idle, goal, request, means, hidden, words, clarity, dropouts, withdraws, late, movement";
 
 impl RandomBehaviour {
