@@ -143,8 +143,8 @@ fn stage_of_one_s_own_runs_as_a_process() {
     let (mut seen, mut beats) = (HandSpeed::default(), 0);
     let reach = |percept: &mut Percept, _| {
         *percept = bytemuck::Zeroable::zeroed();
-        (percept.hand.tracked, percept.hand.reaching) = (1, 1);
-        percept.hand.velocity = [0.5, 0.0, 0.0];
+        (percept.arm.tracked, percept.hand.reaching) = (1, 1);
+        percept.arm.wrist.velocity = [0.5, 0.0, 0.0];
     };
     publish(&run.0, "perception", topic::PERCEPT, reach, || {
         speeds.each(|speed| seen = *speed).unwrap();

@@ -119,13 +119,10 @@ impl Perception {
         let reaching = tracked && hand.movement.is_moving() && hand.movement.onset == reach.onset;
         self.percept.arm = hand.arm_at(tick);
         self.percept.hand = HandPercept {
-            wrist: hand.wrist_at(tick).into(),
-            velocity: hand.velocity().into(),
             aperture: hand.aperture(),
             reaching: u32::from(reaching),
-            tracked: u32::from(tracked),
+            reserved: 0,
             since_onset: if reaching { tick.saturating_sub(reach.onset) } else { 0 },
-            age: hand.age(tick),
         };
     }
 }

@@ -94,7 +94,8 @@ fn assert_sound(percept: &Percept) {
         assert!((0.0..=1.0).contains(value), "evidence of {value}");
     }
     let hand = percept.hand;
-    let numbers = hand.wrist.iter().chain(&hand.velocity).chain([&hand.aperture]);
+    let arm = percept.arm.points().into_iter().flat_map(|point| point.position.iter().chain(&point.velocity));
+    let numbers = arm.chain([&hand.aperture]);
     let positions = percept.workspace.iter().flat_map(|place| place.position.iter().flatten());
     assert!(numbers.chain(positions).all(|value| value.is_finite()));
 }
@@ -138,7 +139,7 @@ fn without_any_sample_nothing_is_seen() {
         stage.perception.step(tick, None, &mut stage.percept);
         assert_sound(&stage.percept);
     }
-    assert_eq!(stage.percept.hand.tracked, 0);
+    assert!(!stage.percept.arm.is_tracked());
     assert!(stage.percept.act.iter().all(|value| *value == 0.0));
 }
 
@@ -160,8 +161,8 @@ fn a_gap_in_the_tracking_is_bridged_and_a_long_one_is_told() {
 
     let mut lost = reach(400..560);
     lost.run(400, |stage, _| stage.tracking = false);
-    assert_eq!(lost.percept.hand.tracked, 0);
-    assert!(lost.percept.hand.age > 400 && act(&lost) < 0.05);
+    assert!(!lost.percept.arm.is_tracked());
+    assert!(lost.percept.arm.age > 400 && act(&lost) < 0.05);
 }
 
 #[test]
@@ -181,5 +182,5 @@ fn a_stale_sample_ages() {
         stage.perception.step(stage.tick, Some(&stage.sample), &mut stage.percept);
         stage.tick += 1;
     }
-    assert!(rest > 0.9 && stage.act(Act::Rest) < 0.05 && stage.percept.hand.tracked == 0);
+    assert!(rest > 0.9 && stage.act(Act::Rest) < 0.05 && !stage.percept.arm.is_tracked());
 }

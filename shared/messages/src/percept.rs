@@ -32,24 +32,18 @@ pub struct Percept {
     pub state: [f64; 1024],
 }
 
-/// The person's hand, estimated at this tick.
+/// What the person's hand does at this tick; [`PersonArm`] says where it is.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
 pub struct HandPercept {
-    /// Wrist position, m.
-    pub wrist: [f64; 3],
-    /// Wrist velocity, m/s.
-    pub velocity: [f64; 3],
     /// Distance of thumb tip and index tip, m.
     pub aperture: f64,
     /// 1 while a reach is under way, else 0.
     pub reaching: u32,
-    /// 1 while the tracker's evidence is young enough to be used, else 0.
-    pub tracked: u32,
+    /// Reserved, zero.
+    pub reserved: u32,
     /// Cycles since the onset of the present reach; 0 when none is under way.
     pub since_onset: u64,
-    /// Age of the newest usable hand frame, cycles.
-    pub age: u64,
 }
 
 /// What lies in one workspace, by kind of part.
