@@ -29,22 +29,20 @@ const LONGEST_GAP: u64 = cycles(Duration::from_millis(350));
 /// How far ahead of the newest frame the wrist is extrapolated: three frames at 60 Hz. Chosen by hand: farther
 /// ahead, a reaching hand has changed its velocity too much.
 pub(super) const EXTRAPOLATED: u64 = cycles(Duration::from_millis(50));
-/// Age up to which the newest frame tells where the hand is now: nine frames at 60 Hz. A trade-off: dropped frames are
-/// bridged, and a hand at its usual reaching speed is not more than some 10 cm off.
+/// Age up to which the newest frame tells where the hand is now: nine frames at 60 Hz, so that dropped ones are bridged.
 pub(crate) const USABLE: u64 = cycles(Duration::from_millis(150));
-/// Gains of the wrist's alpha-beta filter (position, velocity). Chosen by hand, a trade-off between the tracker's scatter
-/// and the lag of a hand that sets out; not sensitive.
+/// Gains of the wrist's alpha-beta filter (position, velocity): between the tracker's scatter and lag. Chosen by hand.
 const GAINS: (f64, f64) = (0.7, 0.35);
 /// Shortest time between frames that velocities are computed with, s: two frames with nearly the same stamp would make an
 /// absurd one. A tracker of 200 frames a second still keeps it.
 const SHORTEST_GAP: f64 = 0.005;
 /// The same for a velocity over [`AVERAGED`] frames, s.
 const SHORTEST_SPAN: f64 = 0.01;
-/// Weight of a new frame in the rate at which the pitch changes. Chosen by hand: the rate follows within three frames.
+/// Weight of a new frame in the rate at which the pitch changes. Chosen by hand.
 const PITCH_GAIN: f64 = 0.4;
 /// How far ahead the pitch is looked, s: about what camera and filter delay it by. Chosen by hand.
 const PITCH_AHEAD: f64 = 0.08;
-/// Largest change of pitch that is foretold, rad: half of what lies between the grips of the shipped tasks.
+/// Largest change of pitch that is foretold, rad. Chosen by hand.
 const MOST_PITCH_AHEAD: f64 = 0.5;
 /// Keypoints of a frame.
 const KEYPOINTS: usize = 9;
