@@ -56,6 +56,14 @@ pub fn finite(field: &'static str, numbers: &[f64]) -> Result<(), Implausible> {
     ensure(numbers.iter().all(|number| number.is_finite()), field, "finite numbers")
 }
 
+/// Refuses `numbers` when one of them is farther from zero than `most`, or is none.
+///
+/// # Errors
+/// `field`, which holds them.
+pub fn bounded(field: &'static str, numbers: &[f64], most: f64) -> Result<(), Implausible> {
+    ensure(numbers.iter().all(|number| number.abs() <= most), field, "numbers of a size that it can have")
+}
+
 /// Refuses `field` when `condition` does not hold.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_motion::{Knot, Plan, SegmentKind, state_at};
 use coact_robot::{MotionState, Posture};
-use coact_stage_state::{Flag, Implausible, ensure, finite};
+use coact_stage_state::{Flag, Implausible, bounded, ensure, finite};
 
 /// A planned trajectory of the arm, of fixed size, so that it is part of the state: a restarted control goes on with it.
 #[repr(C)]
@@ -19,6 +19,9 @@ pub(crate) struct ArmTrajectory {
     /// Whether it only withdraws the hand from where it is: the skill's own movement is planned at its end.
     pub withdraws: Flag,
 }
+
+/// No time, angle, speed or acceleration of an arm is greater; s, rad, rad/s, rad/s².
+const MOST: f64 = 1e4;
 
 impl ArmTrajectory {
     /// Standing still.
@@ -46,7 +49,7 @@ impl ArmTrajectory {
 
     pub fn check(&self, field: &'static str) -> Result<(), Implausible> {
         ensure((1..=Plan::KNOTS as u64).contains(&self.count), field, "as many knots as a plan may have")?;
-        finite(field, bytemuck::cast_slice(self.knots()))?;
+        bounded(field, bytemuck::cast_slice(self.knots()), MOST)?;
         finite(field, &[self.leave_ends, self.fingers_begin, self.approach_begins])
     }
 

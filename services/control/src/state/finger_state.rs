@@ -2,7 +2,8 @@ use super::FINGER_JOINTS;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_period::{PERIOD_S, seconds};
 use coact_robot::{MotionState, PointToPoint};
-use coact_stage_state::{Flag, Implausible, ensure, finite};
+use coact_stage_state::{Flag, Implausible, bounded, ensure, finite};
+use std::f64::consts::TAU;
 
 /// How the fingers move: from one shape to the next.
 #[repr(C)]
@@ -19,6 +20,9 @@ pub(crate) struct FingerState {
     /// Whether the fingers brake: a movement to the target begins anew, from rest, when they stand.
     pub braking: Flag,
 }
+
+/// No angle, speed or acceleration of a finger is greater; rad, rad/s, rad/s².
+const MOST: f64 = 1e4;
 
 impl FingerState {
     /// Standing still.
@@ -82,8 +86,8 @@ impl FingerState {
     }
 
     pub fn check(&self) -> Result<(), Implausible> {
-        finite("fingers.start", self.start.as_flattened())?;
-        finite("fingers.target", &self.target)?;
+        bounded("fingers.start", self.start.as_flattened(), MOST)?;
+        bounded("fingers.target", &self.target, TAU)?;
         ensure(self.duration > 0.0, "fingers.duration", "a time above 0 s")?;
         finite("fingers.duration", &[self.duration])
     }

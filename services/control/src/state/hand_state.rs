@@ -30,7 +30,7 @@ impl HandState {
     }
 
     pub fn check(&self) -> Result<(), Implausible> {
-        finite("hand.in_palm", &self.in_palm.0)?;
+        self.in_palm.check("hand.in_palm")?;
         finite("hand.picked_at", &self.picked_at)
     }
 }

@@ -1,6 +1,6 @@
 use super::{PhaseProgress, Skill, SkillPhase, StoredPose};
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
-use coact_stage_state::{Flag, Implausible, Slot, finite};
+use coact_stage_state::{Flag, Implausible, Slot};
 
 /// The skill under way, what it is about, and how far it has come.
 #[repr(C)]
@@ -38,7 +38,7 @@ impl SkillState {
     }
 
     pub fn check(&self) -> Result<(), Implausible> {
-        finite("skill.place", &self.place.0)?;
+        self.place.check("skill.place")?;
         self.progress.check()
     }
 }
