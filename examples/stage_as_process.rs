@@ -16,7 +16,8 @@
 //! tools/launch --pipeline /tmp/pipeline.toml
 //! ```
 //!
-//! The supervisor starts, watches and restarts it, and the report tells its latencies, as those of all others.
+//! The supervisor starts, watches and restarts it, and the report tells its latencies and missed deadlines, as those of all
+//! others. With `realtime = true`, `priority` and `core` it is scheduled as they are.
 
 use coact_examples::HandSpeed;
 use coact_messages::{Header, Percept, topic};
