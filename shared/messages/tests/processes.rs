@@ -41,7 +41,7 @@ fn diagram_in_the_documents_is_the_one_that_the_table_draws() {
     if std::env::var_os("COACT_WRITE_DIAGRAM").is_some() {
         std::fs::write(&file, drawing::drawing()).unwrap();
     }
-    let kept = std::fs::read_to_string(&file).unwrap_or_default();
+    let found = std::fs::read_to_string(&file).unwrap_or_default();
     let how = "COACT_WRITE_DIAGRAM=1 cargo test -p coact-messages --test processes";
-    assert!(kept == drawing::drawing(), "docs/processes.svg is not what the table of topics draws: {how}");
+    assert!(found == drawing::drawing(), "docs/processes.svg is not what the table of topics draws: {how}");
 }
