@@ -1,4 +1,5 @@
 //! The shipped limits are read; what is wrong is refused with its line.
+#![allow(clippy::unwrap_used)]
 
 use coact_safety::SafetyLimits;
 use std::path::Path;

@@ -1,4 +1,5 @@
 //! A state as words: what was stored is loaded, and nothing else is.
+#![allow(clippy::unwrap_used)]
 
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_stage_state::{Blank, Flag, Implausible, Slot, StageState, StateError, ensure, finite};

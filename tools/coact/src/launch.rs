@@ -29,7 +29,7 @@ pub struct Args {
     /// The task [default: the toy vehicle]
     #[arg(long, value_name = "FILE")]
     task: Option<PathBuf>,
-    /// Who works with the robot: synthetic, random[:KEY=VALUE,...], script:FILE or recorded[:DIR]
+    /// Who works with the robot: synthetic, random[:KEY=VALUE,...], script:FILE, recorded or recorded:DIR
     #[arg(long, default_value = "synthetic")]
     partner: String,
     /// Seed of everything random

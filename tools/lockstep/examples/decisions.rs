@@ -49,7 +49,7 @@ fn report(
 ) -> Result<(), Box<dyn std::error::Error>> {
     let mut stages =
         Lockstep::new(&RunSettings { seed, partner: partner.into(), world, ..RunSettings::shipped(config) })?;
-    let [mut decided, mut fields, mut setpoints] = [const { () }; 3].map(|()| DefaultHasher::new());
+    let [mut decided, mut fields, mut setpoints] = std::array::from_fn(|_| DefaultHasher::new());
     let mut decisions = Vec::new();
     while stages.ticks() < seconds * CYCLES_PER_SECOND {
         stages.step();

@@ -12,7 +12,7 @@ pub fn misfit(value: &Value, schema: &Value, root: &Value) -> Option<String> {
 fn described<'a>(schema: &'a Value, root: &'a Value) -> Vec<&'a Value> {
     let mut parts = vec![schema];
     if let Some(reference) = schema["$ref"].as_str() {
-        parts.extend(described(root.pointer(&reference[1..]).unwrap(), root));
+        parts.extend(described(root.pointer(&reference[1..]).expect("a reference within the schema"), root));
     }
     parts
 }

@@ -89,7 +89,8 @@ fn damaged_state_is_refused_with_a_reason_and_leaves_the_world_as_it_was() {
         first.step(tick, None, &mut out.sample, &mut out.truth, &mut out.state);
     }
     let good = out.state.clone();
-    let damages: [(&str, fn(&mut WorldState)); 6] = [
+    type Damage = fn(&mut WorldState);
+    let damages: [(&str, Damage); 6] = [
         ("no state of world", |state| state.state[0] = 0.0),
         ("no value", |state| state.state[2] = f64::from_bits(7)),
         ("joints", |state| state.position[3] = f64::NAN),
