@@ -28,6 +28,7 @@ mod objects;
 mod occlusion;
 mod perception;
 mod perception_state;
+mod plausible_cycle;
 mod present_movement;
 mod preshape;
 mod words;

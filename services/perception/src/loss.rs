@@ -1,6 +1,6 @@
 use crate::evidence::follow;
 use crate::objects::{Hands, PartTracks, TOUCH, TaskPlaces};
-use crate::perception_state::cycle;
+use crate::plausible_cycle::cycle;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::{JointReading, MAX_PARTS, Percept};
 use coact_period::cycles;

@@ -1,6 +1,6 @@
 use crate::hand::{TrackedHand, USABLE};
 use crate::objects::TaskPlaces;
-use crate::perception_state::cycle;
+use crate::plausible_cycle::cycle;
 use crate::preshape::ReachRecord;
 use bytemuck::{Pod, Zeroable};
 use coact_messages::SensorSample;

@@ -2,6 +2,7 @@ use crate::hand::TrackedHand;
 use crate::loss::Loss;
 use crate::objects::PartTracks;
 use crate::occlusion::Occlusion;
+use crate::plausible_cycle::cycle;
 use crate::preshape::PreshapeState;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::Percept;
@@ -79,11 +80,6 @@ impl PerceptionState {
         self.grip_seen = pitch.is_some().into();
         self.grip_pitch = pitch.unwrap_or(0.0);
     }
-}
-
-/// Refuses a cycle, or a count of cycles, that no run reaches: sums of it with a duration must not overflow.
-pub(crate) fn cycle(field: &'static str, cycle: u64) -> Result<(), Implausible> {
-    ensure(cycle < 1 << 60, field, "a cycle of a run")
 }
 
 /// Refuses evidence that is none.

@@ -1,4 +1,4 @@
-use crate::{Input, Message, Output, PortError};
+use crate::{Headed, Input, Message, Output, PortError};
 use coact_messages::{LAYOUT, topic};
 use coact_pipeline::Run;
 use iceoryx2::prelude::*;
@@ -127,7 +127,7 @@ impl Bus {
     }
 
     /// The topic itself; every process asks for the same properties.
-    pub(crate) fn service<T: Message>(
+    pub(crate) fn service<T: Headed>(
         &self,
         topic: &str,
     ) -> Result<publish_subscribe::PortFactory<ipc::Service, T, ()>, PortError> {

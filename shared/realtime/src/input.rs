@@ -1,6 +1,6 @@
 use crate::monotonic_clock::now;
 use crate::port::Reader;
-use crate::{Message, PortError};
+use crate::{Headed, Message, PortError};
 use coact_messages::{Header, LAYOUT};
 
 /// Reader of one topic. It keeps the newest message where its writer wrote it: nothing is copied.
@@ -70,7 +70,7 @@ impl<T: Message> Input<T> {
 
     /// Its header.
     pub fn header(&self) -> Option<&Header> {
-        self.latest().map(Message::header)
+        self.latest().map(Headed::header)
     }
 
     /// When it was taken in, ns of `CLOCK_MONOTONIC`; 0 when none was.

@@ -3,10 +3,7 @@
 //! iceoryx2's ports are generic by the message's type, and a program that names one compiles all of it again: 15 s of a
 //! core for each of our programs. Behind these traits they are compiled once for each message, in this crate.
 
-use crate::zero_copy_reader::ZeroCopyReader;
-use crate::zero_copy_writer::ZeroCopyWriter;
-use crate::{Bus, Message, PortError};
-use std::any::Any;
+use crate::PortError;
 use std::fmt::Debug;
 use std::ptr::NonNull;
 
@@ -38,31 +35,4 @@ pub trait Writer<T>: Debug {
 
     /// Connects to readers that joined since the last message, and hands them that message.
     fn connect_new_readers(&self) -> Result<(), PortError>;
-}
-
-/// A message whose ports can be opened: [`message!`](crate::message) implements it, in the crate that defines the message.
-pub trait Portable: Sized {
-    /// A reader of `topic`; one that `waits` hears the topic's event.
-    fn reader(bus: &Bus, topic: &str, waits: bool) -> Result<Box<dyn Reader<Self>>, PortError>;
-
-    /// A writer of `topic`.
-    fn writer(bus: &Bus, topic: &str) -> Result<Box<dyn Writer<Self>>, PortError>;
-
-    /// What keeps `topic` open.
-    fn anchor(bus: &Bus, topic: &str) -> Result<Box<dyn Any>, PortError>;
-}
-
-/// See [`Portable::reader`].
-pub fn open_reader<T: Message>(bus: &Bus, topic: &str, waits: bool) -> Result<Box<dyn Reader<T>>, PortError> {
-    Ok(Box::new(ZeroCopyReader::open(bus, topic, waits)?))
-}
-
-/// See [`Portable::writer`].
-pub fn open_writer<T: Message>(bus: &Bus, topic: &str) -> Result<Box<dyn Writer<T>>, PortError> {
-    Ok(Box::new(ZeroCopyWriter::open(bus, topic)?))
-}
-
-/// See [`Portable::anchor`].
-pub fn open_anchor<T: Message>(bus: &Bus, topic: &str) -> Result<Box<dyn Any>, PortError> {
-    Ok(Box::new(bus.service::<T>(topic)?))
 }

@@ -1,6 +1,6 @@
 use crate::monotonic_clock::timespec;
 use crate::port::Reader;
-use crate::{Bus, Message, PortError};
+use crate::{Bus, Headed, PortError};
 use iceoryx2::port::{listener::Listener, subscriber::Subscriber};
 use iceoryx2::prelude::{FileDescriptorBased, ipc};
 use iceoryx2::sample::Sample;
@@ -9,7 +9,7 @@ use std::os::fd::BorrowedFd;
 
 /// A reader over iceoryx2.
 #[derive(Debug)]
-pub(crate) struct ZeroCopyReader<T: Message> {
+pub(crate) struct ZeroCopyReader<T: Headed> {
     topic: String,
     // Declared before the subscriber: the message is given back before the port closes.
     newest: Option<Sample<ipc::Service, T, ()>>,
@@ -17,7 +17,7 @@ pub(crate) struct ZeroCopyReader<T: Message> {
     listener: Option<Listener<ipc::Service>>,
 }
 
-impl<T: Message> ZeroCopyReader<T> {
+impl<T: Headed> ZeroCopyReader<T> {
     pub fn open(bus: &Bus, topic: &str, waits: bool) -> Result<Self, PortError> {
         let listener = match waits {
             true => Some(bus.event(topic)?.listener_builder().create()),
@@ -34,11 +34,11 @@ impl<T: Message> ZeroCopyReader<T> {
     }
 }
 
-impl<T: Message> Reader<T> for ZeroCopyReader<T> {
+impl<T: Headed> Reader<T> for ZeroCopyReader<T> {
     fn take_newest(&mut self) -> Result<bool, PortError> {
         let mut fresh = false;
         while let Some(sample) = self.receive()? {
-            let cycle = Message::header(&*sample).cycle;
+            let cycle = Headed::header(&*sample).cycle;
             if self.newest().is_none_or(|newest| cycle >= newest.header().cycle) {
                 self.newest = Some(sample);
                 fresh = true;

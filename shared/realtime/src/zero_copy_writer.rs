@@ -1,5 +1,5 @@
 use crate::port::Writer;
-use crate::{Bus, Message, PortError};
+use crate::{Bus, Headed, PortError};
 use coact_messages::topic;
 use iceoryx2::port::{notifier::Notifier, publisher::Publisher, update_connections::UpdateConnections};
 use iceoryx2::prelude::{BackpressureStrategy, ipc};
@@ -8,7 +8,7 @@ use std::ptr::NonNull;
 
 /// A writer over iceoryx2.
 #[derive(Debug)]
-pub(crate) struct ZeroCopyWriter<T: Message> {
+pub(crate) struct ZeroCopyWriter<T: Headed> {
     topic: String,
     // Declared before the publisher: the message is given back before the port closes.
     loaned: Option<SampleMut<ipc::Service, T, ()>>,
@@ -16,7 +16,7 @@ pub(crate) struct ZeroCopyWriter<T: Message> {
     notifier: Option<Notifier<ipc::Service>>,
 }
 
-impl<T: Message> ZeroCopyWriter<T> {
+impl<T: Headed> ZeroCopyWriter<T> {
     pub fn open(bus: &Bus, topic: &str) -> Result<Self, PortError> {
         let service = bus.service::<T>(topic)?;
         let notifier = match topic::announces(topic) {
@@ -35,7 +35,7 @@ impl<T: Message> ZeroCopyWriter<T> {
     }
 }
 
-impl<T: Message> Writer<T> for ZeroCopyWriter<T> {
+impl<T: Headed> Writer<T> for ZeroCopyWriter<T> {
     fn loan(&mut self) -> Result<NonNull<T>, PortError> {
         self.loaned = None;
         let sample = self.publisher.loan_uninit();

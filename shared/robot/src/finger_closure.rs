@@ -1,8 +1,10 @@
 //! How fingers close on something that the hand encloses.
 
-use crate::grip::OPEN_GAP;
 use crate::{Graspable, HAND_JOINTS, Hand};
 
+/// Gap between an open finger and what it opens around, m. Chosen by hand: a trade-off between errors of perception and
+/// the room between parts.
+pub(crate) const OPEN_GAP: f64 = 0.01;
 /// Step in which fingers are closed, rad: the finger ends move about half a millimetre. Chosen by hand.
 const STEP: f64 = 0.005;
 /// Points on each link of a finger at which its gap is measured. Chosen by hand: a few millimetres apart.

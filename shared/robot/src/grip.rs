@@ -1,4 +1,4 @@
-use crate::finger_closure::{closed, nearest, pinching};
+use crate::finger_closure::{OPEN_GAP, closed, nearest, pinching};
 use crate::{Graspable, GripKind, GripSide, HAND_JOINTS, Hand, NextUse, grip_height};
 
 /// One way in which the hand can grasp something.
@@ -16,9 +16,6 @@ pub struct Grip {
     pub covers: [f64; 2],
 }
 
-/// Gap between an open finger and what it opens around, m. Chosen by hand: a trade-off between errors of perception and
-/// the room between parts.
-pub(crate) const OPEN_GAP: f64 = 0.01;
 /// Distance between the hand and what it must not touch, m: the palm and the part, the hand and the ground. Chosen by hand.
 const FREE: f64 = 0.005;
 /// Step in which the depth of a grip with the whole hand is looked for, m. Chosen by hand.

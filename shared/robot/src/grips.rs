@@ -1,4 +1,4 @@
-use crate::grip::OPEN_GAP;
+use crate::finger_closure::OPEN_GAP;
 use crate::{Graspable, Grip, GripSide, HAND_JOINTS, Hand, HandGoal, NextUse};
 use nalgebra::{Isometry3, Point3, Vector3};
 use std::f64::consts::TAU;

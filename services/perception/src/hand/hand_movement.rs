@@ -1,4 +1,4 @@
-use crate::perception_state::cycle;
+use crate::plausible_cycle::cycle;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_stage_state::{Flag, Implausible, finite};
 use nalgebra::Vector3;

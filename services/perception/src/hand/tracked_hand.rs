@@ -1,5 +1,5 @@
 use super::{HandMovement, ViewFrame};
-use crate::perception_state::cycle;
+use crate::plausible_cycle::cycle;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::{HandView, KeypointName};
 use coact_period::{cycles, seconds};

@@ -1,6 +1,6 @@
 use super::part_track::{FREE, PartTrack};
 use super::{Hands, TaskPlaces};
-use crate::perception_state::cycle;
+use crate::plausible_cycle::cycle;
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{MAX_PARTS, SceneView, Sighting};
 use coact_period::cycles;

@@ -1,5 +1,5 @@
 use super::preshape_model::{CLASSES, READ};
-use crate::perception_state::cycle;
+use crate::plausible_cycle::cycle;
 use bytemuck::{CheckedBitPattern, NoUninit, Pod, Zeroable};
 use coact_stage_state::{Flag, Implausible, ensure, finite};
 

@@ -1,5 +1,5 @@
 use super::{FEATURES, Features, Progress, SNAPSHOTS};
-use crate::perception_state::cycle;
+use crate::plausible_cycle::cycle;
 use bytemuck::{Pod, Zeroable};
 use coact_stage_state::{Implausible, ensure, finite};
 
