@@ -47,7 +47,7 @@ fn main() {
         world.tick += 1;
         std::thread::sleep((start + PERIOD * (cycle as u32 + 1)).saturating_duration_since(Instant::now()));
     }
-    let at = |share| times.value_at_quantile(share) as f64 * 1e-3;
+    let at = |fraction| times.value_at_quantile(fraction) as f64 * 1e-3;
     println!(
         "servo step over {duration} s, in motion {} %: p50 {:.1}, p99 {:.1}, p99.9 {:.1}, max {:.1} µs",
         100 * moving / (CYCLES_PER_SECOND * duration),

@@ -60,7 +60,7 @@ pub struct KinematicWorld {
     pub command: Box<Command>,
     /// Phases as they came, each with the tick at which it began.
     pub phases: Vec<(MotionPhase, u64)>,
-    /// Largest share of any velocity, acceleration and jerk limit that the setpoints used.
+    /// Largest fraction of any velocity, acceleration and jerk limit that the setpoints used.
     pub used: [f64; 3],
     history: [[f64; JOINTS]; 3],
     in_hand: Isometry3<f64>,
