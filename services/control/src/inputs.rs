@@ -1,6 +1,6 @@
 use crate::person_capsules::PersonCapsules;
 use crate::sighting_frame::{SHORTEST, frame_of};
-use coact_messages::{Decision, FieldFrame, Percept, ROBOT, SceneView, SensorSample, Sighting};
+use coact_messages::{Decision, FieldFrame, Percept, PersonArm, ROBOT, SceneView, SensorSample, Sighting};
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
 use coact_safety::{PersonLimits, StaleLimits};
@@ -25,6 +25,8 @@ pub(crate) struct Inputs<'a> {
     sample: Option<&'a SensorSample>,
     percept: Option<&'a Percept>,
     frame: Option<&'a FieldFrame>,
+    /// Cycles up to which what a camera frame has shown of the person's hand counts.
+    hand_after: u64,
 }
 
 impl<'a> Inputs<'a> {
@@ -41,6 +43,7 @@ impl<'a> Inputs<'a> {
             sample: sample.filter(|message| fresh(message.header.cycle)),
             percept: percept.filter(|message| fresh(message.header.cycle)),
             frame: frame.filter(|message| fresh(message.header.cycle)),
+            hand_after: cycles(limits.hand_after),
         }
     }
 
@@ -109,14 +112,19 @@ impl<'a> Inputs<'a> {
         self.percept.is_some_and(|percept| !percept.person_holds.iter().enumerate().any(other))
     }
 
+    /// The person's arm, where a camera frame has shown the hand recently enough.
+    fn arm(&self) -> Option<&'a PersonArm> {
+        self.percept.map(|percept| &percept.arm).filter(|arm| arm.age <= self.hand_after)
+    }
+
     /// Whether the person's hand waits at `place`.
     pub fn person_waits_at(&self, place: &Point3<f64>) -> bool {
-        self.percept.is_some_and(|percept| {
-            let wrist = &percept.arm.wrist;
+        self.arm().is_some_and(|arm| {
+            let wrist = &arm.wrist;
             let [x, y, z] = wrist.velocity;
             let speed = (x * x + y * y + z * z).sqrt();
             let distance = (Point3::from(wrist.position) - place).norm();
-            percept.arm.is_tracked() && speed < WAITING && distance < HAND_LENGTH
+            speed < WAITING && distance < HAND_LENGTH
         })
     }
 
@@ -129,7 +137,7 @@ impl<'a> Inputs<'a> {
             Some((index, part_capsules.get(seen.kind as usize)?.within(&frame_of(seen)?)))
         });
         let ago = seconds(self.tick.saturating_sub(scene.captured_cycle));
-        let arm = PersonCapsules::of(&self.percept?.arm, limits)?;
+        let arm = PersonCapsules::of(self.arm()?, limits)?;
         Some(arm.holding(capsules, ago, limits.carried_within))
     }
 

@@ -27,12 +27,12 @@ impl PersonCapsules {
     /// Most capsules that there are of a person: three limbs, and what the hand holds.
     pub const MOST: usize = 4;
 
-    /// Around the arm that perception has estimated; none when it is not tracked. A hand whose end was never seen goes on
+    /// Around the arm that perception has estimated; none when its numbers are not finite. A hand whose end was never seen goes on
     /// along the forearm.
     pub fn of(arm: &PersonArm, limits: &PersonLimits) -> Option<Self> {
         let points = arm.points();
         let mut numbers = points.iter().flat_map(|point| point.position.iter().chain(&point.velocity));
-        if !arm.is_tracked() || !numbers.all(|number| number.is_finite()) {
+        if !numbers.all(|number| number.is_finite()) {
             return None;
         }
         let mut positions = points.map(|point| Point3::from(point.position));

@@ -21,7 +21,7 @@ pub struct Scene {
     pub person_rest: [f64; 3],
     /// The person's shoulder.
     pub person_shoulder: [f64; 3],
-    /// Rectangle of each workspace on the table top, by [`Agent::index`]: min and max corner.
+    /// Rectangle of each workspace on the table top, by [`Agent::index`](crate::Agent::index): min and max corner.
     pub workspace: [[[f64; 2]; 2]; 2],
     /// How exactly a part must be in its place to be mounted when it is let go.
     pub fit: Fit,
