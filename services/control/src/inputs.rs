@@ -112,9 +112,10 @@ impl<'a> Inputs<'a> {
         self.percept.is_some_and(|percept| !percept.person_holds.iter().enumerate().any(other))
     }
 
-    /// The person's arm, where a camera frame has shown the hand recently enough.
+    /// The person's arm, where perception tracks it and a camera frame has shown the hand recently enough.
     fn arm(&self) -> Option<&'a PersonArm> {
-        self.percept.map(|percept| &percept.arm).filter(|arm| arm.age <= self.hand_after)
+        let arm = self.percept.map(|percept| &percept.arm);
+        arm.filter(|arm| arm.is_tracked() && arm.age <= self.hand_after)
     }
 
     /// Whether the person's hand waits at `place`.

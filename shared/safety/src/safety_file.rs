@@ -127,7 +127,7 @@ impl StaleTable {
     fn limits(&self) -> Result<StaleLimits, Fault> {
         Ok(StaleLimits {
             input_after: milliseconds("input_after_ms", &self.input_after_ms, 1..=1000)?,
-            hand_after: milliseconds("hand_after_ms", &self.hand_after_ms, 1..=5000)?,
+            hand_after: milliseconds("hand_after_ms", &self.hand_after_ms, 1..=150)?,
         })
     }
 }
