@@ -70,7 +70,7 @@ pub use headed::Headed;
 pub use input::Input;
 pub use latency_probe::LatencyProbe;
 pub use loan::Loan;
-pub use message::{Message, open_anchor, open_reader, open_writer};
+pub use message::{Message, open_reader, open_writer};
 pub use monotonic_clock::{monotonic_time, now};
 pub use output::Output;
 pub use port_error::PortError;

@@ -3,7 +3,6 @@ use crate::zero_copy_reader::ZeroCopyReader;
 use crate::zero_copy_writer::ZeroCopyWriter;
 use crate::{Bus, Headed, PortError};
 use coact_messages::{Command, FieldFrame, Percept, Pulse, SensorSample, Speech, Truth, WorldState};
-use std::any::Any;
 
 /// A message whose ports can be opened.
 ///
@@ -16,10 +15,6 @@ pub trait Message: Headed {
     /// A writer of `topic`.
     #[doc(hidden)]
     fn writer(bus: &Bus, topic: &str) -> Result<Box<dyn Writer<Self>>, PortError>;
-
-    /// What keeps `topic` open.
-    #[doc(hidden)]
-    fn anchor(bus: &Bus, topic: &str) -> Result<Box<dyn Any>, PortError>;
 }
 
 /// Makes structs with a field `header` messages, and compiles their ports where it stands.
@@ -51,13 +46,6 @@ macro_rules! message {
             ) -> ::std::result::Result<::std::boxed::Box<dyn $crate::port::Writer<Self>>, $crate::PortError> {
                 $crate::open_writer(bus, topic)
             }
-
-            fn anchor(
-                bus: &$crate::Bus,
-                topic: &str,
-            ) -> ::std::result::Result<::std::boxed::Box<dyn ::std::any::Any>, $crate::PortError> {
-                $crate::open_anchor::<Self>(bus, topic)
-            }
         }
     )*};
 }
@@ -74,10 +62,4 @@ pub fn open_reader<T: Headed>(bus: &Bus, topic: &str, waits: bool) -> Result<Box
 #[doc(hidden)]
 pub fn open_writer<T: Headed>(bus: &Bus, topic: &str) -> Result<Box<dyn Writer<T>>, PortError> {
     Ok(Box::new(ZeroCopyWriter::open(bus, topic)?))
-}
-
-/// See [`Message::anchor`].
-#[doc(hidden)]
-pub fn open_anchor<T: Headed>(bus: &Bus, topic: &str) -> Result<Box<dyn Any>, PortError> {
-    Ok(Box::new(bus.service::<T>(topic)?))
 }

@@ -43,7 +43,7 @@ impl TopicAnchors {
     }
 
     fn add<T: Message>(&mut self, bus: &Bus, topic: &str) -> Result<(), PortError> {
-        self.services.push(T::anchor(bus, topic)?);
+        self.services.push(Box::new(bus.service::<T>(topic)?));
         if topic::announces(topic) {
             self.services.push(Box::new(bus.event(topic)?));
         }
