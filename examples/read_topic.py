@@ -83,7 +83,10 @@ def main():
     node = iox2.NodeBuilder.new().config(config).create(iox2.ServiceType.Ipc)
     name = iox2.ServiceName.new(f"coact/pulse/{PROCESS}")
     service = node.service_builder(name).publish_subscribe(Pulse).open()
-    subscriber = service.subscriber_builder().create()
+    try:
+        subscriber = service.subscriber_builder().create()
+    except iox2.SubscriberCreateError as error:
+        sys.exit(f"coact/pulse/{PROCESS}: {error}; four viewers may read a topic at once: end another one first")
     for _ in range(5):
         until = time.monotonic() + 2.0
         while (pulse := newest(subscriber)) is None:

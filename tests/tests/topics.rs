@@ -37,8 +37,11 @@ impl Client {
             if let NodeState::Alive(node) = state
                 && let Some(details) = node.details()
             {
-                let process = details.name().as_str().split('-').next().unwrap().to_owned();
-                processes.insert(*node.id(), process);
+                let name = details.name().as_str();
+                // The supervisor's reservations take places for replacements; they are no parties.
+                if !name.ends_with("-reservation") {
+                    processes.insert(*node.id(), name.split('-').next().unwrap().to_owned());
+                }
             }
             CallbackProgression::Continue
         })
@@ -66,13 +69,13 @@ impl Client {
         let name = ServiceName::new(topic).unwrap();
         let service = self.node.service_builder(&name).publish_subscribe::<T>().open().unwrap();
         let mut parties = Parties::default();
-        let name = |node: &UniqueNodeId| self.processes[node].clone();
+        let name = |node: &UniqueNodeId| self.processes.get(node).cloned();
         service.dynamic_config().list_publishers(|port| {
-            parties.writers.insert(name(&port.node_id));
+            parties.writers.extend(name(&port.node_id));
             CallbackProgression::Continue
         });
         service.dynamic_config().list_subscribers(|port| {
-            parties.readers.insert(name(&port.node_id));
+            parties.readers.extend(name(&port.node_id));
             CallbackProgression::Continue
         });
         parties

@@ -1,7 +1,12 @@
-/// The checkpoints of a set's processes, as the supervision needs them.
+/// What the supervision needs of a set's topics: the checkpoints of its processes, and places for their ports.
 pub trait Checkpoints {
-    /// Publishes the checkpoint of `process`: its replacement is about to be started.
+    /// Publishes the checkpoint of `process`, and frees what is reserved for its replacement: that is about to be started.
     fn publish(&mut self, process: &str);
+
+    /// In words, that a topic which `process` reads has no place left for it; `None` while all have.
+    fn crowd(&self, _process: &str) -> Option<String> {
+        None
+    }
 
     /// A replacement is ready: what its predecessor left in shared memory may be cleaned up now.
     fn recovered(&mut self, process: &str);

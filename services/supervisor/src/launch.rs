@@ -6,7 +6,7 @@ use crate::{
 };
 use coact_joint_task::Task;
 use coact_pipeline::{Pipeline, ProcessEntry, Run, RunSettings, Trigger};
-use coact_run_records::Summary;
+use coact_run_records::{Event, RunLog, Summary, TaskReport};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -28,6 +28,9 @@ pub struct Launch {
     /// Faults to inject.
     pub injections: Vec<Injection>,
 }
+
+/// The process that writes the summary.
+const MONITOR: &str = "monitor";
 
 /// Removes the run's directory and shared memory when it is dropped.
 struct OwnedRun(Run);
@@ -82,6 +85,7 @@ impl Launch {
             let observer = scope.spawn(|| observer(&run.0, &over));
             let ending = run_loop.run();
             over.store(true, Ordering::Relaxed);
+            self.summarise_unmeasured();
             let observed = observer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             Ok((ending?, observed))
         })
@@ -116,10 +120,28 @@ impl Launch {
         SupervisorLog::create(report).map_err(LaunchError::Record)
     }
 
+    /// Writes the summary that a dead monitor cannot write; the run has an end and a verdict in any case.
+    fn summarise_unmeasured(&self) {
+        let report = &self.settings.report;
+        let has_monitor = self.pipeline.processes.iter().any(|entry| entry.name == MONITOR);
+        if !has_monitor || report.join(Summary::FILE).exists() {
+            return;
+        }
+        // Whatever of its log cannot be read is missing in the summary, which says that it is not complete.
+        let events = RunLog::<Event>::read(report).unwrap_or_default();
+        let task = TaskReport::new(self.task.subgoals.len(), &events, 0.0);
+        let reason = "the monitor wrote no summary: it was dead when the run ended, and nothing but its log of events is \
+                      left; supervisor.jsonl says why";
+        if let Err(error) = Summary::unmeasured(task, reason.into()).write(report) {
+            tracing::error!("no summary: {error}");
+        }
+    }
+
     fn process_set(&self, run: &Run, log: SupervisorLog, notes: Notes) -> ProcessSet {
         let spec = |entry: &ProcessEntry| ProcessSpec {
             name: entry.name.clone(),
             order: entry.order,
+            needed: entry.needed,
             realtime: entry.realtime,
             program: self.program(entry),
             arguments: vec!["--run".into(), run.directory().into()],

@@ -31,6 +31,10 @@ impl ProcessSet {
     /// How often a stopping set is looked at when no process ends. Chosen by hand; not sensitive.
     const STOP_POLL: Duration = Duration::from_millis(3);
 
+    /// Shortest pause before a replacement that found no place is started again. Chosen by hand: long enough to leave the
+    /// core to the survivors.
+    const PLACE_POLL: Duration = Duration::from_millis(10);
+
     /// A set of which nothing runs yet.
     pub fn new(
         specs: Vec<ProcessSpec>,
@@ -61,7 +65,7 @@ impl ProcessSet {
     pub fn replace_dead(&mut self, checkpoints: &mut dyn Checkpoints) -> Result<(), GaveUp> {
         for index in 0..self.processes.len() {
             if let Some(death) = self.processes[index].died(monotonic_time()) {
-                self.on_exit(index, death)?;
+                self.on_exit(index, death, checkpoints)?;
             }
             self.start_if_due(index, checkpoints)?;
         }
@@ -133,7 +137,12 @@ impl ProcessSet {
         self.processes.iter().all(Supervised::is_ready)
     }
 
-    /// Names of those that are not.
+    /// True when the run may begin: every process is ready, except those that are not needed and have died already.
+    pub fn may_begin(&self) -> bool {
+        self.processes.iter().all(Supervised::keeps_nobody_waiting)
+    }
+
+    /// Names of those that are not ready.
     pub fn not_ready(&self) -> impl Iterator<Item = &str> {
         self.processes.iter().filter(|process| !process.is_ready()).map(|process| process.spec.name.as_str())
     }
@@ -185,17 +194,34 @@ impl ProcessSet {
     }
 
     /// Logs a death. A first start that failed gives the set up; otherwise the restart policy decides.
-    fn on_exit(&mut self, index: usize, death: Death) -> Result<(), GaveUp> {
-        let Death { pid, reason, was_ready, not_ready_in_time, exited, child } = death;
+    fn on_exit(&mut self, index: usize, death: Death, checkpoints: &dyn Checkpoints) -> Result<(), GaveUp> {
+        let Death { pid, mut reason, was_ready, not_ready_in_time, exited, child } = death;
+        let crowd = if was_ready { None } else { checkpoints.crowd(&self.processes[index].spec.name) };
+        if let Some(crowd) = &crowd {
+            reason = format!("{reason}; {crowd}");
+        }
         self.record(index, SupervisorEventKind::Died, Some(pid), Some(reason.clone()));
-        let first_start = self.processes[index].generation == 0 && !was_ready;
-        if first_start && (exited || not_ready_in_time) {
+        let Supervised { spec, generation, .. } = &self.processes[index];
+        if spec.needed && *generation == 0 && !was_ready && (exited || not_ready_in_time) {
             return Err(self.give_up(index, pid, reason, child.stderr_tail(), true));
+        }
+        if crowd.is_some() {
+            self.wait_for_place(index);
+            return Ok(());
         }
         self.schedule_restart(index, pid, &reason, || child.stderr_tail())
     }
 
-    /// Schedules the replacement when the restart policy allows one, and gives the set up when it does not.
+    /// Schedules a replacement that was kept out by others: however often that happens, the set is not given up for it.
+    fn wait_for_place(&mut self, index: usize) {
+        let now = monotonic_time();
+        let process = &mut self.processes[index];
+        let pause = process.refusals.died_and_returns(&self.policy, now).max(Self::PLACE_POLL);
+        process.lifecycle = Lifecycle::RestartDue(now + pause);
+    }
+
+    /// Schedules the replacement when the restart policy allows one, and gives the set up when it does not. What is not
+    /// needed is always replaced, after pauses that grow.
     fn schedule_restart(
         &mut self,
         index: usize,
@@ -205,8 +231,13 @@ impl ProcessSet {
     ) -> Result<(), GaveUp> {
         let now = monotonic_time();
         let RestartPolicy { intensity, window, .. } = self.policy;
-        if let Some(pause) = self.processes[index].history.died(&self.policy, now) {
-            self.processes[index].lifecycle = Lifecycle::RestartDue(now + pause);
+        let process = &mut self.processes[index];
+        let pause = match process.spec.needed {
+            true => process.history.died(&self.policy, now),
+            false => Some(process.history.died_and_returns(&self.policy, now)),
+        };
+        if let Some(pause) = pause {
+            process.lifecycle = Lifecycle::RestartDue(now + pause);
             return Ok(());
         }
         let allowed = format!("{intensity} restarts within {} s are allowed", window.as_secs_f64());
@@ -249,9 +280,10 @@ impl ProcessSet {
         self.spawn(index, kind)
     }
 
-    /// True when every process that is to be started before this order is ready.
+    /// True when no process that is to be started before this order has to be waited for.
     fn is_turn_of(&self, order: u32) -> bool {
-        self.processes.iter().filter(|process| process.spec.order < order).all(Supervised::is_ready)
+        let mut before = self.processes.iter().filter(|process| process.spec.order < order);
+        before.all(Supervised::keeps_nobody_waiting)
     }
 
     fn spawn(&mut self, index: usize, kind: SupervisorEventKind) -> Result<(), GaveUp> {

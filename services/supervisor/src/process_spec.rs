@@ -9,6 +9,8 @@ pub struct ProcessSpec {
     pub name: String,
     /// Started in ascending order, stopped in descending order; equal ones together.
     pub order: u32,
+    /// True if the set is given up when it cannot be kept alive.
+    pub needed: bool,
     /// Started in the supervisor's scheduling class, before all ordinary load; it changes to its own class when it runs.
     pub realtime: bool,
     /// The program to run.

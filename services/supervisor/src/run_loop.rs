@@ -117,9 +117,9 @@ impl<'a> RunLoop<'a> {
         }
     }
 
-    /// Starts the run's clock as soon as all processes are ready for the first time.
+    /// Starts the run's clock as soon as every process that it waits for is ready.
     fn start_clock(&mut self) -> Result<(), LaunchError> {
-        if self.start.is_some() || !self.set.all_ready() {
+        if self.start.is_some() || !self.set.may_begin() {
             return Ok(());
         }
         let start = monotonic_time() + START_DELAY;

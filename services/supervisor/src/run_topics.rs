@@ -1,13 +1,20 @@
 use crate::Checkpoints;
 use coact_pipeline::{Pipeline, Run};
-use coact_realtime::{Bus, CheckpointStore, PortError, TopicAnchors, monotonic_time};
+use coact_realtime::{Bus, CheckpointStore, PortError, Reservation, TopicAnchors, monotonic_time};
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
-/// The supervisor's part of the run's shared memory: it keeps every topic open, keeps each process's checkpoint, and
-/// cleans up after the dead.
+/// The supervisor's part of the run's shared memory: it keeps every topic open, keeps each process's checkpoint and a place
+/// for its replacement, and cleans up after the dead.
 pub(crate) struct RunTopics {
     store: CheckpointStore,
-    _anchors: TopicAnchors,
+    anchors: TopicAnchors,
+    run: Run,
+    pipeline: Pipeline,
+    /// For the replacement of each process; released while it starts.
+    reservations: BTreeMap<String, Reservation>,
+    /// The living processes for which nothing is reserved.
+    unreserved: BTreeSet<String>,
     bus: Bus,
     /// When the remains of the dead are removed.
     clean_at: Option<Duration>,
@@ -29,7 +36,41 @@ impl RunTopics {
         let bus = Bus::open(run, "supervisor", 0)?;
         let anchors = TopicAnchors::new(&bus, pipeline)?;
         let store = CheckpointStore::new(&bus)?;
-        Ok(Self { store, _anchors: anchors, bus, clean_at: None, failed: false })
+        let mut topics = Self {
+            store,
+            anchors,
+            run: run.clone(),
+            pipeline: pipeline.clone(),
+            reservations: BTreeMap::new(),
+            unreserved: pipeline.processes.iter().map(|entry| entry.name.clone()).collect(),
+            bus,
+            clean_at: None,
+            failed: false,
+        };
+        topics.reserve()?;
+        Ok(topics)
+    }
+
+    /// Reserves places for the replacement of each process that lives and for which none are.
+    ///
+    /// # Errors
+    /// The first refusal; what else can be reserved, is.
+    fn reserve(&mut self) -> Result<(), PortError> {
+        let Self { run, pipeline, reservations, unreserved, .. } = self;
+        let mut outcome = Ok(());
+        unreserved.retain(|process| match Reservation::take(run, pipeline, process) {
+            Ok(reservation) => {
+                reservations.insert(process.clone(), reservation);
+                false
+            }
+            Err(error) => {
+                if outcome.is_ok() {
+                    outcome = Err(error);
+                }
+                true
+            }
+        });
+        outcome
     }
 
     /// For the supervisor's own ports.
@@ -45,6 +86,10 @@ impl RunTopics {
             self.clean_at = None;
             let cleaned = self.bus.clean_dead();
             tracing::debug!("removed what {cleaned} dead processes left in shared memory");
+            // Refused, it is tried again after the next death; the viewers that are there keep their places till then.
+            if let Err(error) = self.reserve() {
+                tracing::warn!("a replacement may find no place: {error}");
+            }
         }
     }
 
@@ -64,11 +109,18 @@ impl Checkpoints for RunTopics {
             self.bus.clean_dead();
         }
         self.clean_at = Some(monotonic_time() + Self::CLEANUP_WITHOUT_RECOVERY);
+        self.reservations.remove(process);
+        self.unreserved.remove(process);
         let outcome = self.store.publish(process).map(drop);
         self.warn_once(outcome);
     }
 
-    fn recovered(&mut self, _: &str) {
+    fn crowd(&self, process: &str) -> Option<String> {
+        self.anchors.crowd(process)
+    }
+
+    fn recovered(&mut self, process: &str) {
+        self.unreserved.insert(process.to_owned());
         self.clean_at = Some(monotonic_time() + Self::CLEANUP_DELAY);
     }
 }

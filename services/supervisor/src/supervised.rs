@@ -12,6 +12,8 @@ pub(crate) struct Supervised {
     pub(crate) generation: u32,
     pub(crate) lifecycle: Lifecycle,
     pub(crate) history: RestartHistory,
+    /// Of replacements that found no place on a topic: no fault of theirs, so these deaths are counted apart.
+    pub(crate) refusals: RestartHistory,
     /// Fault that was injected and not yet recovered from; the events that it causes name it.
     pub(crate) fault: Option<Fault>,
     /// The next replacement is to be killed before it is ready.
@@ -36,8 +38,15 @@ impl Supervised {
     const CRASH_AFTER: Duration = Duration::from_millis(5);
 
     pub(crate) fn new(spec: ProcessSpec) -> Self {
-        let history = RestartHistory::default();
-        Self { spec, generation: 0, lifecycle: Lifecycle::Waiting, history, fault: None, crash_next: false }
+        Self {
+            spec,
+            generation: 0,
+            lifecycle: Lifecycle::Waiting,
+            history: RestartHistory::default(),
+            refusals: RestartHistory::default(),
+            fault: None,
+            crash_next: false,
+        }
     }
 
     pub(crate) fn running(&self) -> Option<&Running> {
@@ -56,6 +65,11 @@ impl Supervised {
 
     pub(crate) fn is_ready(&self) -> bool {
         self.running().is_some_and(|running| running.ready)
+    }
+
+    /// Whether the others need not wait for it: it is ready, or it is not needed and has died already.
+    pub(crate) fn keeps_nobody_waiting(&self) -> bool {
+        self.is_ready() || !self.spec.needed && self.history.has_deaths()
     }
 
     /// Enters a child that was just started.

@@ -3,7 +3,7 @@
 
 use coact_joint_task::Task;
 use coact_pipeline::{Pipeline, Run, RunSettings};
-use coact_run_records::{RunLog, Summary, SupervisorEvent, SupervisorEventKind};
+use coact_run_records::{RunLog, Summary, SupervisorEvent, SupervisorEventKind, Verdict};
 use coact_supervisor::{Ending, Launch, LaunchError, request_fault};
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
@@ -183,6 +183,25 @@ fn an_earlier_summary_in_the_report_folder_is_not_taken_for_this_runs() {
     std::fs::write(&summary, "{}").unwrap();
     launch.run().unwrap();
     assert!(!summary.exists());
+}
+
+#[test]
+fn a_run_whose_monitor_never_lived_goes_on_and_has_a_summary_that_says_so() {
+    let place = Place::new(&[("a", SERVICE), ("monitor", "#!/bin/sh\nkill -9 $$\n")]);
+    let mut launch = place.launch(&["a", "monitor"], Duration::from_millis(500), &[]);
+    launch
+        .pipeline
+        .processes
+        .iter_mut()
+        .filter(|entry| entry.name == "monitor")
+        .for_each(|entry| entry.needed = false);
+    let report = launch.settings.report.clone();
+    assert_eq!(launch.run().unwrap(), Ending::DurationOver);
+    let summary = Summary::read(&report).unwrap();
+    assert_eq!(summary.verdict, Verdict::Fail);
+    assert!(summary.reasons[0].starts_with("the monitor wrote no summary"), "{:?}", summary.reasons);
+    assert!(place.count(SupervisorEventKind::Restarted, "monitor") > 3);
+    assert_eq!(place.count(SupervisorEventKind::Died, "a"), 0);
 }
 
 /// As the command line prints it: with its chain of causes.

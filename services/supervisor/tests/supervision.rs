@@ -40,6 +40,7 @@ fn script(folder: &Path, name: &str, script: &str) -> ProcessSpec {
         program: "/bin/sh".into(),
         arguments: vec!["-c".into(), script.into()],
         order: 0,
+        needed: true,
         realtime: false,
         ready_directory: folder.to_owned(),
         stop_grace: Duration::from_millis(300),
@@ -222,6 +223,50 @@ fn a_process_that_dies_over_and_over_is_given_up_with_the_tail_of_its_stderr() {
     for part in ["exit status 1", "3 restarts within 600 s are allowed", "the arm is on fire"] {
         assert!(text.contains(part), "{text}");
     }
+}
+
+#[test]
+fn what_is_not_needed_is_restarted_for_ever_and_keeps_nobody_waiting() {
+    let mut trial =
+        Trial::with(&[("a", READY_AND_RUN), ("extra", "echo 'no microphone' >&2; exit 1")], |spec| {
+            spec.needed = spec.name == "a";
+            spec.order = u32::from(spec.name == "a");
+        });
+    trial.until(&mut (), |trial| trial.set.may_begin()).unwrap();
+    assert!(!trial.set.all_ready() && trial.count(SupervisorEventKind::Ready, "a") == 1);
+    // Far more often than the policy has restarts.
+    trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Died, "extra") == 12).unwrap();
+    assert_eq!(trial.count(SupervisorEventKind::GaveUp, "extra"), 0);
+    assert_eq!(trial.count(SupervisorEventKind::Died, "a"), 0);
+}
+
+/// Topics on which others have taken all places, as long as this file does not exist.
+struct Crowded(std::path::PathBuf);
+
+impl Checkpoints for Crowded {
+    fn publish(&mut self, _: &str) {}
+    fn recovered(&mut self, _: &str) {}
+    fn crowd(&self, process: &str) -> Option<String> {
+        (!self.0.exists()).then(|| format!("no place for {process}"))
+    }
+}
+
+#[test]
+fn a_replacement_that_is_kept_out_by_others_is_started_until_there_is_a_place_and_the_set_is_not_given_up() {
+    let needs_place =
+        "[ $COACT_GENERATION = 0 ] || [ -e \"$DIR/place\" ] || exit 1; touch \"$READY\"; exec sleep 600";
+    let mut trial = Trial::of(&[("a", needs_place), ("b", READY_AND_RUN)]);
+    trial.run_until_ready();
+    trial.set.inject("a", Fault::Kill).unwrap();
+    let place = trial.folder.path().join("place");
+    let mut crowded = Crowded(place.clone());
+    // Far more often than the policy has restarts.
+    trial.until(&mut crowded, |trial| trial.count(SupervisorEventKind::Died, "a") == 12).unwrap();
+    let reason = trial.events.iter().rfind(|event| event.event == SupervisorEventKind::Died).unwrap();
+    assert_eq!(reason.reason.as_deref(), Some("ended by itself with exit status 1; no place for a"));
+    std::fs::write(place, "").unwrap();
+    trial.until(&mut crowded, |trial| trial.set.all_ready()).unwrap();
+    assert_eq!(trial.count(SupervisorEventKind::Died, "b"), 0);
 }
 
 #[test]

@@ -9,6 +9,7 @@
 //!
 //! assert_eq!(topic::state_of("fields"), Some(topic::FIELDS));
 //! assert!(topic::may_read(topic::TRUTH, "monitor") && !topic::may_read(topic::TRUTH, "control"));
+//! assert!(topic::reads("control", topic::FIELDS) && !topic::reads("control", &topic::resume(topic::FIELDS)));
 //! assert_eq!(topic::depth(&topic::pulse("world")), 512);
 //! ```
 
@@ -165,6 +166,19 @@ pub fn announces(topic: &str) -> bool {
 /// How many messages of `topic` a reader may fall behind without losing one.
 pub fn depth(topic: &str) -> usize {
     find(topic).map_or(NEWEST, |entry| entry.depth)
+}
+
+/// Whether the table has `process` read `topic`. Of the checkpoints a process reads its own.
+pub fn reads(process: &str, topic: &str) -> bool {
+    let is_own = |of| state_of(process) == Some(of);
+    find(topic).is_some_and(|entry| entry.readers.contains(&process))
+        && topic.strip_suffix("/resume").is_none_or(is_own)
+}
+
+/// Whether the table has `process` write `topic`. Of the pulses a process writes its own.
+pub fn writes(process: &str, topic: &str) -> bool {
+    find(topic).is_some_and(|entry| entry.writers.contains(&process))
+        && topic.strip_prefix("coact/pulse/").is_none_or(|of| of == process)
 }
 
 /// Whether `process` may read `topic`.

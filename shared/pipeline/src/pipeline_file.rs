@@ -51,6 +51,7 @@ struct ProcessText {
     name: Spanned<String>,
     program: String,
     order: u32,
+    needed: Option<bool>,
     #[serde(default)]
     realtime: bool,
     priority: Option<Spanned<u8>>,
@@ -138,6 +139,7 @@ impl Source<'_> {
             name,
             program: raw.program,
             order: raw.order,
+            needed: raw.needed.unwrap_or(true),
             realtime: raw.realtime,
             priority,
             core: raw.core,

@@ -9,6 +9,9 @@ pub struct ProcessEntry {
     pub program: String,
     /// Processes are started in ascending order, and stopped in descending order; equal ones together.
     pub order: u32,
+    /// True if the task cannot go on without it: when the restart policy is exhausted, the run is given up. Another one is
+    /// restarted for ever.
+    pub needed: bool,
     /// True if it is to run under SCHED_FIFO with locked memory.
     pub realtime: bool,
     /// SCHED_FIFO priority, 1 to 99; used when `realtime`.

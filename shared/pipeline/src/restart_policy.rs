@@ -18,11 +18,15 @@ pub struct RestartPolicy {
 impl RestartPolicy {
     /// Pause before the next restart, after `recent` restarts within the window; `None` when it is to be given up.
     pub fn pause(&self, recent: u32) -> Option<Duration> {
+        (recent < self.intensity).then(|| self.growing_pause(recent))
+    }
+
+    /// Pause before the next restart, after `recent` restarts within the window, of a process that is never given up.
+    pub fn growing_pause(&self, recent: u32) -> Duration {
         match recent {
-            n if n >= self.intensity => None,
-            0 => Some(Duration::ZERO),
+            0 => Duration::ZERO,
             // Beyond 20 doublings of 1 ms every backoff is longer than any that makes sense; the shift must not overflow.
-            n => Some(self.backoff_initial.saturating_mul(1 << (n - 1).min(20)).min(self.backoff_max)),
+            n => self.backoff_initial.saturating_mul(1 << (n - 1).min(20)).min(self.backoff_max),
         }
     }
 }

@@ -1,19 +1,15 @@
-use crate::{Headed, Input, Message, Output, PortError};
+use crate::{Headed, Input, Message, Output, PortError, places};
 use coact_messages::{LAYOUT, topic};
 use coact_pipeline::Run;
 use iceoryx2::prelude::*;
 use iceoryx2::service::port_factory::{event, publish_subscribe};
 use std::time::{Duration, Instant};
 
-/// Readers that may read one topic at the same time. The set itself has six of a field frame, the topic that is read
-/// most; the others are for operators' tools and for replacements beside their dead predecessors. More would only cost
-/// shared memory.
-const MAX_READERS: usize = 8;
 /// Writers of one topic: the living one, and dead ones until the supervisor has cleaned up after them. It does so
 /// before each restart but the first, so there are two dead ones at most; one more is reserve.
 const MAX_WRITERS: usize = 4;
-/// Processes that may have one topic open: the set (7 with the supervisor), replacements beside their dead predecessors
-/// (as many), and operators' tools. Chosen by hand; more would only cost shared memory.
+/// Processes that may have one topic open: the set (7 with the supervisor), the reservations for their replacements (6),
+/// the dead until they are cleaned up after, and operators' tools. Chosen by hand; more would only cost shared memory.
 const MAX_NODES: usize = 24;
 /// How often a replacement looks for its checkpoint. A trade-off: less often would lengthen the recovery by a fraction of
 /// a period, more often would take time from the processes that live on.
@@ -141,7 +137,7 @@ impl Bus {
             .subscriber_max_buffer_size(topic::depth(topic))
             // The one that the stage reads, and the newer one that replaces it.
             .subscriber_max_borrowed_samples(2)
-            .max_subscribers(MAX_READERS)
+            .max_subscribers(places::readers(topic))
             .max_publishers(MAX_WRITERS)
             .max_nodes(MAX_NODES)
             .open_or_create()
@@ -154,7 +150,7 @@ impl Bus {
             .node()
             .service_builder(&service_name(topic)?)
             .event()
-            .max_listeners(MAX_READERS)
+            .max_listeners(places::readers(topic))
             .max_notifiers(MAX_WRITERS)
             .max_nodes(MAX_NODES)
             .event_id_max_value(1)

@@ -35,6 +35,17 @@ pub enum PortError {
         /// The processes that may read it.
         readers: String,
     },
+    /// As many viewers read the topic as may.
+    #[error(
+        "topic {topic}: {viewers} programs outside the set read it already, as many as may; expected one of them to end \
+         first: the other places are reserved for the set's own processes"
+    )]
+    NoPlace {
+        /// The topic.
+        topic: String,
+        /// How many read it.
+        viewers: usize,
+    },
     /// The sender was built from other message layouts.
     #[error(
         "topic {topic}: message of layout {found}; expected layout {expected}: rebuild all programs together"

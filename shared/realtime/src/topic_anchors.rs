@@ -1,14 +1,29 @@
-use crate::{Bus, Message, PortError};
-use coact_messages::{Command, FieldFrame, Percept, Pulse, SensorSample, Speech, Truth, WorldState, topic};
+use crate::each_topic::{EachTopic, for_each_topic};
+use crate::{Bus, Headed, Message, PortError, places};
+use coact_messages::topic;
 use coact_pipeline::Pipeline;
-use std::any::Any;
+use iceoryx2::prelude::ipc;
+use iceoryx2::service::port_factory::{event, publish_subscribe};
 
 /// Keeps all topics of a set open as long as it lives: whatever process dies, its replacement finds them.
 ///
 /// A process that is killed while it creates a topic leaves that topic unusable. So the supervisor creates all of them
 /// before it starts the first process.
+#[derive(Default)]
 pub struct TopicAnchors {
-    services: Vec<Box<dyn Any>>,
+    topics: Vec<(String, Box<dyn Anchor>)>,
+    events: Vec<event::PortFactory<ipc::Service>>,
+}
+
+/// An open topic, whatever its message.
+trait Anchor {
+    fn crowd(&self, topic: &str) -> Option<String>;
+}
+
+impl<T: Headed> Anchor for publish_subscribe::PortFactory<ipc::Service, T, ()> {
+    fn crowd(&self, topic: &str) -> Option<String> {
+        places::crowd(topic, self)
+    }
 }
 
 impl TopicAnchors {
@@ -17,35 +32,33 @@ impl TopicAnchors {
     /// # Errors
     /// [`PortError::Refused`].
     pub fn new(bus: &Bus, pipeline: &Pipeline) -> Result<Self, PortError> {
-        let mut anchors = Self { services: Vec::new() };
-        anchors.add::<SensorSample>(bus, topic::SENSORS)?;
-        anchors.add::<Truth>(bus, topic::TRUTH)?;
-        anchors.add::<Speech>(bus, topic::SPEECH)?;
-        anchors.add_with_checkpoint::<WorldState>(bus, topic::WORLD_STATE)?;
-        anchors.add_with_checkpoint::<Percept>(bus, topic::PERCEPT)?;
-        anchors.add_with_checkpoint::<FieldFrame>(bus, topic::FIELDS)?;
-        anchors.add_with_checkpoint::<Command>(bus, topic::COMMAND)?;
-        for process in &pipeline.processes {
-            anchors.add::<Pulse>(bus, &topic::pulse(&process.name))?;
-        }
-        Ok(anchors)
+        let mut creation = Creation { bus, anchors: Self::default() };
+        for_each_topic(pipeline, &mut creation)?;
+        Ok(creation.anchors)
     }
 
     /// How many topics and events are kept open.
     pub fn count(&self) -> usize {
-        self.services.len()
+        self.topics.len() + self.events.len()
     }
 
-    /// A topic, and the one on which its checkpoint is published.
-    fn add_with_checkpoint<T: Message>(&mut self, bus: &Bus, topic: &str) -> Result<(), PortError> {
-        self.add::<T>(bus, topic)?;
-        self.add::<T>(bus, &topic::resume(topic))
+    /// In words, that a topic which `process` reads has no place left for it; `None` while all have.
+    pub fn crowd(&self, process: &str) -> Option<String> {
+        let read = self.topics.iter().filter(|(topic, _)| topic::reads(process, topic));
+        read.filter_map(|(topic, anchor)| anchor.crowd(topic)).next()
     }
+}
 
-    fn add<T: Message>(&mut self, bus: &Bus, topic: &str) -> Result<(), PortError> {
-        self.services.push(Box::new(bus.service::<T>(topic)?));
+struct Creation<'a> {
+    bus: &'a Bus,
+    anchors: TopicAnchors,
+}
+
+impl EachTopic for Creation<'_> {
+    fn topic<T: Message>(&mut self, topic: &str) -> Result<(), PortError> {
+        self.anchors.topics.push((topic.to_owned(), Box::new(self.bus.service::<T>(topic)?)));
         if topic::announces(topic) {
-            self.services.push(Box::new(bus.event(topic)?));
+            self.anchors.events.push(self.bus.event(topic)?);
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 use crate::monotonic_clock::timespec;
 use crate::port::Reader;
-use crate::{Bus, Headed, PortError};
-use iceoryx2::port::{listener::Listener, subscriber::Subscriber};
+use crate::{Bus, Headed, PortError, places};
+use iceoryx2::port::{listener::Listener, port_name::PortName, subscriber::Subscriber};
 use iceoryx2::prelude::{FileDescriptorBased, ipc};
 use iceoryx2::sample::Sample;
 use rustix::event::{PollFd, PollFlags, poll};
@@ -24,7 +24,12 @@ impl<T: Headed> ZeroCopyReader<T> {
             false => None,
         };
         let listener = listener.transpose().map_err(|error| PortError::refused(topic, "listening", error))?;
-        let subscriber = bus.service::<T>(topic)?.subscriber_builder().create();
+        let service = bus.service::<T>(topic)?;
+        places::admit(topic, bus.process(), &service)?;
+        // By its name a reader is known for one of the set, or for a viewer.
+        let name = PortName::new(bus.process());
+        let name = name.map_err(|error| PortError::refused(topic, "naming", error))?;
+        let subscriber = service.subscriber_builder().name(&name).create();
         let subscriber = subscriber.map_err(|error| PortError::refused(topic, "reading", error))?;
         Ok(Self { topic: topic.to_owned(), newest: None, subscriber, listener })
     }

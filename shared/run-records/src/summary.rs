@@ -50,6 +50,23 @@ impl Summary {
     /// Name of the file in the report directory.
     pub const FILE: &'static str = "summary.json";
 
+    /// Of a run whose monitor did not live to measure it: what was logged, and a verdict that says why there is no more.
+    pub fn unmeasured(task: TaskReport, reason: String) -> Self {
+        Self {
+            environment: Environment::default(),
+            processes: BTreeMap::new(),
+            hops: BTreeMap::new(),
+            end_to_end_ns: Percentiles::default(),
+            tracking_error_rad: TrackingReport::default(),
+            movement_reaction_ms: ReactionReport::default(),
+            anticipation: AnticipationReport::new(&[]),
+            task,
+            faults: Vec::new(),
+            verdict: Verdict::Fail,
+            reasons: vec![reason],
+        }
+    }
+
     /// Reads the summary of a report directory.
     ///
     /// # Errors
