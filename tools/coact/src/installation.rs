@@ -18,8 +18,7 @@ impl Installation {
     /// # Errors
     /// There is no such folder.
     pub fn find() -> Result<Self> {
-        let program = std::env::current_exe().context("this program's own place is unknown")?;
-        let programs = program.parent().unwrap_or(Path::new("/")).to_owned();
+        let programs = Self::programs()?;
         let here = std::env::current_dir().context("there is no current folder")?;
         let mut above = programs.ancestors().chain(here.ancestors());
         let root = above.find(|folder| folder.join("rt-config/pipeline.toml").is_file()).with_context(|| {
@@ -28,5 +27,14 @@ impl Installation {
         })?;
         let (configuration, reaches) = (root.join("rt-config"), root.join("data/reaches"));
         Ok(Self { programs, configuration, reaches })
+    }
+
+    /// The folder of the programs, whatever else is installed.
+    ///
+    /// # Errors
+    /// The system does not tell this program's own place.
+    pub fn programs() -> Result<PathBuf> {
+        let program = std::env::current_exe().context("this program's own place is unknown")?;
+        Ok(program.parent().unwrap_or(Path::new("/")).to_owned())
     }
 }

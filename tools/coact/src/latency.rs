@@ -1,5 +1,6 @@
 //! `coact latency`: how punctual and how fast a run was, or is.
 
+mod chart;
 mod curves;
 mod live;
 mod tables;

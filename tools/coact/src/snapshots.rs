@@ -1,5 +1,6 @@
 //! `coact snapshots`: a run in pictures.
 
+use crate::closed_pipe;
 use crate::installation::Installation;
 use anyhow::{Context, Result};
 use coact_drawing::Lettering;
@@ -34,6 +35,7 @@ pub struct Args {
 /// # Errors
 /// There is no snapshot log, it is of another task, or the picture cannot be written.
 pub fn run(args: Args) -> Result<ExitCode> {
+    closed_pipe::ends_the_program();
     let Installation { configuration, .. } = Installation::find()?;
     let task = args.task.unwrap_or_else(|| configuration.join("tasks/toy-vehicle.toml"));
     let robot = args.robot.unwrap_or_else(|| configuration.join("robots/aros.toml"));

@@ -6,14 +6,6 @@ mod program;
 use program::coact;
 
 #[test]
-fn reaches_are_those_of_the_shipped_people() {
-    let output = coact(&["reaches", "--person", "7"]);
-    assert_eq!(output.status.code(), Some(2));
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("data/reaches holds no reach of this participant"), "{said}");
-}
-
-#[test]
 fn a_recorded_partner_is_one_of_the_shipped_people() {
     let report = tempfile::tempdir().unwrap();
     let folder = report.path().to_str().unwrap();

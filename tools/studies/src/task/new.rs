@@ -1,7 +1,7 @@
 //! `coact task new`: a commented task file to begin with.
 
-use crate::installation::Installation;
 use anyhow::{Context, Result, bail};
+use coact::installation::Installation;
 use coact_learning::TaskText;
 use std::path::PathBuf;
 use std::process::ExitCode;

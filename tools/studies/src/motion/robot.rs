@@ -1,6 +1,6 @@
-use crate::installation::Installation;
 use anyhow::Result;
 use clap::ValueEnum;
+use coact::installation::Installation;
 use coact_joint_task::Task;
 use coact_motion::{Mechanism, Meshes};
 use coact_motion_suite::Setting;

@@ -1,7 +1,7 @@
 //! The same reaches through the process set, at 1 kHz.
 
-use crate::installation::Installation;
 use anyhow::{Context, Result, bail};
+use coact::installation::Installation;
 use coact_joint_task::NetworkPlan;
 use coact_messages::{FieldFrame, Percept, topic};
 use coact_period::PERIOD;

@@ -1,7 +1,7 @@
 //! `coact learn mapping`: which observed act shows which chain, from actions that succeed.
 
-use crate::installation::Installation;
 use anyhow::{Result, bail};
+use coact::installation::Installation;
 use coact_learning::{Connection, Mapping, MappingFile, Provenance};
 use coact_lockstep::Lockstep;
 use coact_period::cycles;

@@ -3,11 +3,11 @@
 mod real_time;
 mod tables;
 
-use crate::closed_pipe;
-use crate::installation::Installation;
-use crate::report_folder::unused_report_folder;
 use anyhow::{Result, bail};
 use clap::ValueEnum;
+use coact::closed_pipe;
+use coact::installation::Installation;
+use coact::report_folder::unused_report_folder;
 use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
 use coact_reaches::{Evaluation, ReachOutcome, ReachesReport, Subject};

@@ -1,12 +1,15 @@
 //! What the program says about itself: help that fits the terminal, its version, completions.
 #![allow(clippy::unwrap_used)]
 
-mod program;
-
-use program::coact;
+use std::process::{Command, Output};
 
 /// Widest line of a help text, characters.
 const COLUMNS: usize = 100;
+
+/// Runs `coact` with these arguments, to its end.
+fn coact(arguments: &[&str]) -> Output {
+    Command::new(coact_tests::coact()).args(arguments).output().unwrap()
+}
 
 /// What `coact ... --help` prints.
 fn help(command: &[&str]) -> String {
@@ -57,6 +60,23 @@ fn help_of_every_command_fits_the_terminal_and_has_examples() {
         let broken = examples.iter().find(|line| !line.starts_with("  coact "));
         assert_eq!(broken, None, "{command:?}: an example is no line of its own");
     }
+}
+
+#[test]
+fn help_of_a_study_is_the_same_in_both_words() {
+    for study in ["evaluate", "learn"] {
+        let output = coact(&["help", study]);
+        assert!(output.status.success());
+        assert_eq!(String::from_utf8(output.stdout).unwrap(), help(&[study]));
+    }
+}
+
+#[test]
+fn a_command_that_is_mistyped_is_one_error_that_names_the_nearest() {
+    let output = coact(&["evalute"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("'evaluate'"), "{said}");
 }
 
 #[test]

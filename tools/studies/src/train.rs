@@ -1,7 +1,7 @@
 //! `coact train`: recordings of people make the model of preshaping that perception reads.
 
-use crate::installation::Installation;
 use anyhow::Context;
+use coact::installation::Installation;
 use coact_joint_task::Task;
 use coact_reaches::{model_file, train};
 use coact_recordings::{Order, read_folder};

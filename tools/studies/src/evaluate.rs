@@ -2,10 +2,10 @@
 
 mod tables;
 
-use crate::installation::Installation;
-use crate::partner;
 use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
+use coact::installation::Installation;
+use coact::partner;
 use coact_evaluation::{
     Ablation, Campaign, Comparison, EvaluationReport, NetworkVariant, Trial, draw_fluency, draw_leads,
 };

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 #[test]
 fn a_table_whose_reader_has_gone_away_ends_quietly() {
     let task = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/toy-vehicle.toml");
-    let mut coact = Command::new(env!("CARGO_BIN_EXE_coact"))
+    let mut coact = Command::new(env!("CARGO_BIN_EXE_coact-studies"))
         .args(["task", "show"])
         .arg(task)
         .stdout(Stdio::piped())

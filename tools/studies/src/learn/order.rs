@@ -1,7 +1,7 @@
 //! `coact learn order`: a task's plan from demonstrations.
 
-use crate::installation::Installation;
 use anyhow::{Context, Result};
+use coact::installation::Installation;
 use coact_joint_task::{NetworkPlan, Task};
 use coact_learning::{Demonstration, LearnedOrder, SerialOrder, TaskText};
 use comfy_table::{CellAlignment, Table, presets};

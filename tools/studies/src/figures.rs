@@ -1,7 +1,7 @@
 //! `coact figures`: the chapter's figures, from runs made now.
 
-use crate::installation::Installation;
 use anyhow::Result;
+use coact::installation::Installation;
 use coact_figures::{Figure, Gallery, Step};
 use coact_period::{cycles, seconds};
 use indicatif::{ProgressBar, ProgressStyle};

@@ -1,7 +1,7 @@
 //! `coact task check`: what is wrong with a task that can be read.
 
-use crate::installation::Installation;
 use anyhow::Result;
+use coact::installation::Installation;
 use coact_control::{Control, ControlError};
 use coact_joint_task::{Finding, FindingKind, Task, check};
 use coact_pipeline::WorldMode;

@@ -1,0 +1,83 @@
+//! The operator's command line: what starts, watches and reports runs. Whatever no run needs is a study, and belongs to a
+//! second program, `coact-studies`, so that the first `tools/launch` need not wait until that is built.
+
+/// Readers who have seen enough.
+pub mod closed_pipe;
+mod inject;
+/// Where programs, configuration and data are.
+pub mod installation;
+mod latency;
+mod launch;
+mod living_runs;
+mod lockstep;
+/// The setting of a partner.
+pub mod partner;
+/// How a program ends.
+pub mod program;
+pub mod report_folder;
+mod run_report;
+mod say;
+mod snapshots;
+mod studies;
+
+use anyhow::Result;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::ffi::OsString;
+use std::process::ExitCode;
+pub use studies::STUDIES;
+
+/// A robot that builds together with a person.
+///
+/// Every command has --help with examples.
+#[derive(Parser)]
+#[command(name = "coact", version, max_term_width = 100)]
+#[command(after_help = "Examples:
+  coact launch                          a robot and a simulated partner build a toy vehicle
+  coact task check mine.toml            what is wrong with a task of one's own
+  coact completions bash                what makes the shell complete all this")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Start the process set, watch it build, and report
+    Launch(launch::Args),
+    /// Inject a fault into a process of a running process set
+    Inject(inject::Args),
+    /// Say something to the robot of a running process set
+    Say(say::Args),
+    /// Show how punctual and how fast a run was, or is
+    Latency(latency::Args),
+    /// Draw a run's snapshots: pictures of who took what
+    Snapshots(snapshots::Args),
+}
+
+/// The command line with all commands; of the studies only names and descriptions.
+pub fn command_line() -> clap::Command {
+    let study = |(name, about): (&'static str, &'static str)| clap::Command::new(name).about(about);
+    Cli::command().subcommands(STUDIES.map(study))
+}
+
+/// The program `coact`, from its arguments to its exit status.
+pub fn run_program() -> ExitCode {
+    let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
+    program::begin();
+    program::end(run(&arguments))
+}
+
+fn run(arguments: &[OsString]) -> Result<ExitCode> {
+    if studies::are_meant(arguments) {
+        return Err(studies::run(arguments));
+    }
+    let matches = command_line().get_matches();
+    let command = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit()).command;
+    match command {
+        Command::Launch(args) => launch::run(args),
+        Command::Inject(args) => inject::run(args),
+        Command::Say(args) => say::run(args),
+        Command::Latency(args) => latency::run(args),
+        Command::Snapshots(args) => snapshots::run(args),
+    }
+}

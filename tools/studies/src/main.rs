@@ -1,0 +1,62 @@
+//! The studies of `coact`: its commands that no run needs. `coact` starts this program, and has it built at its first use.
+
+mod completions;
+mod evaluate;
+mod figures;
+mod learn;
+mod motion;
+mod reaches;
+mod task;
+mod train;
+
+use clap::{Parser, Subcommand};
+use coact::{closed_pipe, program};
+use std::process::ExitCode;
+
+/// The studies of coact: commands that no run needs.
+#[derive(Parser)]
+#[command(name = "coact", bin_name = "coact", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// What is said of each here stands in `coact::STUDIES` as well.
+#[derive(Subcommand)]
+enum Command {
+    /// Show what is made of a task file
+    Task(task::Args),
+    /// Learn connections of the network: a plan from demonstrations, what acts show
+    Learn(learn::Args),
+    /// Measure anticipation on recorded reaches of real people
+    Reaches(reaches::Args),
+    /// Evaluate whole assemblies with random partners, and compare with ablations
+    Evaluate(evaluate::Args),
+    /// Draw the chapter's figures from runs made now
+    Figures(figures::Args),
+    /// Plan a movement of the arm, or measure the planner
+    Motion(motion::Args),
+    /// Train the model of preshaping from recorded reaches
+    Train(train::Args),
+    /// Print completions for a shell
+    Completions(completions::Args),
+}
+
+fn main() -> ExitCode {
+    program::begin();
+    let command = Cli::parse().command;
+    // In real time there are processes that this program must stop.
+    if !matches!(command, Command::Reaches(_)) {
+        closed_pipe::ends_the_program();
+    }
+    program::end(match command {
+        Command::Task(args) => task::run(args),
+        Command::Learn(args) => learn::run(args),
+        Command::Reaches(args) => reaches::run(args),
+        Command::Evaluate(args) => evaluate::run(args),
+        Command::Figures(args) => figures::run(args),
+        Command::Motion(args) => motion::run(args),
+        Command::Train(args) => train::run(args),
+        Command::Completions(args) => Ok(completions::run(&args)),
+    })
+}

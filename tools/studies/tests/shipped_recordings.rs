@@ -1,0 +1,14 @@
+//! The recordings that are shipped serve wherever no folder is named.
+#![allow(clippy::unwrap_used)]
+
+mod program;
+
+use program::coact;
+
+#[test]
+fn reaches_are_those_of_the_shipped_people() {
+    let output = coact(&["reaches", "--person", "7"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("data/reaches holds no reach of this participant"), "{said}");
+}
