@@ -40,7 +40,12 @@ pub fn of_run(run: &Run, pipeline: &Pipeline) -> Environment {
 
 /// What the latency probe saw of the machine.
 pub fn of_probe(seen: &WakeUpLateness) -> MachineReport {
-    MachineReport { wakeups: seen.wakeups, late: seen.late, longest_ns: seen.longest_ns }
+    MachineReport {
+        wakeups: seen.wakeups,
+        late: seen.late,
+        p999_ns: seen.p999_ns,
+        longest_ns: seen.longest_ns,
+    }
 }
 
 /// All of the machine: the monitor itself may not use the core that the real-time processes run on.

@@ -1,5 +1,5 @@
-use crate::CycleMisses;
 use coact_messages::Pulse;
+use coact_period::PERIOD_NS;
 use coact_run_records::{Event, FaultEvent, SupervisorEvent, SupervisorEventKind};
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
@@ -7,22 +7,29 @@ use std::time::Duration;
 /// How long after a recovery the fault is written down, ns. By then the pulses of all processes have been read, which
 /// happens every few milliseconds, even if the monitor itself was held up.
 const SETTLING_NS: u64 = Duration::from_millis(200).as_nanos() as u64;
-/// For how long misses are remembered, ns. No recovery takes longer: a process that is not ready again within that time
+/// For how long outages are remembered, ns. No recovery takes longer: a process that is not ready again within that time
 /// has been given up.
 const REMEMBERED_NS: u64 = Duration::from_secs(120).as_nanos() as u64;
 
-/// Finds for each fault who failed, when that was noticed, when it was over, and what it cost the others.
+/// So many timely outputs of each process are remembered: those of a second, more than lie between a fault and the record of
+/// it in the supervisor's log.
+const GOOD_OUTPUTS: usize = 1024;
+
+/// Finds for each fault who failed, since when, when that was noticed, when it was over, and what it cost the others.
 ///
-/// A process that died has recovered with the first output of its replacement. One that was only disturbed
-/// (stopped for a while, slowed down) has recovered with its first timely cycle after the last late one. A
-/// process that sends no pulses has recovered when its replacement reported ready.
+/// A fault begins with the last good output before it, whoever noticed it when. A process that died has recovered with the
+/// first timely output of its replacement. One that was only disturbed (stopped for a while, slowed down) has recovered with
+/// its first timely output after the last late one. A process that sends no pulses has failed when the fault was injected or
+/// seen, and has recovered when its replacement reported ready.
 #[derive(Debug)]
 pub struct Faults {
     /// Processes that send pulses.
     pulsing: Vec<String>,
     open: Vec<OpenFault>,
-    /// Deadline misses of the last two minutes: release of the cycle, process, how many.
-    misses: VecDeque<(u64, String, u64)>,
+    /// Newest timely outputs of each process: generation and publication.
+    good: BTreeMap<String, VecDeque<(u32, u64)>>,
+    /// Outages of the last two minutes: release of the cycle at their end, process, how many cycles without output.
+    outages: VecDeque<(u64, String, u64)>,
     /// Up to which instant each process's faults are in the report already.
     settled: BTreeMap<String, u64>,
 }
@@ -31,8 +38,15 @@ pub struct Faults {
 struct OpenFault {
     process: String,
     fault: String,
-    at_ns: u64,
+    /// When it was injected, or seen.
+    reported_ns: u64,
+    /// The last good output before it, where one was seen.
+    last_good_ns: Option<u64>,
+    /// The process that failed, and its newest dead replacement.
+    first_generation: u32,
     generation: u32,
+    /// An output was late or missing since then.
+    disturbed: bool,
     detected_ns: Option<u64>,
     recovered_ns: Option<u64>,
     given_up: bool,
@@ -41,7 +55,13 @@ struct OpenFault {
 impl Faults {
     /// `pulsing`: names of the processes that send pulses.
     pub fn new(pulsing: Vec<String>) -> Self {
-        Self { pulsing, open: Vec::new(), misses: VecDeque::new(), settled: BTreeMap::new() }
+        Self {
+            pulsing,
+            open: Vec::new(),
+            good: BTreeMap::new(),
+            outages: VecDeque::new(),
+            settled: BTreeMap::new(),
+        }
     }
 
     /// Goes on after a restart: these faults are in the report already.
@@ -61,11 +81,12 @@ impl Faults {
         }
         let (kind, cause) = (event.event, event.fault.as_ref().or(event.reason.as_ref()));
         let pulsing = self.pulsing.contains(&event.process);
+        let last_good_ns = self.last_good(event);
         let open = self.open.iter_mut().find(|open| open.process == event.process && !open.is_over());
         match (kind, open) {
-            (SupervisorEventKind::Injected, None) => self.begin(event, cause, None),
-            (SupervisorEventKind::Died, None) => self.begin(event, cause, Some(event.at_ns)),
-            (SupervisorEventKind::Died, Some(open)) => open.died(event),
+            (SupervisorEventKind::Injected, None) => self.begin(event, cause, last_good_ns, None),
+            (SupervisorEventKind::Died, None) => self.begin(event, cause, last_good_ns, Some(event.at_ns)),
+            (SupervisorEventKind::Died, Some(open)) => open.died(event, last_good_ns),
             (SupervisorEventKind::GaveUp, Some(open)) => open.given_up = true,
             (SupervisorEventKind::Ready, Some(open)) if !pulsing && event.generation > open.generation => {
                 open.recovered_ns = Some(event.at_ns);
@@ -74,40 +95,72 @@ impl Faults {
         }
     }
 
-    /// One cycle of a process, and what it missed.
-    pub fn pulse(&mut self, process: &str, pulse: &Pulse, missed: CycleMisses) {
-        if missed.missed > 0 {
-            self.misses.push_back((pulse.released_ns, process.to_owned(), missed.missed));
+    /// One cycle of a process, and how many up to it, since the one before, had no timely output.
+    pub fn pulse(&mut self, process: &str, pulse: &Pulse, outage: u64) {
+        if outage > 0 {
+            self.outages.push_back((pulse.released_ns, process.to_owned(), outage));
         }
+        let timely = pulse.header.published_ns <= pulse.released_ns + PERIOD_NS;
         for open in self.open.iter_mut().filter(|open| open.process == process) {
-            open.pulse(pulse, missed);
+            open.pulse(pulse, timely, outage);
         }
+        if timely {
+            self.remember(process, pulse);
+        }
+    }
+
+    fn remember(&mut self, process: &str, pulse: &Pulse) {
+        if !self.good.contains_key(process) {
+            self.good.insert(process.to_owned(), VecDeque::with_capacity(GOOD_OUTPUTS));
+        }
+        let Some(good) = self.good.get_mut(process) else { return };
+        if good.len() == GOOD_OUTPUTS {
+            good.pop_front();
+        }
+        good.push_back((pulse.header.generation, pulse.header.published_ns));
+    }
+
+    /// The last good output, before the event, of the process that the event is about.
+    fn last_good(&self, event: &SupervisorEvent) -> Option<u64> {
+        let before = |(generation, at): &(u32, u64)| {
+            (*generation <= event.generation && *at <= event.at_ns).then_some(*at)
+        };
+        self.good.get(&event.process)?.iter().rev().find_map(before)
     }
 
     /// Appends to `events` the faults that are over, once all pulses from that time have come.
     pub fn settle(&mut self, now_ns: u64, events: &mut Vec<Event>) {
-        self.misses.retain(|&(at, ..)| now_ns.saturating_sub(at) < REMEMBERED_NS);
+        self.outages.retain(|&(at, ..)| now_ns.saturating_sub(at) < REMEMBERED_NS);
         let over = |open: &OpenFault| {
             open.given_up || open.recovered_ns.is_some_and(|at| now_ns > at.saturating_add(SETTLING_NS))
         };
         for open in self.open.extract_if(.., |open| over(open)) {
-            events.push(describe(&open, &self.misses));
+            events.push(describe(&open, &self.outages));
         }
     }
 
     /// Ends the run: faults that are not over stay so.
     pub fn finish(&mut self, events: &mut Vec<Event>) {
         for open in self.open.drain(..) {
-            events.push(describe(&open, &self.misses));
+            events.push(describe(&open, &self.outages));
         }
     }
 
-    fn begin(&mut self, event: &SupervisorEvent, cause: Option<&String>, detected_ns: Option<u64>) {
+    fn begin(
+        &mut self,
+        event: &SupervisorEvent,
+        cause: Option<&String>,
+        last_good_ns: Option<u64>,
+        detected_ns: Option<u64>,
+    ) {
         self.open.push(OpenFault {
             process: event.process.clone(),
             fault: cause.cloned().unwrap_or_else(|| "died".into()),
-            at_ns: event.at_ns,
+            reported_ns: event.at_ns,
+            last_good_ns,
+            first_generation: event.generation,
             generation: event.generation,
+            disturbed: false,
             detected_ns,
             recovered_ns: None,
             given_up: false,
@@ -117,20 +170,36 @@ impl Faults {
 
 impl OpenFault {
     /// A replacement that died as well belongs to the same fault.
-    fn died(&mut self, event: &SupervisorEvent) {
+    fn died(&mut self, event: &SupervisorEvent, last_good_ns: Option<u64>) {
+        if self.detected_ns.is_none() && !self.disturbed {
+            self.last_good_ns = last_good_ns.or(self.last_good_ns);
+        }
         self.detected_ns = self.detected_ns.or(Some(event.at_ns));
         self.generation = event.generation;
         self.recovered_ns = None;
     }
 
-    fn pulse(&mut self, pulse: &Pulse, missed: CycleMisses) {
-        let published = pulse.header.published_ns;
-        let replaced = pulse.header.generation > self.generation;
-        if published <= self.at_ns || (self.detected_ns.is_some() && !replaced) {
-            return;
+    fn pulse(&mut self, pulse: &Pulse, timely: bool, outage: u64) {
+        let (published, generation) = (pulse.header.published_ns, pulse.header.generation);
+        if generation > self.generation {
+            self.recovered_ns = self.recovered_ns.or(timely.then_some(published));
+        } else if self.detected_ns.is_none() && published > self.reported_ns {
+            self.survived_until(published, timely, outage);
+        } else if generation == self.first_generation && timely && !self.disturbed {
+            // Published before the fault, and read only now.
+            self.last_good_ns = self.last_good_ns.max(Some(published));
         }
-        let disturbed = !replaced && (missed.missed > 0 || missed.skipped > 0);
-        self.recovered_ns = if disturbed { None } else { self.recovered_ns.or(Some(published)) };
+    }
+
+    /// An output of the process itself after the fault was injected.
+    fn survived_until(&mut self, published: u64, timely: bool, outage: u64) {
+        self.disturbed |= outage > 0;
+        if !self.disturbed {
+            // It goes on for some cycles before the fault takes effect, or is never disturbed.
+            self.last_good_ns = Some(published);
+        }
+        let since = if outage > 0 { None } else { self.recovered_ns };
+        self.recovered_ns = since.or(timely.then_some(published));
     }
 
     /// A later event of the process is no part of this fault.
@@ -139,19 +208,20 @@ impl OpenFault {
     }
 }
 
-fn describe(open: &OpenFault, misses: &VecDeque<(u64, String, u64)>) -> Event {
+fn describe(open: &OpenFault, outages: &VecDeque<(u64, String, u64)>) -> Event {
+    let at_ns = open.last_good_ns.unwrap_or(open.reported_ns);
     let until = open.recovered_ns.unwrap_or(u64::MAX);
     let mut survivors_missed = BTreeMap::new();
-    for (at, process, missed) in misses {
-        if *process != open.process && (open.at_ns..=until).contains(at) {
+    for (at, process, missed) in outages {
+        if *process != open.process && (at_ns..=until).contains(at) {
             *survivors_missed.entry(process.clone()).or_default() += missed;
         }
     }
-    let after_ms = |instant: u64| instant.saturating_sub(open.at_ns) as f64 / 1e6;
+    let after_ms = |instant: u64| instant.saturating_sub(at_ns) as f64 / 1e6;
     Event::Fault(FaultEvent {
         process: open.process.clone(),
         fault: open.fault.clone(),
-        at_ns: open.at_ns,
+        at_ns,
         detected_ms: open.detected_ns.map(after_ms),
         recovered_ms: open.recovered_ns.map(after_ms),
         survivors_missed,

@@ -1,9 +1,10 @@
 use crate::metrics::{END_TO_END, execution_name, hop_name, wakeup_name};
 use crate::{Metrics, ProcessCounters, Rules, percentiles, verdict};
 use coact_joint_task::Task;
+use coact_period::PERIOD_NS;
 use coact_run_records::{
-    AnticipationReport, Environment, Event, FaultReport, Percentiles, ProcessReport, ReactionReport, Summary,
-    TaskReport, TrackingReport, Verdict,
+    AnticipationReport, Environment, Event, FaultReport, Judgement, MotionReport, OutageReport, Percentiles,
+    ProcessReport, ReactionReport, Summary, TaskReport, TrackingReport,
 };
 use std::collections::BTreeMap;
 
@@ -18,14 +19,20 @@ pub struct Findings<'a> {
     pub events: &'a [Event],
     /// Latencies and counters; none in lockstep, where no clock runs.
     pub metrics: Option<&'a Metrics>,
+    /// When each process was requested to end, ns of `CLOCK_MONOTONIC`: up to then cycles were due.
+    pub stop_requested: &'a BTreeMap<String, u64>,
+    /// How the arm moved.
+    pub motion: MotionReport,
+    /// For how long the monitor saw nothing, s.
+    pub blind_s: f64,
     /// How well the arm followed its setpoints.
     pub tracking: TrackingReport,
     /// From decisions to movements.
     pub reaction: ReactionReport,
     /// Start of the run, ns of `CLOCK_MONOTONIC`.
     pub start_ns: u64,
-    /// How long the run lasted, s.
-    pub duration_s: f64,
+    /// End of the run, likewise.
+    pub end_ns: u64,
     /// What it had to reach.
     pub rules: &'a Rules,
 }
@@ -33,44 +40,81 @@ pub struct Findings<'a> {
 impl Findings<'_> {
     /// Draws the conclusions.
     pub fn summary(self) -> Summary {
-        let Self { task, environment, events, metrics, tracking, reaction, start_ns, duration_s, rules } =
-            self;
+        let (processes, command_outage) = (self.processes(), self.command_outage());
+        let duration_s = self.end_ns.saturating_sub(self.start_ns) as f64 / 1e9;
+        let Self {
+            task,
+            environment,
+            events,
+            metrics,
+            motion,
+            blind_s,
+            tracking,
+            reaction,
+            start_ns,
+            rules,
+            ..
+        } = self;
         let mut summary = Summary {
             environment,
-            processes: metrics.map(processes).unwrap_or_default(),
+            processes,
             hops: metrics.map(hops).unwrap_or_default(),
             end_to_end_ns: metrics.map(|own| percentiles_of(own, END_TO_END)).unwrap_or_default(),
+            command_outage,
+            motion,
+            blind_s,
             tracking_error_rad: tracking,
             movement_reaction_ms: reaction,
             anticipation: AnticipationReport::new(events),
             task: TaskReport::new(task.subgoals.len(), events, duration_s),
             faults: FaultReport::all(events, start_ns),
-            verdict: Verdict::Pass,
-            reasons: Vec::new(),
+            work: Judgement::default(),
+            timing: Judgement::default(),
         };
-        summary.reasons = verdict::reasons(&summary, events, duration_s, rules);
-        if !summary.reasons.is_empty() {
-            summary.verdict = Verdict::Fail;
-        }
+        summary.work = Judgement::new(verdict::work(&summary, events, duration_s, rules));
+        summary.timing = Judgement::new(verdict::timing(&summary, rules));
         summary
+    }
+
+    fn processes(&self) -> BTreeMap<String, ProcessReport> {
+        let Some(metrics) = self.metrics else { return BTreeMap::new() };
+        let names = metrics.nodes().iter().map(|node| &node.process);
+        names.map(|name| (name.clone(), self.process(metrics, name))).collect()
+    }
+
+    /// A process that never published anything has no counters, and its cycles were due all the same.
+    fn process(&self, metrics: &Metrics, name: &str) -> ProcessReport {
+        let counters = metrics.counters().get(name).cloned().unwrap_or_default();
+        ProcessReport {
+            cycles: counters.cycles,
+            missed: counters.missed,
+            longest_miss_run: counters.longest_miss_run,
+            skipped: counters.skipped,
+            unseen: counters.unseen,
+            restarts: counters.restarts,
+            outage: counters.outage.until(self.due(name)),
+            wakeup_ns: percentiles_of(metrics, &wakeup_name(name)),
+            execution_ns: percentiles_of(metrics, &execution_name(name)),
+        }
+    }
+
+    fn command_outage(&self) -> OutageReport {
+        let nodes = self.metrics.map(Metrics::nodes).unwrap_or_default();
+        let Some(last) = nodes.iter().find(|node| node.last) else { return OutageReport::default() };
+        let counters = self.metrics.and_then(|metrics| metrics.counters().get(&last.process));
+        let outage = counters.map(|counters: &ProcessCounters| counters.outage_on_fresh_data);
+        outage.unwrap_or_default().until(self.due(&last.process))
+    }
+
+    /// Cycles of a process whose deadline had passed when its end was requested.
+    fn due(&self, process: &str) -> u64 {
+        let end_ns = self.stop_requested.get(process).copied().unwrap_or(self.end_ns);
+        end_ns.saturating_sub(self.start_ns) / PERIOD_NS
     }
 }
 
 fn percentiles_of(metrics: &Metrics, name: &str) -> Percentiles {
     metrics.histograms().get(name).map(|own| percentiles(own.total())).unwrap_or_default()
-}
-
-fn processes(metrics: &Metrics) -> BTreeMap<String, ProcessReport> {
-    let report = |name: &str, counters: &ProcessCounters| ProcessReport {
-        cycles: counters.cycles,
-        missed: counters.missed,
-        longest_miss_run: counters.longest_miss_run,
-        skipped: counters.skipped,
-        restarts: counters.restarts,
-        wakeup_ns: percentiles_of(metrics, &wakeup_name(name)),
-        execution_ns: percentiles_of(metrics, &execution_name(name)),
-    };
-    metrics.counters().iter().map(|(name, counters)| (name.clone(), report(name, counters))).collect()
 }
 
 fn hops(metrics: &Metrics) -> BTreeMap<String, Percentiles> {

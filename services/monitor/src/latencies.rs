@@ -1,4 +1,4 @@
-use crate::{CycleMisses, IntervalLog, IntervalLogError, Metrics, PipelineNode, ProcessCounters};
+use crate::{CycleFindings, IntervalLog, IntervalLogError, Metrics, PipelineNode, ProcessCounters};
 use coact_messages::Pulse;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -36,23 +36,28 @@ pub enum LatencyError {
 impl Latencies {
     /// Writes logs into `folder`; goes on with those that a killed predecessor left there.
     ///
-    /// `started` is the start of the run: time 0 of the logs' intervals.
+    /// `started` is the start of the run: time 0 of the logs' intervals. `fresh`: see [`Metrics::new`].
     ///
     /// # Errors
     /// The folder cannot be made, or what it holds cannot be read.
-    pub fn open(folder: &Path, nodes: Vec<PipelineNode>, started: SystemTime) -> Result<Self, LatencyError> {
+    pub fn open(
+        folder: &Path,
+        nodes: Vec<PipelineNode>,
+        fresh: Duration,
+        started: SystemTime,
+    ) -> Result<Self, LatencyError> {
         let error = |cause| LatencyError::File { path: folder.to_owned(), cause };
         std::fs::create_dir_all(folder).map_err(error)?;
         for path in logs(folder).map_err(error)? {
             IntervalLog::repair(&path)?;
         }
-        let metrics = Metrics::load(folder)?.with_nodes(nodes);
+        let metrics = Metrics::load(folder)?.with_nodes(nodes, fresh);
         let written = SystemTime::now().duration_since(started).unwrap_or_default();
         Ok(Self { folder: folder.to_owned(), started, metrics, written })
     }
 
-    /// Adds one cycle of a process and gives what it missed; nothing for one that was added before.
-    pub fn pulse(&mut self, process: &str, pulse: &Pulse) -> CycleMisses {
+    /// Adds one cycle of a process and gives what it tells; nothing for one that was added before.
+    pub fn pulse(&mut self, process: &str, pulse: &Pulse) -> CycleFindings {
         self.metrics.pulse(process, pulse)
     }
 
@@ -101,12 +106,14 @@ pub(crate) fn read_counters(folder: &Path) -> Result<BTreeMap<String, ProcessCou
     }
 }
 
-/// Replaces the file as a whole, so that a kill in between leaves the old one.
 fn write_counters(folder: &Path, counters: &BTreeMap<String, ProcessCounters>) -> Result<(), LatencyError> {
-    let (path, draft) = (folder.join(COUNTERS), folder.join("counters.json.new"));
-    let written = serde_json::to_vec_pretty(counters)
-        .map_err(std::io::Error::from)
-        .and_then(|text| std::fs::write(&draft, text))
-        .and_then(|()| std::fs::rename(&draft, &path));
-    written.map_err(|cause| LatencyError::File { path, cause })
+    let path = folder.join(COUNTERS);
+    replace(&path, counters).map_err(|cause| LatencyError::File { path, cause })
+}
+
+/// Replaces a file of JSON as a whole, so that a kill in between leaves the old one.
+pub(crate) fn replace(path: &Path, value: &impl serde::Serialize) -> std::io::Result<()> {
+    let draft = path.with_extension("json.new");
+    std::fs::write(&draft, serde_json::to_vec_pretty(value)?)?;
+    std::fs::rename(&draft, path)
 }

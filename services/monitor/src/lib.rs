@@ -11,6 +11,7 @@
 //! `rt-config/verdict.toml` ([`Rules`]).
 
 mod anticipation;
+mod blindness;
 mod duration_recorder;
 pub mod environment;
 mod expectation;
@@ -18,10 +19,12 @@ mod faults;
 mod findings;
 mod intentions;
 mod interval_log;
+mod joint_motion;
 mod latencies;
 pub mod metrics;
 mod monitor;
 mod monitor_error;
+mod outage;
 mod part_locations;
 mod pipeline_node;
 pub mod plots;
@@ -41,12 +44,14 @@ pub use faults::Faults;
 pub use findings::Findings;
 pub use intentions::Intentions;
 pub use interval_log::{IntervalLog, IntervalLogError, LogContents};
+pub use joint_motion::JointMotion;
 pub use latencies::{Latencies, LatencyError};
 pub use metrics::Metrics;
 pub use monitor::Monitor;
 pub use monitor_error::MonitorError;
+pub use outage::Outage;
 pub use pipeline_node::PipelineNode;
-pub use process_counters::{CycleMisses, ProcessCounters};
+pub use process_counters::{CycleFindings, ProcessCounters};
 pub use reaction::Reaction;
 pub use rules::{Rules, RulesError};
 pub use snapshot_log::SnapshotLog;

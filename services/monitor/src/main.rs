@@ -2,10 +2,12 @@
 
 use anyhow::Context;
 use coact_joint_task::NetworkPlan;
-use coact_messages::{Command, FieldFrame, Pulse, SensorSample, Speech, Truth, topic};
+use coact_messages::{ARM_JOINTS, Command, FieldFrame, Pulse, SensorSample, Speech, Truth, topic};
 use coact_monitor::{Intentions, Monitor, MonitorError, PipelineNode, Rules, Watched, environment};
 use coact_realtime::{Bus, Input, LatencyProbe, PortError, Process, Schedule, now};
+use coact_robot::Robot;
 use coact_run_records::Environment;
+use coact_safety::SafetyLimits;
 use std::time::{Duration, Instant, SystemTime};
 
 /// How often the topics are drained: long before a reader's buffer is full, and seldom enough to cost little of a core.
@@ -46,11 +48,14 @@ fn watched(process: &Process) -> anyhow::Result<Watched> {
     let settings = process.run().settings();
     let (task, plan) = NetworkPlan::load(&settings.task)?;
     let folder = settings.pipeline.parent().context("the process table stands in no folder")?;
+    let robot = Robot::load(&settings.robot)?;
     Ok(Watched {
         report: settings.report.clone(),
         task,
         intentions: Intentions::from(&plan),
         nodes: PipelineNode::all(process.pipeline()),
+        limits: robot.limits()[..ARM_JOINTS].to_vec(),
+        fresh: SafetyLimits::load(&settings.safety)?.stale.input_after,
         rules: Rules::load(&folder.join(Rules::FILE))?,
         start_ns: 0,
         started: SystemTime::UNIX_EPOCH,
@@ -102,6 +107,7 @@ impl Topics {
     fn drain(&mut self, monitor: &mut Monitor, refused: &mut Option<MonitorError>) -> Result<(), PortError> {
         let Self { pulses, truth, sensors, fields, command, speech } = self;
         let mut events = Vec::new();
+        warn_once(monitor.read_supervisor(), refused);
         for (process, input) in pulses {
             input.each(|pulse| monitor.pulse(process, pulse))?;
         }

@@ -1,10 +1,11 @@
 //! Latency histograms by name, and the counters of each process.
 
 use crate::latencies::{logs, read_counters};
-use crate::{CycleMisses, DurationRecorder, IntervalLog, LatencyError, PipelineNode, ProcessCounters};
+use crate::{CycleFindings, DurationRecorder, IntervalLog, LatencyError, PipelineNode, ProcessCounters};
 use coact_messages::Pulse;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::time::Duration;
 
 /// Name of the histogram from sensor stamp to command.
 pub const END_TO_END: &str = "end-to-end";
@@ -15,12 +16,14 @@ pub struct Metrics {
     nodes: Vec<PipelineNode>,
     recorders: BTreeMap<String, DurationRecorder>,
     counters: BTreeMap<String, ProcessCounters>,
+    /// How old a sensor sample may be for what descends from it to be good, ns.
+    fresh_ns: u64,
 }
 
 impl Metrics {
-    /// Of these processes; nothing is recorded yet.
-    pub fn new(nodes: Vec<PipelineNode>) -> Self {
-        Self { nodes, ..Self::default() }
+    /// Of these processes; nothing is recorded yet. What descends from a sensor sample older than `fresh` is no good output.
+    pub fn new(nodes: Vec<PipelineNode>, fresh: Duration) -> Self {
+        Self::default().with_nodes(nodes, fresh)
     }
 
     /// Reads what a monitor has written into a folder of interval logs.
@@ -34,18 +37,18 @@ impl Metrics {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             recorders.insert(name, DurationRecorder::resume(IntervalLog::read(&path)?.raw));
         }
-        Ok(Self { nodes: Vec::new(), recorders, counters: read_counters(folder)? })
+        Ok(Self { recorders, counters: read_counters(folder)?, ..Self::default() })
     }
 
     /// The same, to be continued with these processes.
-    pub fn with_nodes(self, nodes: Vec<PipelineNode>) -> Self {
-        Self { nodes, ..self }
+    pub fn with_nodes(self, nodes: Vec<PipelineNode>, fresh: Duration) -> Self {
+        Self { nodes, fresh_ns: fresh.as_nanos() as u64, ..self }
     }
 
-    /// Adds one cycle of a process and gives what it missed; nothing for one that was added before.
-    pub fn pulse(&mut self, process: &str, pulse: &Pulse) -> CycleMisses {
+    /// Adds one cycle of a process and gives what it tells; nothing for one that was added before.
+    pub fn pulse(&mut self, process: &str, pulse: &Pulse) -> CycleFindings {
         if self.counters.get(process).is_some_and(|counters| !counters.is_new(pulse)) {
-            return CycleMisses::default();
+            return CycleFindings::default();
         }
         let node = self.nodes.iter().find(|node| node.process == process);
         let from = node.and_then(|node| node.input_from.clone());
@@ -60,7 +63,7 @@ impl Metrics {
         if last && pulse.header.sensor_ns != 0 {
             self.record(END_TO_END, published.saturating_sub(pulse.header.sensor_ns));
         }
-        self.counters.entry(process.to_owned()).or_default().add(pulse)
+        self.counters.entry(process.to_owned()).or_default().add(pulse, self.fresh_ns)
     }
 
     /// Histograms by name: [`END_TO_END`], and what [`wakeup_name`], [`execution_name`] and [`hop_name`] give.

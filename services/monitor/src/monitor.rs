@@ -1,21 +1,26 @@
+use crate::blindness::{Blindness, blind_s};
+use crate::latencies::replace;
 use crate::plots::{anticipation_timeline, percentile_curve};
 use crate::{
-    Anticipation, Faults, Findings, Latencies, MonitorError, Reaction, Rules, SnapshotLog, TaskWatch,
-    Tracking, Watched,
+    Anticipation, Faults, Findings, JointMotion, Latencies, MonitorError, Reaction, Rules, SnapshotLog,
+    TaskWatch, Tracking, Watched,
 };
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, NONE, Pulse, SensorSample, Speech, Truth};
 use coact_period::cycles;
 use coact_run_records::{
-    Environment, Event, LogFollower, Record, RunLog, Snapshot, Summary, SupervisorEvent,
+    Environment, Event, LogFollower, Record, RunLog, Snapshot, Summary, SupervisorEvent, SupervisorEventKind,
 };
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// After so many cycles a frame is no longer waited for: the fields are dead or far behind. Twice as long as the
 /// watchdog lets a silent process live, so that a stall alone changes no judgement.
 const OVERDUE: u64 = cycles(Duration::from_secs(1));
+
+/// Name of the file in which a restarted monitor finds how the arm has moved so far, beside the counters.
+const MOTION: &str = "latency/motion.json";
 
 /// Makes the report of a run, in its directory, while the run goes on.
 ///
@@ -31,6 +36,12 @@ pub struct Monitor {
     anticipation: Anticipation,
     watch: TaskWatch,
     faults: Faults,
+    blindness: Blindness,
+    motion: JointMotion,
+    /// Name of the process that commands the arm.
+    commanding: Option<String>,
+    /// When each process was requested to end, ns of `CLOCK_MONOTONIC`.
+    stop_requested: BTreeMap<String, u64>,
     tracking: Tracking,
     reaction: Reaction,
     snapshots: SnapshotLog,
@@ -46,9 +57,10 @@ impl Monitor {
     /// # Errors
     /// A file of the report cannot be read or written.
     pub fn open(watched: Watched) -> Result<Self, MonitorError> {
-        let Watched { report, task, intentions, nodes, rules, start_ns, started } = watched;
+        let Watched { report, task, intentions, nodes, limits, fresh, rules, start_ns, started } = watched;
+        let commanding = nodes.iter().find(|node| node.last).map(|node| node.process.clone());
         let pulsing = nodes.iter().map(|node| node.process.clone()).collect();
-        let latencies = Latencies::open(&report.join("latency"), nodes, started)?;
+        let latencies = Latencies::open(&report.join("latency"), nodes, fresh, started)?;
         let events = RunLog::<Event>::open(&report)?;
         let (mut anticipation, mut watch, mut faults) =
             (Anticipation::new(&task, intentions), TaskWatch::new(&task), Faults::new(pulsing));
@@ -57,6 +69,12 @@ impl Monitor {
         watch.resume(events.records());
         faults.resume(events.records());
         let (supervisor, snapshots) = (LogFollower::new(&report), SnapshotLog::open(&report, &task)?);
+        let mut motion = JointMotion::new(limits, fresh);
+        if let Ok(found) = std::fs::read(report.join(MOTION)) {
+            let error =
+                |cause| MonitorError::File { path: report.join(MOTION), cause: std::io::Error::other(cause) };
+            motion.resume(serde_json::from_slice(&found).map_err(error)?);
+        }
         let (waiting, truth) = (VecDeque::new(), nothing_true_yet());
         Ok(Self {
             report,
@@ -68,6 +86,10 @@ impl Monitor {
             anticipation,
             watch,
             faults,
+            blindness: Blindness::default(),
+            motion,
+            commanding,
+            stop_requested: BTreeMap::new(),
             tracking: Tracking::new(),
             reaction: Reaction::new(),
             snapshots,
@@ -102,8 +124,12 @@ impl Monitor {
 
     /// One cycle of a process.
     pub fn pulse(&mut self, process: &str, pulse: &Pulse) {
-        let missed = self.latencies.pulse(process, pulse);
-        self.faults.pulse(process, pulse, missed);
+        let found = self.latencies.pulse(process, pulse);
+        self.faults.pulse(process, pulse, found.outage);
+        self.blindness.lost(pulse.header.cycle, found.unseen);
+        if self.commanding.as_deref() == Some(process) {
+            self.motion.commanded(pulse);
+        }
     }
 
     /// What really happens; it is judged once the fields' frame of the same cycle has come, or is overdue.
@@ -125,6 +151,12 @@ impl Monitor {
     /// What the sensors said.
     pub fn sample(&mut self, sample: &SensorSample) {
         self.snapshots.sample(sample);
+        self.motion.sample(sample);
+    }
+
+    /// What the joints' encoders said, of a sample that [`sample`](Self::sample) is not told of.
+    pub fn joints(&mut self, sample: &SensorSample) {
+        self.motion.sample(sample);
     }
 
     /// What the arm shall do.
@@ -139,14 +171,28 @@ impl Monitor {
         self.watch.speech(speech, events);
     }
 
+    /// Reads what the supervisor wrote; before each look at the topics, so that a fault is known before the pulses that show
+    /// how it went on.
+    ///
+    /// # Errors
+    /// The supervisor's log cannot be read.
+    pub fn read_supervisor(&mut self) -> Result<(), MonitorError> {
+        for event in self.supervisor.news()? {
+            self.faults.supervisor(&event);
+            if event.event == SupervisorEventKind::StopRequested {
+                self.stop_requested.insert(event.process, event.at_ns);
+            }
+        }
+        Ok(())
+    }
+
     /// Reads what the supervisor wrote, settles faults, and writes events and snapshots; after each look at the topics.
     ///
     /// # Errors
     /// A file of the report cannot be read or written.
     pub fn record(&mut self, now_ns: u64, mut events: Vec<Event>) -> Result<(), MonitorError> {
-        for event in self.supervisor.news()? {
-            self.faults.supervisor(&event);
-        }
+        self.read_supervisor()?;
+        events.extend(self.blindness.take());
         self.faults.settle(now_ns, &mut events);
         self.snapshots.look()?;
         if !events.is_empty() {
@@ -160,7 +206,8 @@ impl Monitor {
     /// # Errors
     /// A file of the report cannot be written.
     pub fn write(&mut self) -> Result<(), MonitorError> {
-        Ok(self.latencies.write()?)
+        self.latencies.write()?;
+        replace(&self.report.join(MOTION), &self.motion.report()).map_err(|cause| self.error(MOTION, cause))
     }
 
     /// Ends the run: writes logs, plots and `summary.json`.
@@ -182,10 +229,13 @@ impl Monitor {
             environment,
             events: self.events.records(),
             metrics: Some(self.latencies.metrics()),
+            stop_requested: &self.stop_requested,
+            motion: self.motion.report(),
+            blind_s: blind_s(self.events.records()),
             tracking: self.tracking.report(),
             reaction: self.reaction.report(),
             start_ns: self.start_ns,
-            duration_s: now_ns.saturating_sub(self.start_ns) as f64 / 1e9,
+            end_ns: now_ns,
             rules: &self.rules,
         }
         .summary();

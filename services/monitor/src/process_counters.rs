@@ -1,4 +1,6 @@
+use crate::Outage;
 use coact_messages::{Header, Pulse};
+use coact_period::PERIOD_NS;
 
 /// What one process missed over the whole run, its restarts included.
 #[derive(Debug, Clone, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -13,8 +15,14 @@ pub struct ProcessCounters {
     pub stale: u64,
     /// Cycles skipped because the one before overran.
     pub skipped: u64,
+    /// Cycles of which no pulse was seen; the counters of the next one tell what was missed in them.
+    pub unseen: u64,
     /// How often the process was restarted.
     pub restarts: u32,
+    /// Cycles without timely output.
+    pub outage: Outage,
+    /// Cycles without timely output that descends from a sensor sample young enough to be used.
+    pub outage_on_fresh_data: Outage,
     /// Misses at the end of what was seen so far, without a timely cycle in between.
     run: u64,
     /// PulseCounters of the newest pulse.
@@ -31,13 +39,13 @@ struct PulseCounters {
     skipped: u64,
 }
 
-/// What one cycle added to the counters of its process.
+/// What a pulse tells of its cycle and of those since the pulse before.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct CycleMisses {
-    /// Deadline misses.
-    pub missed: u64,
-    /// Skipped cycles.
-    pub skipped: u64,
+pub struct CycleFindings {
+    /// Cycles without timely output.
+    pub outage: u64,
+    /// Cycles that had an output, but no pulse of theirs was seen.
+    pub unseen: u64,
 }
 
 impl ProcessCounters {
@@ -47,11 +55,12 @@ impl ProcessCounters {
         self.last.is_none_or(|last| (generation, sequence) > (last.generation, last.sequence))
     }
 
-    /// Adds a new cycle, and gives what was missed in it or since the one before.
+    /// Adds a new cycle, and gives what is found of it and of those since the one before. What descends from a sensor sample
+    /// older than `fresh_ns` is no good output.
     ///
     /// The counters in the pulse make up for pulses that were lost on the way. Misses among those count as one run: the
     /// longest that it may have been.
-    pub fn add(&mut self, pulse: &Pulse) -> CycleMisses {
+    pub fn add(&mut self, pulse: &Pulse, fresh_ns: u64) -> CycleFindings {
         let now = PulseCounters {
             generation: pulse.header.generation,
             sequence: pulse.header.sequence,
@@ -65,15 +74,46 @@ impl ProcessCounters {
         let zero = if connected_late { now } else { PulseCounters::default() };
         let before = same.unwrap_or(PulseCounters { sequence: now.sequence.saturating_sub(1), ..zero });
         let missed = now.missed.saturating_sub(before.missed);
-        let skipped = now.skipped.saturating_sub(before.skipped);
+        let timely = self.timely_outputs(now);
+        let unseen = self.unseen_outputs(now);
         self.cycles += now.sequence.saturating_sub(before.sequence).max(1);
         self.missed += missed;
         self.stale += now.stale.saturating_sub(before.stale);
-        self.skipped += skipped;
+        self.skipped += now.skipped.saturating_sub(before.skipped);
+        self.unseen += unseen;
         self.restarts = self.restarts.max(now.generation);
         self.run = if missed == 0 { 0 } else { self.run + missed };
         self.longest_miss_run = self.longest_miss_run.max(self.run);
         self.last = Some(now);
-        CycleMisses { missed, skipped }
+        let header = &pulse.header;
+        let is_timely = header.published_ns <= pulse.released_ns + PERIOD_NS;
+        let is_good = is_timely && header.published_ns.saturating_sub(header.sensor_ns) <= fresh_ns;
+        let good = if is_good { timely } else { 0 };
+        self.outage_on_fresh_data.report(header.cycle, good, is_good);
+        CycleFindings { outage: self.outage.report(header.cycle, timely, is_timely), unseen }
+    }
+
+    /// Timely outputs since the newest pulse, that of `now` included. A replacement counts its sequence on from its
+    /// predecessor's checkpoint, or from 0 without one.
+    fn timely_outputs(&self, now: PulseCounters) -> u64 {
+        let (outputs, missed) = match self.last {
+            Some(last) if last.generation == now.generation => {
+                (now.sequence.saturating_sub(last.sequence), now.missed.saturating_sub(last.missed))
+            }
+            Some(last) if now.sequence > last.sequence => (now.sequence - last.sequence, now.missed),
+            // Of a replacement that counts from further back, no more is known than this one output.
+            Some(_) => (1, now.missed),
+            None => (now.sequence + 1, now.missed),
+        };
+        outputs.saturating_sub(missed)
+    }
+
+    /// Outputs since the newest pulse, without that of `now`. How many a dead predecessor has made last is not known.
+    fn unseen_outputs(&self, now: PulseCounters) -> u64 {
+        match self.last {
+            Some(last) if last.generation == now.generation => now.sequence.saturating_sub(last.sequence + 1),
+            None if now.generation == 0 => now.sequence,
+            _ => 0,
+        }
     }
 }

@@ -8,15 +8,33 @@ pub struct Rules {
     pub anticipated_fraction: f64,
     /// Greatest fraction of the partner's actions that may be answered wrongly.
     pub wrong_fraction: f64,
-    /// Greatest fraction of cycles that a process under SCHED_FIFO may publish late, beyond what the machine itself was
-    /// late by ([`MachineReport`](coact_run_records::MachineReport)).
-    pub missed_fraction: f64,
-    /// The same for a process that did not obtain SCHED_FIFO.
-    pub missed_fraction_unprivileged: f64,
     /// A run that lasted as long must have achieved every subgoal, s.
     pub assembly_within_s: f64,
     /// Longest recovery from a fault, ms.
     pub recovered_within_ms: f64,
+    /// Greatest speed of a joint, as a fraction of its limit.
+    pub joint_speed_fraction: f64,
+    /// Greatest acceleration of a joint, as a fraction of its limit.
+    pub joint_acceleration_fraction: f64,
+    /// How far a joint may be beyond its limits of position, rad.
+    pub joint_beyond_rad: f64,
+    /// For how long the arm may move on after the data of the newest command became too old, ms.
+    pub moved_on_stale_data_ms: u64,
+    /// For how long the monitor may have seen nothing, s.
+    pub blind_s: f64,
+    /// Greatest fraction of cycles without timely output, of a process under SCHED_FIFO and of the command, beyond those at
+    /// which the machine itself was late ([`MachineReport`](coact_run_records::MachineReport)).
+    pub outage_fraction: f64,
+    /// The same for a process that did not obtain SCHED_FIFO.
+    pub outage_fraction_unprivileged: f64,
+    /// Longest outage of a process, and of the command, ms.
+    pub longest_outage_ms: u64,
+    /// From sensor sample to command, 99.9 % of the cycles, ms ...
+    pub end_to_end_p999_ms: f64,
+    /// ... or, where that is more, so many times as late as the machine itself ...
+    pub end_to_end_p999_times_machine: f64,
+    /// ... and so much longer, ms.
+    pub end_to_end_p999_beyond_machine_ms: f64,
 }
 
 /// Why the rules could not be read.

@@ -1,15 +1,35 @@
 //! The rules of `verdict.toml`, applied to a summary.
 
 use crate::Rules;
-use coact_run_records::{Event, Summary};
+use coact_run_records::{Event, MotionReport, OutageReport, Summary};
 
-/// One sentence for each rule that was broken.
-pub(crate) fn reasons(summary: &Summary, events: &[Event], run_s: f64, rules: &Rules) -> Vec<String> {
+/// What was done, one sentence for each rule that was broken: task, anticipation, safety, nothing lost.
+pub(crate) fn work(summary: &Summary, events: &[Event], run_s: f64, rules: &Rules) -> Vec<String> {
     let mut reasons = Vec::new();
     task(summary, events, run_s, rules, &mut reasons);
     anticipation(summary, events, rules, &mut reasons);
-    deadlines(summary, rules, &mut reasons);
     faults(summary, rules, &mut reasons);
+    motion(&summary.motion, rules, &mut reasons);
+    if summary.blind_s > rules.blind_s {
+        reasons.push(format!(
+            "the monitor saw nothing for {:.1} s, so that this report says nothing about them; at most {:.1} s may be unseen",
+            summary.blind_s, rules.blind_s
+        ));
+    }
+    reasons
+}
+
+/// How punctual it was, likewise: outage and end to end. Of a run in lockstep nothing, for no clock runs in it.
+pub(crate) fn timing(summary: &Summary, rules: &Rules) -> Vec<String> {
+    let mut reasons = Vec::new();
+    for (name, process) in &summary.processes {
+        let scheduler = summary.environment.schedulers.get(name);
+        let privileged = scheduler.is_some_and(|class| class.starts_with("SCHED_FIFO"));
+        outage(name, &process.outage, privileged, summary, rules, &mut reasons);
+    }
+    let privileged = summary.environment.schedulers.values().any(|class| class.starts_with("SCHED_FIFO"));
+    outage("the command to the arm", &summary.command_outage, privileged, summary, rules, &mut reasons);
+    end_to_end(summary, rules, &mut reasons);
     reasons
 }
 
@@ -53,23 +73,65 @@ fn anticipation(summary: &Summary, events: &[Event], rules: &Rules, reasons: &mu
     }
 }
 
-/// A process may be late as often as the machine itself was, and a little more.
-fn deadlines(summary: &Summary, rules: &Rules, reasons: &mut Vec<String>) {
-    let machine = summary.environment.machine.unwrap_or_default().late;
-    for (name, process) in &summary.processes {
-        let scheduler = summary.environment.schedulers.get(name);
-        let privileged = scheduler.is_some_and(|class| class.starts_with("SCHED_FIFO"));
-        let limit = if privileged { rules.missed_fraction } else { rules.missed_fraction_unprivileged };
-        let fraction = process.missed.saturating_sub(machine) as f64 / process.cycles.max(1) as f64;
-        if fraction > limit {
+/// What happened at the joints, whoever commanded it.
+fn motion(motion: &MotionReport, rules: &Rules, reasons: &mut Vec<String>) {
+    let mut fraction = |what: &str, found: f64, limit: f64| {
+        if found > limit {
             reasons.push(format!(
-                "{name} missed {} of {} deadlines, the machine itself was late {machine} times; at most {:.2} % may be \
-                 missed beyond that",
-                process.missed,
-                process.cycles,
-                100.0 * limit
+                "a joint's {what} was {found:.2} times its limit; at most {limit:.2} times is allowed"
             ));
         }
+    };
+    fraction("speed", motion.speed, rules.joint_speed_fraction);
+    fraction("acceleration", motion.acceleration, rules.joint_acceleration_fraction);
+    if motion.beyond_position_rad > rules.joint_beyond_rad {
+        reasons
+            .push(format!("a joint was {:.4} rad beyond its limit of position", motion.beyond_position_rad));
+    }
+    if motion.on_stale_data_ms > rules.moved_on_stale_data_ms {
+        reasons.push(format!(
+            "the arm still moved {} ms after its newest data had become too old; within {} ms it must stand",
+            motion.on_stale_data_ms, rules.moved_on_stale_data_ms
+        ));
+    }
+}
+
+/// Outputs may be missing as often as the machine itself was late, and a little more often; never for long at a time.
+fn outage(
+    name: &str,
+    outage: &OutageReport,
+    privileged: bool,
+    summary: &Summary,
+    rules: &Rules,
+    reasons: &mut Vec<String>,
+) {
+    let machine = summary.environment.machine.unwrap_or_default().late;
+    let limit = if privileged { rules.outage_fraction } else { rules.outage_fraction_unprivileged };
+    let fraction = outage.without_output.saturating_sub(machine) as f64 / outage.due.max(1) as f64;
+    if fraction > limit || outage.longest > rules.longest_outage_ms {
+        reasons.push(format!(
+            "{name} was missing or late in {} of {} cycles, for {} ms from {:.1} s on at the longest; the machine itself was \
+             late {machine} times, and at most {:.2} % beyond that, and {} ms at a time, may be missing",
+            outage.without_output,
+            outage.due,
+            outage.longest,
+            outage.longest_from_ms as f64 / 1e3,
+            100.0 * limit,
+            rules.longest_outage_ms
+        ));
+    }
+}
+
+fn end_to_end(summary: &Summary, rules: &Rules, reasons: &mut Vec<String>) {
+    let ms = |ns: u64| ns as f64 / 1e6;
+    let machine = ms(summary.environment.machine.unwrap_or_default().p999_ns);
+    let beyond = rules.end_to_end_p999_times_machine * machine + rules.end_to_end_p999_beyond_machine_ms;
+    let (found, limit) = (ms(summary.end_to_end_ns.p999), rules.end_to_end_p999_ms.max(beyond));
+    if found > limit {
+        reasons.push(format!(
+            "one command in 1000 came {found:.2} ms after its sensor sample, or later; at most {limit:.2} ms may pass \
+             (an idle thread of this machine was late by {machine:.2} ms as often)"
+        ));
     }
 }
 

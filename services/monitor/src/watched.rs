@@ -1,7 +1,8 @@
 use crate::{Intentions, PipelineNode, Rules};
 use coact_joint_task::Task;
+use coact_robot::JointLimits;
 use std::path::PathBuf;
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
 /// What a monitor watches.
 #[derive(Debug, Clone)]
@@ -14,6 +15,10 @@ pub struct Watched {
     pub intentions: Intentions,
     /// The processes that send pulses.
     pub nodes: Vec<PipelineNode>,
+    /// Limits of the arm's joints.
+    pub limits: Vec<JointLimits>,
+    /// What descends from an older sensor sample is not used.
+    pub fresh: Duration,
     /// What the run must reach.
     pub rules: Rules,
     /// Start of the run, ns of `CLOCK_MONOTONIC`.

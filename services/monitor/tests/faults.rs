@@ -3,7 +3,7 @@
 
 mod support;
 
-use coact_monitor::{CycleMisses, Faults};
+use coact_monitor::Faults;
 use coact_run_records::{Event, FaultEvent, SupervisorEvent, SupervisorEventKind};
 use support::pulse;
 
@@ -19,11 +19,11 @@ fn set() -> Faults {
     Faults::new(vec!["fields".into(), "control".into(), "world".into()])
 }
 
-/// A pulse of `generation`, published at about `at_ms`.
-fn beat(faults: &mut Faults, process: &str, generation: u32, at_ms: u64, missed: u64) {
-    let mut pulse = pulse(at_ms - 1, 0);
+/// A pulse of `generation`, published at `at_ms` and 0.1 ms, or a period later when `late`.
+fn beat(faults: &mut Faults, process: &str, generation: u32, at_ms: u64, late: bool) {
+    let mut pulse = pulse(at_ms - 1, if late { MS } else { 0 });
     pulse.header.generation = generation;
-    faults.pulse(process, &pulse, CycleMisses { missed, skipped: 0 });
+    faults.pulse(process, &pulse, u64::from(late));
 }
 
 fn settled(faults: &mut Faults, at_ms: u64) -> Vec<FaultEvent> {
@@ -41,20 +41,21 @@ fn settled(faults: &mut Faults, at_ms: u64) -> Vec<FaultEvent> {
 #[test]
 fn kill_is_detected_recovered_and_its_cost_to_others_counted() {
     let mut faults = set();
-    beat(&mut faults, "control", 0, 90, 1); // before the fault: not its cost
+    beat(&mut faults, "control", 0, 90, true); // before the fault: not its cost
     faults.supervisor(&seen(SupervisorEventKind::Injected, "fields", 0, 100));
-    beat(&mut faults, "fields", 0, 101, 0); // sent before the signal arrived: no recovery
-    beat(&mut faults, "control", 0, 102, 1);
-    beat(&mut faults, "control", 0, 103, 1);
-    beat(&mut faults, "world", 0, 103, 1);
+    beat(&mut faults, "fields", 0, 101, false); // published before the signal arrived: its last good output
+    beat(&mut faults, "control", 0, 102, true);
+    beat(&mut faults, "control", 0, 103, true);
+    beat(&mut faults, "world", 0, 103, true);
     faults.supervisor(&seen(SupervisorEventKind::Died, "fields", 0, 104));
-    beat(&mut faults, "fields", 1, 120, 1); // its own misses are no survivor's
-    beat(&mut faults, "control", 0, 150, 1); // after the recovery
+    beat(&mut faults, "fields", 1, 119, true); // late: no good output, and no survivor's
+    beat(&mut faults, "fields", 1, 121, false);
+    beat(&mut faults, "control", 0, 150, true); // after the recovery
     assert_eq!(settled(&mut faults, 200), [], "other pulses may still be on their way");
     let fault = settled(&mut faults, 400).remove(0);
     assert_eq!((fault.process.as_str(), fault.fault.as_str()), ("fields", "kill"));
-    assert_eq!(fault.detected_ms, Some(4.0));
-    assert_eq!(fault.recovered_ms, Some(20.1));
+    assert_eq!(fault.at_ns, 101 * MS + MS / 10);
+    assert_eq!((fault.detected_ms, fault.recovered_ms), (Some(2.9), Some(20.0)));
     assert_eq!(
         fault.survivors_missed.into_iter().collect::<Vec<_>>(),
         [("control".into(), 2), ("world".into(), 1)]
@@ -63,10 +64,33 @@ fn kill_is_detected_recovered_and_its_cost_to_others_counted() {
 }
 
 #[test]
-fn death_that_nobody_asked_for_is_a_fault_too() {
+fn a_fault_that_nobody_asked_for_begins_with_the_last_good_output_before_it() {
+    let mut faults = set();
+    (1..500).for_each(|at| beat(&mut faults, "control", 0, at, false));
+    // It hung for 2.5 s before anybody noticed.
+    faults.supervisor(&seen(SupervisorEventKind::Died, "control", 0, 2999));
+    beat(&mut faults, "control", 1, 3019, false);
+    let fault = settled(&mut faults, 4000).remove(0);
+    assert_eq!((fault.fault.as_str(), fault.at_ns), ("signal 9", 499 * MS + MS / 10));
+    assert_eq!((fault.detected_ms, fault.recovered_ms), (Some(2499.9), Some(2520.0)));
+}
+
+#[test]
+fn pulses_that_are_read_after_the_record_of_a_death_count_by_their_stamps() {
     let mut faults = set();
     faults.supervisor(&seen(SupervisorEventKind::Died, "world", 0, 50));
-    beat(&mut faults, "world", 1, 80, 0);
+    (40..49).for_each(|at| beat(&mut faults, "world", 0, at, false));
+    beat(&mut faults, "world", 1, 80, false);
+    let fault = settled(&mut faults, 1000).remove(0);
+    assert_eq!(fault.at_ns, 48 * MS + MS / 10);
+    assert_eq!((fault.detected_ms, fault.recovered_ms), (Some(1.9), Some(32.0)));
+}
+
+#[test]
+fn a_process_that_never_published_has_failed_when_that_was_seen() {
+    let mut faults = set();
+    faults.supervisor(&seen(SupervisorEventKind::Died, "world", 0, 50));
+    beat(&mut faults, "world", 1, 80, false);
     let fault = settled(&mut faults, 1000).remove(0);
     assert_eq!((fault.fault.as_str(), fault.detected_ms), ("signal 9", Some(0.0)));
     assert_eq!(fault.recovered_ms, Some(30.1));
@@ -78,7 +102,7 @@ fn a_replacement_that_dies_too_belongs_to_the_same_fault() {
     faults.supervisor(&seen(SupervisorEventKind::Injected, "fields", 0, 100));
     faults.supervisor(&seen(SupervisorEventKind::Died, "fields", 0, 101));
     faults.supervisor(&seen(SupervisorEventKind::Died, "fields", 1, 140));
-    beat(&mut faults, "fields", 2, 200, 0);
+    beat(&mut faults, "fields", 2, 200, false);
     let all = settled(&mut faults, 1000);
     assert_eq!(all.len(), 1);
     assert_eq!((all[0].detected_ms, all[0].recovered_ms), (Some(1.0), Some(100.1)));
@@ -88,11 +112,22 @@ fn a_replacement_that_dies_too_belongs_to_the_same_fault() {
 fn a_disturbed_process_has_recovered_after_its_last_late_cycle() {
     let mut faults = set();
     faults.supervisor(&seen(SupervisorEventKind::Injected, "fields", 0, 100));
-    for (at, missed) in [(101, 0), (102, 1), (103, 1), (104, 0), (105, 1), (106, 0), (107, 0)] {
-        beat(&mut faults, "fields", 0, at, missed);
+    for (at, late) in
+        [(101, false), (102, true), (103, true), (104, false), (105, true), (107, false), (108, false)]
+    {
+        beat(&mut faults, "fields", 0, at, late);
     }
     let fault = settled(&mut faults, 1000).remove(0);
-    assert_eq!((fault.detected_ms, fault.recovered_ms), (None, Some(6.1)));
+    assert_eq!(fault.at_ns, 101 * MS + MS / 10, "the fault took effect after that");
+    assert_eq!((fault.detected_ms, fault.recovered_ms), (None, Some(6.0)));
+}
+
+#[test]
+fn a_fault_without_effect_was_over_at_once() {
+    let mut faults = set();
+    faults.supervisor(&seen(SupervisorEventKind::Injected, "fields", 0, 100));
+    (101..400).for_each(|at| beat(&mut faults, "fields", 0, at, false));
+    assert_eq!(settled(&mut faults, 1000)[0].recovered_ms, Some(0.0));
 }
 
 #[test]
@@ -113,6 +148,20 @@ fn a_process_that_is_given_up_never_recovers() {
 }
 
 #[test]
+fn a_fault_without_recovery_is_not_reported_twice_either() {
+    let mut faults = set();
+    beat(&mut faults, "fields", 0, 99, false);
+    let died = seen(SupervisorEventKind::Died, "fields", 0, 100);
+    faults.supervisor(&died);
+    faults.supervisor(&seen(SupervisorEventKind::GaveUp, "fields", 0, 101));
+    let told = settled(&mut faults, 1000).into_iter().map(Event::Fault).collect::<Vec<_>>();
+    let mut restarted = set();
+    restarted.resume(&told);
+    restarted.supervisor(&died);
+    assert_eq!(settled(&mut restarted, 9000), []);
+}
+
+#[test]
 fn a_restarted_monitor_does_not_report_a_fault_twice() {
     let (mut faults, mut restarted) = (set(), set());
     let lines = [
@@ -120,13 +169,13 @@ fn a_restarted_monitor_does_not_report_a_fault_twice() {
         seen(SupervisorEventKind::Died, "fields", 0, 101),
     ];
     lines.iter().for_each(|line| faults.supervisor(line));
-    beat(&mut faults, "fields", 1, 120, 0);
+    beat(&mut faults, "fields", 1, 120, false);
     let told = settled(&mut faults, 1000).into_iter().map(Event::Fault).collect::<Vec<_>>();
     restarted.resume(&told);
     lines.iter().for_each(|line| restarted.supervisor(line));
-    beat(&mut restarted, "fields", 1, 2000, 0);
+    beat(&mut restarted, "fields", 1, 2000, false);
     assert_eq!(settled(&mut restarted, 9000), []);
     restarted.supervisor(&seen(SupervisorEventKind::Died, "fields", 1, 3000));
-    beat(&mut restarted, "fields", 2, 3020, 0);
+    beat(&mut restarted, "fields", 2, 3020, false);
     assert_eq!(settled(&mut restarted, 9000).len(), 1);
 }

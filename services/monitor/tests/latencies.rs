@@ -6,7 +6,7 @@ mod support;
 use coact_monitor::metrics::{END_TO_END, execution_name, hop_name, wakeup_name};
 use coact_monitor::{IntervalLog, Latencies, Metrics, PipelineNode};
 use std::path::Path;
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 use support::pulse;
 
 fn open(folder: &Path) -> Latencies {
@@ -16,7 +16,7 @@ fn open(folder: &Path) -> Latencies {
         last,
     };
     let nodes = vec![link("fields", "perception", false), link("control", "fields", true)];
-    Latencies::open(folder, nodes, SystemTime::now()).unwrap()
+    Latencies::open(folder, nodes, Duration::from_millis(50), SystemTime::now()).unwrap()
 }
 
 fn count(latencies: &Latencies, name: &str) -> u64 {

@@ -3,14 +3,14 @@
 
 mod support;
 
-use coact_messages::{LayerKind, SensorSample, Speech};
+use coact_messages::{LayerKind, Pulse, SensorSample, Speech};
 use coact_monitor::{Monitor, PipelineNode, Rules, Watched};
 use coact_run_records::{
-    Environment, Event, MachineReport, Record, Snapshot, Summary, SupervisorEvent, Verdict,
+    Environment, Event, Judgement, MachineReport, Record, RunLog, Snapshot, Summary, SupervisorEvent, Verdict,
 };
 use serde_json::Value;
 use std::path::Path;
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 use support::schema::misfit;
 use support::*;
 
@@ -25,7 +25,8 @@ fn watched(report: &Path) -> Watched {
     let (task, intentions) = (task(), intentions());
     let started = SystemTime::now();
     let report = report.to_owned();
-    Watched { report, task, intentions, nodes, rules: rules(), start_ns: 0, started }
+    let (limits, fresh) = (arm_limits(), Duration::from_millis(50));
+    Watched { report, task, intentions, nodes, limits, fresh, rules: rules(), start_ns: 0, started }
 }
 
 fn open(report: &Path) -> Monitor {
@@ -67,7 +68,7 @@ fn finish(monitor: Monitor) -> Summary {
         cores: 2,
         memory_locked: true,
         schedulers: [("control".into(), "SCHED_FIFO 80 on core 1".into())].into(),
-        machine: Some(MachineReport { wakeups: 2000, late: 3, longest_ns: 4_500_000 }),
+        machine: Some(MachineReport { wakeups: 2000, late: 3, p999_ns: 80_000, longest_ns: 4_500_000 }),
     };
     monitor.finish(environment, 2_000_000_000).unwrap()
 }
@@ -150,7 +151,7 @@ fn a_killed_monitor_goes_on_and_tells_the_same_story() {
     assert_eq!(found.task, expected.task);
     assert_eq!(found.anticipation, expected.anticipation);
     assert_eq!(found.processes, expected.processes);
-    assert_eq!((found.verdict, found.reasons), (Verdict::Pass, vec![]));
+    assert_eq!((found.work, found.timing), (Judgement::default(), Judgement::default()));
 }
 
 #[test]
@@ -166,8 +167,15 @@ fn an_achieved_subgoal_that_the_fields_lose_fails_the_run() {
     assert_eq!(events, [Event::Forgotten { at_ms: 1100, name: "lid".into() }]);
     monitor.record(1, events).unwrap();
     let summary = finish(monitor);
-    assert_eq!(summary.verdict, Verdict::Fail);
-    assert_eq!(summary.reasons, ["at 1.1 s the fields lost the achieved subgoal \"lid\""]);
+    assert_eq!(summary.work.verdict, Verdict::Fail);
+    assert_eq!(summary.work.reasons, ["at 1.1 s the fields lost the achieved subgoal \"lid\""]);
+}
+
+/// Cycle of a process that publishes a period late in every second cycle.
+fn halting(cycle: u64) -> Pulse {
+    let mut halting = pulse(cycle, if cycle % 2 == 1 { 1_000_000 } else { 0 });
+    halting.missed = cycle.div_ceil(2);
+    halting
 }
 
 #[test]
@@ -179,34 +187,76 @@ fn each_rule_that_is_broken_is_one_reason() {
     let mut monitor = open(folder.path());
     let mut events = Vec::new();
     for cycle in 0..1000 {
-        // The wrong action is decided on, and half of the deadlines are missed.
+        // The wrong action is decided on, half of the deadlines are missed, and the arm moves too fast.
         monitor.truth(&acting(cycle, 1, MOUNT, LID, 100, if cycle >= 800 { 800 } else { 0 }), &mut events);
         let frame = if cycle >= 600 { decided(cycle, RECEIVE_HINGE, 600) } else { frame(cycle) };
         monitor.frame(&frame, &mut events);
-        let mut late = pulse(cycle, 0);
-        late.missed = cycle.div_ceil(2);
-        monitor.pulse("control", &late);
+        monitor.pulse("control", &halting(cycle));
+        monitor.sample(&moving(cycle, 2.5));
     }
+    // Then nothing was seen for three seconds, while the arm moved on without a command.
+    let mut later = halting(4000);
+    later.header.sensor_ns = halting(999).header.sensor_ns;
+    monitor.pulse("control", &later);
+    (4001..4100).for_each(|cycle| monitor.sample(&moving(cycle, 2.5)));
     monitor.record(1, events).unwrap();
     let summary = monitor.finish(Environment::default(), 200_000_000_000).unwrap();
-    insta::assert_snapshot!(summary.reasons.join("\n"));
+    let sentences = [summary.work.reasons.join("\n"), summary.timing.reasons.join("\n")];
+    insta::assert_snapshot!(sentences.join("\n-- timing\n"));
 }
 
 #[test]
-fn a_process_may_be_late_as_often_as_the_machine_itself() {
-    let machine = |late| Some(MachineReport { wakeups: 1000, late, longest_ns: 2_000_000 });
+fn outputs_may_be_missing_as_often_as_the_machine_itself_was_late() {
+    let machine =
+        |late| Some(MachineReport { wakeups: 1000, late, p999_ns: 5_000_000, longest_ns: 5_000_000 });
     for (late, passes) in [(500, true), (430, false)] {
         let folder = tempfile::tempdir().unwrap();
         let mut monitor = open(folder.path());
-        for cycle in 0..1000 {
-            let mut halting = pulse(cycle, 0);
-            halting.missed = cycle.div_ceil(2);
-            monitor.pulse("control", &halting);
-        }
+        (0..1000).for_each(|cycle| monitor.pulse("control", &halting(cycle)));
         let environment = Environment { machine: machine(late), ..Environment::default() };
         let summary = monitor.finish(environment, 1_000_000_000).unwrap();
-        assert_eq!(summary.reasons.is_empty(), passes, "{late} late wake-ups: {:?}", summary.reasons);
+        assert_eq!(summary.timing.passes(), passes, "{late} late wake-ups: {:?}", summary.timing);
+        assert!(summary.work.passes(), "what the machine is late by spoils no work: {:?}", summary.work);
     }
+}
+
+#[test]
+fn what_is_due_ends_when_a_process_was_requested_to_end() {
+    let stop = INJECTED.replace("injected", "stop_requested").replace("700000000", "1000000000");
+    for (log, missing) in [(String::new(), 1000), (format!("{stop}\n"), 0)] {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join(SupervisorEvent::FILE), log).unwrap();
+        let mut monitor = open(folder.path());
+        (0..1000).for_each(|cycle| monitor.pulse("control", &pulse(cycle, 0)));
+        let summary = monitor.finish(Environment::default(), 2_000_000_000).unwrap();
+        assert_eq!(summary.processes["control"].outage.without_output, missing);
+        assert_eq!(summary.command_outage.longest, missing);
+        assert_eq!(summary.timing.passes(), missing == 0, "{:?}", summary.timing);
+    }
+}
+
+#[test]
+fn a_process_that_never_published_was_missing_all_the_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = open(folder.path()).finish(Environment::default(), 5_000_000_000).unwrap();
+    assert_eq!(summary.processes["control"].outage.without_output, 5000);
+    assert!(!summary.timing.passes());
+}
+
+#[test]
+fn a_monitor_that_stood_still_says_from_when_to_when_and_fails_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut monitor = open(folder.path());
+    (0..1000).for_each(|cycle| monitor.pulse("control", &pulse(cycle, 0)));
+    monitor.record(1, Vec::new()).unwrap();
+    // Its buffers hold the last half second of the 15 in which it did not look.
+    (15_488..16_000).for_each(|cycle| monitor.pulse("control", &pulse(cycle, 0)));
+    monitor.record(1, Vec::new()).unwrap();
+    let summary = monitor.finish(Environment::default(), 16_000_000_000).unwrap();
+    let events = RunLog::<Event>::read(folder.path()).unwrap();
+    assert!(events.contains(&Event::Blind { from_ms: 1000, until_ms: 15_488 }), "{events:?}");
+    assert_eq!((summary.blind_s, summary.processes["control"].unseen), (14.488, 14_488));
+    assert!(!summary.work.passes() && summary.timing.passes(), "{:?} {:?}", summary.work, summary.timing);
 }
 
 #[test]

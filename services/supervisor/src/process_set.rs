@@ -176,6 +176,7 @@ impl ProcessSet {
     fn stop_together(&mut self, group: &[usize], meanwhile: &mut impl FnMut()) {
         let begin = monotonic_time();
         for &index in group {
+            self.record(index, SupervisorEventKind::StopRequested, None, None);
             self.processes[index].request_stop();
         }
         while group.iter().any(|&index| self.processes[index].running().is_some()) {

@@ -95,7 +95,9 @@ impl RunProgress {
         let fault = event.fault.as_deref().unwrap_or("fault");
         let reason = event.reason.as_deref().unwrap_or("no reason known");
         let (kind, text) = match event.event {
-            SupervisorEventKind::Started | SupervisorEventKind::Stopped => return,
+            SupervisorEventKind::Started
+            | SupervisorEventKind::StopRequested
+            | SupervisorEventKind::Stopped => return,
             SupervisorEventKind::Ready if *generation == 0 => return,
             SupervisorEventKind::Ready => {
                 (NoteKind::Achieved, format!("{process} is back (restart {generation})"))

@@ -198,8 +198,12 @@ fn a_run_whose_monitor_never_lived_goes_on_and_has_a_summary_that_says_so() {
     let report = launch.settings.report.clone();
     assert_eq!(launch.run().unwrap(), Ending::DurationOver);
     let summary = Summary::read(&report).unwrap();
-    assert_eq!(summary.verdict, Verdict::Fail);
-    assert!(summary.reasons[0].starts_with("the monitor wrote no summary"), "{:?}", summary.reasons);
+    assert_eq!(summary.work.verdict, Verdict::Fail);
+    assert!(
+        summary.work.reasons[0].starts_with("the monitor wrote no summary"),
+        "{:?}",
+        summary.work.reasons
+    );
     assert!(place.count(SupervisorEventKind::Restarted, "monitor") > 3);
     assert_eq!(place.count(SupervisorEventKind::Died, "a"), 0);
 }

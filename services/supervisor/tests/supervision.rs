@@ -300,6 +300,8 @@ fn all_are_stopped_in_descending_order_and_one_that_ignores_the_signal_is_killed
     trial.events.clear();
     trial.set.stop(|| {});
     trial.events.extend(trial.set.take_events());
+    let requested = trial.events.extract_if(.., |event| event.event == SupervisorEventKind::StopRequested);
+    assert_eq!(requested.count(), pids.len());
     let order: Vec<&str> = trial.sequence().iter().map(|(_, name)| *name).collect();
     assert_eq!(order, ["z", "ignores-signal", "a", "first"]);
     assert!(trial.events.iter().all(|event| event.event == SupervisorEventKind::Stopped));

@@ -43,6 +43,9 @@ const STAGES: &[&str] = &["world", "perception", "fields", "control"];
 const NEWEST: usize = 2;
 /// Depth where every cycle's message must arrive at a monitor that looks every 5 ms: half a second of them.
 const EVERY_CYCLE: usize = 512;
+/// Depth of the sensor samples: the monitor, which looks every 5 ms, measures at the joints what they did in each cycle. It may
+/// be held up six times as long; what it then misses, it reports.
+const JOINTS_EACH_CYCLE: usize = 32;
 /// Depth of spoken sentences: many more than are said while nobody looks.
 const SENTENCES: usize = 32;
 
@@ -68,6 +71,7 @@ pub const ALL: [TopicEntry; 10] = [
         writers: &["world"],
         readers: &["perception", "control", "monitor"],
         checkpoint: false,
+        depth: JOINTS_EACH_CYCLE,
         ..CHAIN
     },
     TopicEntry {

@@ -17,13 +17,18 @@ pub struct LatencyProbe {
     thread: Option<JoinHandle<()>>,
 }
 
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Counters {
     wakeups: AtomicU64,
     late: AtomicU64,
     longest_ns: AtomicU64,
+    /// How many wake-ups were late by so many whole microseconds; the last one counts all that were later.
+    by_us: Vec<AtomicU64>,
     stop: AtomicBool,
 }
+
+/// Lateness is told apart up to this, µs: ten periods. Of what is later, only the number and the greatest are of interest.
+const LONGEST_US: usize = 10_000;
 
 impl LatencyProbe {
     /// Starts to measure, half a period after each release, when the chain rests.
@@ -31,7 +36,7 @@ impl LatencyProbe {
     /// `None` where no process of the table is released by the timer, or the system grants no thread.
     pub fn start(pipeline: &Pipeline, schedule: Schedule) -> Option<Self> {
         let first = pipeline.processes.iter().find(|entry| entry.trigger == Trigger::Timer)?.clone();
-        let counters = Arc::new(Counters::default());
+        let counters = Arc::new(Counters::new());
         let of_thread = Arc::clone(&counters);
         let body = move || {
             // Refused, it is scheduled like the chain, which was refused the same.
@@ -45,10 +50,12 @@ impl LatencyProbe {
     /// What it has measured so far.
     pub fn lateness(&self) -> WakeUpLateness {
         let Counters { wakeups, late, longest_ns, .. } = &*self.counters;
+        let longest_ns = longest_ns.load(Relaxed);
         WakeUpLateness {
             wakeups: wakeups.load(Relaxed),
             late: late.load(Relaxed),
-            longest_ns: longest_ns.load(Relaxed),
+            p999_ns: self.counters.quantile_ns(0.999).min(longest_ns),
+            longest_ns,
         }
     }
 }
@@ -62,6 +69,27 @@ impl Drop for LatencyProbe {
 }
 
 impl Counters {
+    fn new() -> Self {
+        let by_us = std::iter::repeat_with(AtomicU64::default).take(LONGEST_US + 1).collect();
+        let count = AtomicU64::default;
+        Self { wakeups: count(), late: count(), longest_ns: count(), by_us, stop: AtomicBool::new(false) }
+    }
+
+    /// This fraction of the wake-ups was no later, ns, rounded up to whole microseconds.
+    fn quantile_ns(&self, quantile: f64) -> u64 {
+        let counts: Vec<u64> = self.by_us.iter().map(|count| count.load(Relaxed)).collect();
+        let wanted = (quantile * counts.iter().sum::<u64>() as f64).ceil() as u64;
+        let mut reached = 0;
+        let found = counts.iter().position(|count| {
+            reached += count;
+            reached >= wanted
+        });
+        match found {
+            Some(LONGEST_US) | None => u64::MAX,
+            Some(us) => (us as u64 + 1) * 1000,
+        }
+    }
+
     fn measure(&self, schedule: Schedule) {
         let half = PERIOD_NS / 2;
         let due = |tick| schedule.release(tick) + half;
@@ -73,6 +101,7 @@ impl Counters {
             self.wakeups.fetch_add(1, Relaxed);
             self.late.fetch_add(u64::from(late_by >= PERIOD_NS), Relaxed);
             self.longest_ns.fetch_max(late_by, Relaxed);
+            self.by_us[LONGEST_US.min((late_by / 1000) as usize)].fetch_add(1, Relaxed);
             tick = (tick + 1).max(schedule.next_after(woken.saturating_sub(half)));
         }
     }
@@ -100,6 +129,18 @@ mod tests {
         let periods = (now() - start) / PERIOD_NS;
         assert!((1..=periods).contains(&seen.wakeups), "{seen:?} in {periods} periods");
         assert!(seen.late <= seen.wakeups && seen.wakeups + seen.longest_ns / PERIOD_NS >= 10, "{seen:?}");
+    }
+
+    #[test]
+    fn one_wake_up_in_a_thousand_is_later_than_the_quantile() {
+        let counters = Counters::new();
+        counters.by_us[3].store(999, Relaxed);
+        counters.by_us[70].store(1, Relaxed);
+        assert_eq!(counters.quantile_ns(0.999), 4000);
+        counters.by_us[70].store(2, Relaxed);
+        assert_eq!(counters.quantile_ns(0.999), 71_000);
+        counters.by_us[LONGEST_US].store(9, Relaxed);
+        assert_eq!(counters.quantile_ns(0.999), u64::MAX, "only the greatest lateness bounds it");
     }
 
     #[test]

@@ -5,6 +5,8 @@ pub struct WakeUpLateness {
     pub wakeups: u64,
     /// How often it did so a whole period late, or later.
     pub late: u64,
+    /// 99.9 % of its wake-ups were no later than this, ns, to the microsecond.
+    pub p999_ns: u64,
     /// The greatest lateness, ns.
     pub longest_ns: u64,
 }

@@ -29,6 +29,8 @@ pub struct MachineReport {
     pub wakeups: u64,
     /// How often a whole period late, or later.
     pub late: u64,
+    /// 99.9 % of its wake-ups were no later than this, ns.
+    pub p999_ns: u64,
     /// The greatest wake-up lateness, ns.
     pub longest_ns: u64,
 }

@@ -49,6 +49,13 @@ pub enum Event {
     Action(ActionEvent),
     /// A fault, and how the set came over it.
     Fault(FaultEvent),
+    /// The monitor did not see what happened: it stood still for so long, or was restarted, that messages were lost.
+    Blind {
+        /// From when on.
+        from_ms: u64,
+        /// Until when.
+        until_ms: u64,
+    },
 }
 
 impl Record for Event {

@@ -10,13 +10,13 @@ pub struct FaultReport {
     pub process: String,
     /// What was done to it, or how it died.
     pub fault: String,
-    /// Instant of the fault, s from the start of the run.
+    /// Instant of the last good output before the fault, s from the start of the run.
     pub at_s: f64,
     /// From the fault until the supervisor saw it; none when it saw nothing.
     pub detected_ms: Option<f64>,
     /// Recovery: from the fault until the first good output; none when there was none.
     pub recovered_ms: Option<f64>,
-    /// Deadline misses of all survivors between fault and recovery.
+    /// Cycles without timely output of all survivors between fault and recovery.
     pub survivors_missed: u64,
     /// The same, by process.
     pub survivors_missed_by: BTreeMap<String, u64>,

@@ -1,4 +1,4 @@
-use crate::Percentiles;
+use crate::{OutageReport, Percentiles};
 use serde::{Deserialize, Serialize};
 
 /// How regular one process was.
@@ -13,8 +13,12 @@ pub struct ProcessReport {
     pub longest_miss_run: u64,
     /// Periods without a cycle, because the one before overran.
     pub skipped: u64,
+    /// Cycles of which the monitor saw no pulse; what was missed in them is known from the counters of the next one.
+    pub unseen: u64,
     /// How often it was restarted.
     pub restarts: u32,
+    /// Cycles without timely output, over cycles due.
+    pub outage: OutageReport,
     /// Wake-up lateness: actual minus scheduled start.
     pub wakeup_ns: Percentiles,
     /// Execution time: from start to publication.

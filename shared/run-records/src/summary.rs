@@ -1,6 +1,6 @@
 use crate::{
-    AnticipationReport, Environment, FaultReport, Percentiles, ProcessReport, ReactionReport, RecordError,
-    TaskReport, TrackingReport,
+    AnticipationReport, Environment, FaultReport, Judgement, MotionReport, OutageReport, Percentiles,
+    ProcessReport, ReactionReport, RecordError, TaskReport, TrackingReport,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -19,6 +19,12 @@ pub struct Summary {
     pub hops: BTreeMap<String, Percentiles>,
     /// From the sensor sample's stamp to the publication of the command.
     pub end_to_end_ns: Percentiles,
+    /// Cycles without a timely command that descends from a sensor sample young enough to be used, over cycles due.
+    pub command_outage: OutageReport,
+    /// How the arm moved, measured at its joints.
+    pub motion: MotionReport,
+    /// For how long the monitor itself lost what it watches, s.
+    pub blind_s: f64,
     /// How well the arm followed its setpoints.
     pub tracking_error_rad: TrackingReport,
     /// From a changed decision to the first command that it changes, ms.
@@ -29,21 +35,10 @@ pub struct Summary {
     pub task: TaskReport,
     /// Faults, and the recovery from each.
     pub faults: Vec<FaultReport>,
-    /// Whether the run reached what `verdict.toml` asks for.
-    pub verdict: Verdict,
-    /// Why not "pass": one sentence for each rule that was broken.
-    pub reasons: Vec<String>,
-}
-
-/// Whether a run reached what it had to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// Every rule was kept.
-    Pass,
-    /// At least one rule was broken.
-    Fail,
+    /// The work: task, anticipation, safety, nothing lost.
+    pub work: Judgement,
+    /// The timing, which is this machine's as well: outage, end to end.
+    pub timing: Judgement,
 }
 
 impl Summary {
@@ -57,13 +52,16 @@ impl Summary {
             processes: BTreeMap::new(),
             hops: BTreeMap::new(),
             end_to_end_ns: Percentiles::default(),
+            command_outage: OutageReport::default(),
+            motion: MotionReport::default(),
+            blind_s: 0.0,
             tracking_error_rad: TrackingReport::default(),
             movement_reaction_ms: ReactionReport::default(),
             anticipation: AnticipationReport::new(&[]),
             task,
             faults: Vec::new(),
-            verdict: Verdict::Fail,
-            reasons: vec![reason],
+            work: Judgement::new(vec![reason.clone()]),
+            timing: Judgement::new(vec![reason]),
         }
     }
 
@@ -110,19 +108,22 @@ mod tests {
     use crate::{Event, MachineReport};
 
     fn summary() -> Summary {
-        let machine = Some(MachineReport { wakeups: 1000, late: 3, longest_ns: 2_345_678 });
+        let machine = Some(MachineReport { wakeups: 1000, late: 3, p999_ns: 500_000, longest_ns: 2_345_678 });
         Summary {
             environment: Environment { machine, ..Environment::default() },
             processes: BTreeMap::new(),
             hops: BTreeMap::new(),
             end_to_end_ns: Percentiles::default(),
+            command_outage: OutageReport::default(),
+            motion: MotionReport::default(),
+            blind_s: 0.0,
             tracking_error_rad: TrackingReport::default(),
             movement_reaction_ms: ReactionReport::default(),
             anticipation: AnticipationReport::new(&[]),
             task: TaskReport::new(2, &[Event::Assembly { at_ms: 1200, completed: 1 }], 2.0),
             faults: Vec::new(),
-            verdict: Verdict::Fail,
-            reasons: vec!["only 0 of 2 subgoals were achieved".into()],
+            work: Judgement::new(vec!["only 0 of 2 subgoals were achieved".into()]),
+            timing: Judgement::default(),
         }
     }
 

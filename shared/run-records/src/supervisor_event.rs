@@ -44,6 +44,8 @@ pub enum SupervisorEventKind {
     GaveUp,
     /// About to get a fault injected.
     Injected,
+    /// Requested to end, because the run ends: nothing is due from it any more.
+    StopRequested,
     /// Ended because the run ended.
     Stopped,
 }

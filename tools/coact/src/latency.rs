@@ -167,15 +167,20 @@ mod tests {
     use super::*;
     use coact_messages::Pulse;
     use coact_monitor::{Latencies, PipelineNode};
-    use std::time::SystemTime;
+    use std::time::{Duration, SystemTime};
 
     /// A report of one process, `control`, that is last in the chain and woke up 1 to 100 µs late.
     fn written() -> tempfile::TempDir {
         let report = tempfile::tempdir().unwrap();
         let nodes =
             vec![PipelineNode { process: "control".into(), input_from: Some("fields".into()), last: true }];
-        let mut latencies =
-            Latencies::open(&report.path().join("latency"), nodes, SystemTime::now()).unwrap();
+        let mut latencies = Latencies::open(
+            &report.path().join("latency"),
+            nodes,
+            Duration::from_millis(50),
+            SystemTime::now(),
+        )
+        .unwrap();
         for cycle in 0..100 {
             let mut pulse = Pulse { scheduled_ns: 5_000_000, input_published_ns: 1, ..Pulse::default() };
             pulse.started_ns = pulse.scheduled_ns + (cycle + 1) * 1000;

@@ -24,7 +24,7 @@ use std::time::Duration;
   coact launch --partner recorded                     hands of real people; recorded:DIR for others
   coact launch --lockstep --world kinematic --json    as fast as the machine can
 
-Exit status: 0 every verdict holds, 1 one does not, 2 bad usage or configuration.")]
+Exit status: 0 the work was done (with --strict: in time, too), 1 it was not, 2 bad usage or configuration.")]
 pub struct Args {
     /// The task [default: the toy vehicle]
     #[arg(long, value_name = "FILE")]
@@ -56,6 +56,9 @@ pub struct Args {
     /// The limits that keep the person safe [default: rt-config/safety.toml]
     #[arg(long, value_name = "FILE")]
     safety: Option<PathBuf>,
+    /// Fail also when the timing was not what it should be
+    #[arg(long)]
+    strict: bool,
     /// Print nothing but the final summary.json on standard output
     #[arg(long)]
     json: bool,
@@ -73,7 +76,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// # Errors
 /// A file is missing or malformed, or the machine refuses the run: nothing was started, or it was stopped again.
 pub fn run(args: Args) -> Result<ExitCode> {
-    let (json, in_lockstep) = (args.json, args.lockstep);
+    let (json, strict, in_lockstep) = (args.json, args.strict, args.lockstep);
     let launch = prepare(args)?;
     let settings = launch.settings.clone();
     if in_lockstep {
@@ -83,7 +86,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     draw_snapshots(&settings);
     closed_pipe::ends_the_program();
-    run_report::show(&settings.report, json)
+    run_report::show(&settings.report, json, strict)
 }
 
 /// Reads and checks every file before anything is started.
@@ -131,7 +134,7 @@ fn gave_up(error: LaunchError, settings: &RunSettings, json: bool) -> Result<Exi
         draw_snapshots(settings);
     }
     // It may have been given up before there was a summary: the error below says why.
-    run_report::show(&settings.report, json).ok();
+    run_report::show(&settings.report, json, false).ok();
     run_report::warn(&error.to_string());
     Ok(ExitCode::FAILURE)
 }

@@ -3,17 +3,19 @@
 use crate::snapshots;
 use anyhow::{Context, Result};
 use coact_run_records::{
-    AnticipationReport, Environment, FaultReport, MachineReport, Summary, TaskReport, Verdict,
+    AnticipationReport, Environment, FaultReport, Judgement, MachineReport, MotionReport, OutageReport,
+    Summary, TaskReport,
 };
 use owo_colors::{OwoColorize, Stream};
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Prints the summary of a report folder, or with `json` the file itself; success when the verdict is "pass".
+/// Prints the summary of a report folder, or with `json` the file itself. Success when the work passes; with `strict`, when
+/// the timing does, too.
 ///
 /// # Errors
 /// There is no readable `summary.json`.
-pub fn show(report: &Path, json: bool) -> Result<ExitCode> {
+pub fn show(report: &Path, json: bool, strict: bool) -> Result<ExitCode> {
     let path = report.join(Summary::FILE);
     let text = std::fs::read_to_string(&path)
         .with_context(|| format!("{}: the run ended before it could be written", path.display()))?;
@@ -23,7 +25,8 @@ pub fn show(report: &Path, json: bool) -> Result<ExitCode> {
     } else {
         print!("{}", render(&summary, report));
     }
-    Ok(if summary.verdict == Verdict::Pass { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    let passes = summary.work.passes() && (!strict || summary.timing.passes());
+    Ok(if passes { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 /// A line in red on standard error.
@@ -32,19 +35,30 @@ pub fn warn(text: &str) {
 }
 
 fn render(summary: &Summary, report: &Path) -> String {
-    let mut lines = vec![String::new(), verdict(summary.verdict)];
-    lines.extend(summary.reasons.iter().map(|reason| format!("  - {reason}")));
+    let mut lines = vec![String::new()];
+    lines.extend(judgement("work", &summary.work));
+    // In lockstep no process runs and no clock.
+    if !summary.processes.is_empty() {
+        lines.extend(judgement("timing", &summary.timing));
+        if !summary.timing.passes() {
+            lines.push("  what can be improved here: coact check".into());
+        }
+    }
     lines.push(task(&summary.task));
     let order = summary.task.order.iter().enumerate();
     lines.extend(order.map(|(index, name)| format!("  {:>2}. {name}", index + 1)));
     lines.push(anticipation(&summary.anticipation));
-    // In lockstep no process runs and no clock.
+    lines.push(motion(&summary.motion));
     if !summary.processes.is_empty() {
         lines.push(latency(summary));
+        lines.push(outage(summary));
         lines.extend(summary.environment.machine.as_ref().map(machine));
         lines.push(privileges(&summary.environment));
     }
     lines.extend(summary.faults.iter().map(fault));
+    if summary.blind_s > 0.0 {
+        lines.push(format!("monitor       saw nothing for {:.1} s", summary.blind_s));
+    }
     lines.push(format!("report        {}", report.display()));
     let sheet = snapshots::sheet(report);
     if sheet.is_file() {
@@ -53,15 +67,36 @@ fn render(summary: &Summary, report: &Path) -> String {
     lines.join("\n") + "\n"
 }
 
-fn verdict(verdict: Verdict) -> String {
-    match verdict {
-        Verdict::Pass => {
-            format!("verdict       {}", "pass".if_supports_color(Stream::Stdout, |text| text.green()))
-        }
-        Verdict::Fail => {
-            format!("verdict       {}", "fail".if_supports_color(Stream::Stdout, |text| text.red()))
-        }
+/// A verdict, and why it is not "pass".
+fn judgement(name: &str, judgement: &Judgement) -> Vec<String> {
+    let verdict = match judgement.passes() {
+        true => "pass".if_supports_color(Stream::Stdout, |text| text.green()).to_string(),
+        false => "fail".if_supports_color(Stream::Stdout, |text| text.red()).to_string(),
+    };
+    let reasons = judgement.reasons.iter().map(|reason| format!("  - {reason}"));
+    std::iter::once(format!("{name:<14}{verdict}")).chain(reasons).collect()
+}
+
+fn motion(motion: &MotionReport) -> String {
+    format!(
+        "arm           at most {:.0} % of its joints' speed limits, {:.0} % of their acceleration; moved on old data for {} ms",
+        100.0 * motion.speed,
+        100.0 * motion.acceleration,
+        motion.on_stale_data_ms
+    )
+}
+
+/// Of the command, and of the process that was missing most.
+fn outage(summary: &Summary) -> String {
+    let short = |outage: &OutageReport| {
+        format!("{} of {} cycles, {} ms at the longest", outage.without_output, outage.due, outage.longest)
+    };
+    let mut text = format!("outage        command {}", short(&summary.command_outage));
+    let worst = summary.processes.iter().max_by_key(|(_, process)| process.outage.without_output);
+    if let Some((name, process)) = worst.filter(|(_, process)| process.outage.without_output > 0) {
+        text.push_str(&format!("; most of the processes {name}, {}", short(&process.outage)));
     }
+    text
 }
 
 fn task(task: &TaskReport) -> String {
@@ -97,7 +132,7 @@ fn latency(summary: &Summary) -> String {
 
 /// How late the machine was by itself: no process can be more punctual.
 fn machine(machine: &MachineReport) -> String {
-    let MachineReport { wakeups, late, longest_ns } = machine;
+    let MachineReport { wakeups, late, longest_ns, .. } = machine;
     let longest_ms = *longest_ns as f64 / 1e6;
     format!(
         "machine       late by a period or more at {late} of {wakeups} wake-ups of an idle thread, by {longest_ms:.1} ms \
@@ -135,17 +170,36 @@ mod tests {
 
     fn process(cycles: u64, missed: u64, skipped: u64) -> ProcessReport {
         let (wakeup_ns, execution_ns) = (Percentiles::default(), Percentiles::default());
-        ProcessReport { cycles, missed, skipped, longest_miss_run: 1, restarts: 0, wakeup_ns, execution_ns }
+        let outage = OutageReport {
+            due: 1100,
+            without_output: missed + skipped + 90,
+            longest: 90,
+            longest_from_ms: 7,
+        };
+        ProcessReport {
+            cycles,
+            missed,
+            skipped,
+            longest_miss_run: 1,
+            unseen: 0,
+            restarts: 0,
+            outage,
+            wakeup_ns,
+            execution_ns,
+        }
     }
 
     fn summary() -> Summary {
-        let machine = Some(MachineReport { wakeups: 1000, late: 3, longest_ns: 2_345_678 });
+        let machine = Some(MachineReport { wakeups: 1000, late: 3, p999_ns: 80_000, longest_ns: 2_345_678 });
         let lead_ms = LeadPercentiles { p5: Some(120), p50: Some(350), p95: None };
         Summary {
             environment: Environment { machine, ..Environment::default() },
             processes: [("fields".into(), process(1000, 2, 4)), ("world".into(), process(1001, 1, 0))].into(),
             hops: Default::default(),
             end_to_end_ns: Percentiles { count: 9, p50: 210_000, p99: 400_400, p999: 512_600, max: 900_000 },
+            command_outage: OutageReport { due: 1100, without_output: 95, longest: 91, longest_from_ms: 7 },
+            motion: MotionReport { speed: 0.5, acceleration: 0.875, ..MotionReport::default() },
+            blind_s: 1.25,
             tracking_error_rad: TrackingReport::default(),
             movement_reaction_ms: ReactionReport::default(),
             anticipation: AnticipationReport {
@@ -173,8 +227,8 @@ mod tests {
                 survivors_missed: 1,
                 survivors_missed_by: Default::default(),
             }],
-            verdict: Verdict::Fail,
-            reasons: vec!["only 2 of 9 subgoals were achieved".into()],
+            work: Judgement::new(vec!["only 2 of 9 subgoals were achieved".into()]),
+            timing: Judgement::new(vec!["fields was missing".into()]),
         }
     }
 
@@ -182,8 +236,13 @@ mod tests {
     fn a_person_reads_what_the_summary_says() {
         let text = render(&summary(), Path::new("reports/x"));
         for part in [
-            "fail",
+            "work          ",
             "only 2 of 9 subgoals were achieved",
+            "timing        ",
+            "fields was missing\n  what can be improved here: coact check",
+            "at most 50 % of its joints' speed limits, 88 % of their acceleration",
+            "command 95 of 1100 cycles, 91 ms at the longest; most of the processes fields, 96 of 1100",
+            "saw nothing for 1.2 s",
             "2 of 9 achieved, 61.3 s",
             " 2. right wheel",
             "6 actions of the partner, 5 decided before the grasp, 4 rightly; lead p5 120 p50 350 p95 - ms",
@@ -200,17 +259,24 @@ mod tests {
     #[test]
     fn a_run_in_lockstep_shows_no_latencies() {
         let text = render(&Summary { processes: Default::default(), ..summary() }, Path::new("reports/x"));
-        assert!(!text.contains("end to end") && !text.contains("locked"), "{text}");
+        assert!(["end to end", "locked", "timing"].iter().all(|part| !text.contains(part)), "{text}");
     }
 
     #[test]
-    fn only_the_verdict_decides() {
+    fn the_work_decides_and_the_timing_too_where_that_was_asked_for() {
         let folder = tempfile::tempdir().unwrap();
-        for (verdict, code) in [(Verdict::Pass, ExitCode::SUCCESS), (Verdict::Fail, ExitCode::FAILURE)] {
-            Summary { verdict, ..summary() }.write(folder.path()).unwrap();
-            assert_eq!(show(folder.path(), true).unwrap(), code);
+        let judgement = |passes: bool| Judgement::new(if passes { vec![] } else { vec!["why".into()] });
+        for (work, timing, strict, code) in [
+            (true, true, true, ExitCode::SUCCESS),
+            (true, false, false, ExitCode::SUCCESS),
+            (true, false, true, ExitCode::FAILURE),
+            (false, true, false, ExitCode::FAILURE),
+        ] {
+            let (work, timing) = (judgement(work), judgement(timing));
+            Summary { work, timing, ..summary() }.write(folder.path()).unwrap();
+            assert_eq!(show(folder.path(), true, strict).unwrap(), code);
         }
         std::fs::write(folder.path().join(Summary::FILE), "{}").unwrap();
-        assert!(show(folder.path(), true).is_err());
+        assert!(show(folder.path(), true, false).is_err());
     }
 }

@@ -1,9 +1,11 @@
 use crate::{Lockstep, LockstepError};
-use coact_messages::{Header, Speech};
+use coact_messages::{ARM_JOINTS, Header, Speech};
 use coact_monitor::{Intentions, Monitor, MonitorError, Rules, RulesError, Watched, environment};
 use coact_period::{PERIOD_NS, cycles};
 use coact_pipeline::RunSettings;
+use coact_robot::{Robot, RobotError};
 use coact_run_records::Summary;
+use coact_safety::{SafetyError, SafetyLimits};
 use coact_voice::{Meanings, Sentence, Voice};
 use std::time::{Duration, Instant, SystemTime};
 
@@ -34,6 +36,10 @@ pub enum RunError {
     Monitor(#[from] MonitorError),
     #[error(transparent)]
     Rules(#[from] RulesError),
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    #[error(transparent)]
+    Safety(#[from] SafetyError),
     #[error("{path}: {cause}; expected a folder that can be written to")]
     Report { path: std::path::PathBuf, cause: std::io::Error },
 }
@@ -59,6 +65,7 @@ pub fn run(
         stages.step();
         let mut events = Vec::new();
         monitor.truth(&stages.truth, &mut events);
+        monitor.joints(&stages.sample);
         if stages.ticks() % LOOK_EVERY != 0 {
             continue;
         }
@@ -87,6 +94,8 @@ fn monitor(settings: &RunSettings, stages: &Lockstep) -> Result<Monitor, RunErro
         task: stages.task().clone(),
         intentions: Intentions::from(stages.plan()),
         nodes: Vec::new(),
+        limits: Robot::load(&settings.robot)?.limits()[..ARM_JOINTS].to_vec(),
+        fresh: SafetyLimits::load(&settings.safety)?.stale.input_after,
         rules: Rules::load(&folder.join(Rules::FILE))?,
         start_ns: 0,
         started: SystemTime::now(),

@@ -6,9 +6,10 @@ pub mod schema;
 use coact_joint_task::{
     Act, Action, ActionType, Agent, Chain, Kind, Part, PersonGrip, Scene, Shape, Subgoal, Task,
 };
-use coact_messages::{FieldFrame, LayerKind, NONE, PartnerPhase, Pulse, Truth};
+use coact_messages::{ARM_JOINTS, FieldFrame, LayerKind, NONE, PartnerPhase, Pulse, SensorSample, Truth};
 use coact_monitor::Intentions;
 use coact_period::PERIOD_NS;
+use coact_robot::JointLimits;
 
 /// Chains, subgoals and actions of [`task`].
 pub const MOUNT: u32 = 0;
@@ -136,6 +137,22 @@ pub fn resting(cycle: u64, last: &Truth) -> Truth {
     truth.header.cycle = cycle;
     truth.phase = PartnerPhase::Idle as u32;
     truth
+}
+
+/// Limits of an arm: 2 rad/s, 10 rad/s², half a turn to each side.
+pub fn arm_limits() -> Vec<JointLimits> {
+    let limits =
+        JointLimits { lower: -3.0, upper: 3.0, velocity: 2.0, effort: 50.0, acceleration: 10.0, jerk: 200.0 };
+    vec![limits; ARM_JOINTS]
+}
+
+/// The sensor sample of a cycle in which the first joint moves at `speed`, rad/s.
+pub fn moving(cycle: u64, speed: f64) -> Box<SensorSample> {
+    let mut sample: Box<SensorSample> = bytemuck::zeroed_box();
+    sample.header.cycle = cycle;
+    sample.header.sensor_ns = (cycle + 1) * PERIOD_NS;
+    sample.joints.velocity[0] = speed;
+    sample
 }
 
 /// Cycle number `cycle` of a process: due at its release, started `late_ns` later, done 100 µs after.

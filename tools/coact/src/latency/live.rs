@@ -7,6 +7,7 @@ use coact_messages::{Pulse, topic};
 use coact_monitor::{Metrics, PipelineNode};
 use coact_pipeline::{Pipeline, Run};
 use coact_realtime::{Bus, Input};
+use coact_safety::SafetyLimits;
 use std::io::IsTerminal;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,7 +30,8 @@ pub(super) fn run(id: Option<&str>, json: bool) -> anyhow::Result<()> {
     for node in &nodes {
         inputs.push((node.process.clone(), bus.input(&topic::pulse(&node.process))?));
     }
-    let mut metrics = Metrics::new(nodes);
+    let fresh = SafetyLimits::load(&run.settings().safety)?.stale.input_after;
+    let mut metrics = Metrics::new(nodes, fresh);
     let stop = Arc::new(AtomicBool::new(false));
     signal_hook::flag::register(signal_hook::consts::SIGINT, Arc::clone(&stop))
         .context("Ctrl-C cannot be caught")?;
