@@ -1,6 +1,8 @@
-use crate::{Fault, InjectionRefusal};
+use crate::{Fault, InjectionRefusal, operator};
 use coact_pipeline::Run;
+use std::fs::Permissions;
 use std::io::{self, BufRead, BufReader, Read, Write};
+use std::os::unix::fs::PermissionsExt;
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -94,6 +96,7 @@ impl ControlSocket {
     pub(crate) fn open(run: &Run) -> io::Result<Self> {
         let path = path_of(run);
         let listener = UnixListener::bind(&path)?;
+        std::fs::set_permissions(&path, Permissions::from_mode(0o600))?;
         let (sender, requests) = mpsc::channel();
         let closed = Arc::new(AtomicBool::new(false));
         let over = Arc::clone(&closed);
@@ -136,7 +139,9 @@ fn serve(mut stream: UnixStream, requests: &mpsc::Sender<FaultRequest>) -> io::R
     stream.set_write_timeout(Some(ANSWER_TIMEOUT))?;
     let mut line = String::new();
     BufReader::new((&stream).take(MAX_REQUEST)).read_line(&mut line)?;
-    let answer = forward(&line, requests).unwrap_or_else(|why| AnswerLine { refused: Some(why) });
+    let answer = operator::check(&stream)?
+        .and_then(|()| forward(&line, requests))
+        .unwrap_or_else(|why| AnswerLine { refused: Some(why) });
     writeln!(stream, "{}", serde_json::to_string(&answer)?)
 }
 

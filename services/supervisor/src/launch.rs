@@ -160,9 +160,7 @@ impl Launch {
 
 /// Removes what runs left behind whose supervisor was killed. Runs that still go on are not touched.
 fn remove_dead_runs() {
-    for run in Run::all().iter().filter(|run| !run.owner_lives()) {
-        if let Err(error) = run.remove() {
-            tracing::warn!("a dead run's remains: {error}");
-        }
+    for error in Run::remove_dead() {
+        tracing::warn!("a dead run's remains: {error}");
     }
 }

@@ -21,6 +21,7 @@ mod launch;
 mod launch_error;
 mod note;
 mod note_kind;
+mod operator;
 mod process_set;
 mod process_spec;
 mod renderer;

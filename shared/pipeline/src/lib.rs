@@ -38,8 +38,10 @@ mod ready;
 mod restart_policy;
 mod run;
 mod run_error;
+mod run_lock;
 mod run_settings;
 mod shared_memory;
+mod trust;
 
 pub use pipeline::Pipeline;
 pub use pipeline_error::PipelineError;

@@ -1,23 +1,40 @@
-use crate::{Ready, RunError, RunSettings, shared_memory};
+use crate::run_lock::{Held, RunLock};
+use crate::{Ready, RunError, RunSettings, shared_memory, trust};
 use serde::{Deserialize, Serialize};
-use std::io;
+use std::fs::{DirBuilder, OpenOptions};
+use std::io::{self, Write};
+use std::os::unix::fs::{DirBuilderExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// One run of the process set: its directory, its identity, and the names that keep it apart from other runs.
 ///
 /// ```text
-/// /dev/shm/coact_<id>/run.json     what the run is made of
+/// /dev/shm/coact_<id>/lock         locked as long as the supervisor lives: who holds it owns the run
+///                    /run.json     what the run is made of
 ///                    /start        clock reading of tick 0, written when all are ready
 ///                    /config/      iceoryx2.toml: where other iceoryx2 clients find the run's topics
 ///                    /ready/       <name>.<generation>.json, one for each process start
 ///                    /iox/         root directory of iceoryx2
 /// /dev/shm/coact_<id>_*            the run's shared memory
 /// ```
-#[derive(Debug, Clone, PartialEq, Eq)]
+///
+/// All of it belongs to one user and is closed to all others, whatever the umask.
+#[derive(Debug, Clone)]
 pub struct Run {
     directory: PathBuf,
     description: Description,
+    /// Held by the process that made the run, by none that found it.
+    lock: Option<Arc<RunLock>>,
 }
+
+impl PartialEq for Run {
+    fn eq(&self, other: &Self) -> bool {
+        self.directory == other.directory && self.description == other.description
+    }
+}
+
+impl Eq for Run {}
 
 /// Contents of `run.json`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -36,12 +53,13 @@ impl Run {
     pub fn create(settings: RunSettings) -> Result<Self, RunError> {
         shared_memory::check_space()?;
         let owner = std::process::id();
-        let (id, directory) = unused_directory(&base())?;
-        let run = Self { directory, description: Description { id, owner, settings } };
+        let (id, directory, lock) = unused_directory(&base())?;
+        let description = Description { id, owner, settings };
+        let run = Self { directory, description, lock: Some(Arc::new(lock)) };
         // A process id comes again: nothing of an earlier run with this name may be found in shared memory.
         shared_memory::wipe(&run.prefix())?;
-        for folder in [run.ready_directory(), run.iceoryx2_root()] {
-            std::fs::create_dir(&folder).map_err(|error| failed("cannot be made", &folder, error))?;
+        for folder in [run.ready_directory(), run.iceoryx2_root(), run.directory.join("config")] {
+            create_directory(&folder).map_err(|error| failed("cannot be made", &folder, error))?;
         }
         run.write_iceoryx2_config()?;
         run.write_json("run.json", &run.description)?;
@@ -54,50 +72,68 @@ impl Run {
         let path = self.directory.join("config/iceoryx2.toml");
         let (root, prefix) = (self.iceoryx2_root(), self.prefix());
         let text = format!("[global]\nroot-path = \"{}\"\nprefix = \"{prefix}\"\n", root.display());
-        std::fs::create_dir(self.directory.join("config"))
-            .and_then(|()| std::fs::write(&path, text))
-            .map_err(|error| failed("cannot be written", &path, error))
+        write_private(&path, &text).map_err(|error| failed("cannot be written", &path, error))
     }
 
     /// Finds the run that lives in `directory`.
     ///
     /// # Errors
-    /// [`RunError::File`] or [`RunError::Malformed`] when no run lives there.
+    /// [`RunError::File`] or [`RunError::Malformed`] when no run lives there; [`RunError::Untrusted`] when another user may
+    /// have put there what is found.
     pub fn load(directory: &Path) -> Result<Self, RunError> {
-        let description = read_json(&directory.join("run.json"))?;
-        Ok(Self { directory: directory.to_owned(), description })
+        let path = directory.join("run.json");
+        trust::file(&path)?;
+        trust::directory(directory)?;
+        let description: Description = read_json(&path)?;
+        // The name selects what is removed from shared memory: it must be this run's.
+        if directory.file_name() != Some(format!("coact_{}", description.id).as_ref()) {
+            let problem = format!("the id {} is not that of the directory", description.id);
+            return Err(RunError::Malformed { path, problem });
+        }
+        Ok(Self { directory: directory.to_owned(), description, lock: None })
     }
 
-    /// Every run on this machine that has a directory, whether its owner still lives or not.
+    /// Every run of this user on this machine that has a directory, whether its owner still lives or not.
     pub fn all() -> Vec<Self> {
-        let Ok(entries) = std::fs::read_dir(base()) else { return Vec::new() };
-        let mut runs: Vec<_> = entries
-            .filter_map(Result::ok)
-            .filter(|entry| entry.file_name().to_string_lossy().starts_with("coact_"))
-            .filter_map(|entry| Self::load(&entry.path()).ok())
-            .collect();
+        let mut runs: Vec<_> = directories().filter_map(|directory| Self::load(&directory).ok()).collect();
         runs.sort_by(|a, b| a.description.id.cmp(&b.description.id));
         runs
     }
 
-    /// True while the process that created the run exists.
+    /// True while the process that created the run lives: it holds the run's lock.
     pub fn owner_lives(&self) -> bool {
-        let pid = i32::try_from(self.description.owner).ok().and_then(rustix::process::Pid::from_raw);
-        pid.is_some_and(|pid| rustix::process::test_kill_process(pid) != Err(rustix::io::Errno::SRCH))
+        self.lock.is_some() || RunLock::is_held(&self.directory)
     }
 
     /// Removes the run's directory and every shared-memory file of its prefix. The report directory stays.
     ///
     /// # Errors
-    /// [`RunError::File`] names what could not be removed.
+    /// [`RunError::File`] names what could not be removed; [`RunError::Owned`] when another living process owns the run.
     pub fn remove(&self) -> Result<(), RunError> {
-        shared_memory::wipe(&self.prefix())?;
-        match std::fs::remove_dir_all(&self.directory) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                Err(failed("cannot be removed", &self.directory, error))
-            }
-            _ => Ok(()),
-        }
+        let _lock = match &self.lock {
+            Some(_) => None,
+            None => match RunLock::look(&self.directory) {
+                Ok(Held::ByCaller(lock)) => Some(lock),
+                Err(_) if !self.directory.exists() => None,
+                _ => return Err(RunError::Owned { path: self.directory.clone() }),
+            },
+        };
+        remove_all(&self.directory, &self.prefix())
+    }
+
+    /// Removes what runs of this user left behind whose owner has ended: exactly those whose lock can be taken, whatever
+    /// else is in their directories. Returns what could not be removed.
+    pub fn remove_dead() -> Vec<RunError> {
+        let is_own = |directory: &PathBuf| directory.is_dir() && trust::is_own(directory).unwrap_or(false);
+        directories().filter(is_own).filter_map(|directory| remove_if_dead(&directory).err()).collect()
+    }
+
+    /// Closes all of the run's shared memory to other users, whoever made it.
+    ///
+    /// # Errors
+    /// [`RunError::File`].
+    pub fn close_to_others(&self) -> Result<(), RunError> {
+        shared_memory::close_to_others(&self.prefix())
     }
 
     /// The run directory.
@@ -175,7 +211,7 @@ impl Run {
         let unfinished = path.with_extension(format!("{}.unfinished", std::process::id()));
         let text = serde_json::to_string_pretty(value)
             .map_err(|error| failed("cannot be written", &path, error.into()))?;
-        std::fs::write(&unfinished, text)
+        write_private(&unfinished, &text)
             .and_then(|()| std::fs::rename(&unfinished, &path))
             .map_err(|error| failed("cannot be written", &path, error))
     }
@@ -202,14 +238,64 @@ fn base() -> PathBuf {
     if memory.is_dir() { memory.to_owned() } else { std::env::temp_dir() }
 }
 
+/// Whatever is called like a run's directory.
+fn directories() -> impl Iterator<Item = PathBuf> {
+    let entries = std::fs::read_dir(base()).into_iter().flatten().filter_map(Result::ok);
+    entries.map(|entry| entry.path()).filter(|path| name_of(path).is_some())
+}
+
+/// The run's name for itself in shared memory, without the underscore that ends a prefix.
+fn name_of(directory: &Path) -> Option<&str> {
+    directory.file_name()?.to_str().filter(|name| name.starts_with("coact_"))
+}
+
+fn remove_if_dead(directory: &Path) -> Result<(), RunError> {
+    match RunLock::look(directory) {
+        Ok(Held::ByCaller(_lock)) => match name_of(directory) {
+            Some(name) => remove_all(directory, &format!("{name}_")),
+            None => Ok(()),
+        },
+        Ok(Held::ByOwner) => Ok(()),
+        // Who made it may have died before there was a lock, and may be about to make one, which then tells it that the
+        // directory is gone. Only an empty one is removed: without a lock nothing says that a run has ended.
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            std::fs::remove_dir(directory).ok();
+            Ok(())
+        }
+        Err(error) => Err(failed("cannot be locked", directory, error)),
+    }
+}
+
+fn remove_all(directory: &Path, prefix: &str) -> Result<(), RunError> {
+    shared_memory::wipe(prefix)?;
+    match std::fs::remove_dir_all(directory) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(failed("cannot be removed", directory, error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A directory that nobody else can enter, whatever the umask.
+fn create_directory(path: &Path) -> io::Result<()> {
+    DirBuilder::new().mode(0o700).create(path)
+}
+
+/// A file that nobody else can open, whatever the umask.
+fn write_private(path: &Path, text: &str) -> io::Result<()> {
+    let mut file = OpenOptions::new().write(true).create(true).truncate(true).mode(0o600).open(path)?;
+    file.write_all(text.as_bytes())
+}
+
 /// Takes a name that no other run has: the process id and a count, kept by making the directory.
-fn unused_directory(base: &Path) -> Result<(String, PathBuf), RunError> {
+fn unused_directory(base: &Path) -> Result<(String, PathBuf, RunLock), RunError> {
     for count in 0_u32.. {
         let id = format!("{:x}-{count:x}", std::process::id());
         let directory = base.join(format!("coact_{id}"));
-        match std::fs::create_dir(&directory) {
-            Ok(()) => return Ok((id, directory)),
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+        match create_directory(&directory).and_then(|()| RunLock::create(&directory)) {
+            Ok(lock) => return Ok((id, directory, lock)),
+            // Taken, or removed as remains while it was made: the next name.
+            Err(error) if matches!(error.kind(), io::ErrorKind::AlreadyExists | io::ErrorKind::NotFound) => {}
             Err(error) => return Err(failed("cannot be made", &directory, error)),
         }
     }

@@ -22,6 +22,22 @@ pub enum RunError {
         /// What is wrong.
         problem: String,
     },
+    /// Another user may have made or changed it.
+    #[error("{}: {problem}; expected {kind} of this user that nobody else can open, as coact makes it", path.display())]
+    Untrusted {
+        /// The file or directory.
+        path: PathBuf,
+        /// Why it is not trusted.
+        problem: String,
+        /// What it should be.
+        kind: &'static str,
+    },
+    /// The run's lock is held, or there is none.
+    #[error("{}: nothing says that its supervisor has ended; expected a lock that nobody holds", path.display())]
+    Owned {
+        /// The run directory.
+        path: PathBuf,
+    },
     /// Shared memory is full: a process that touches a page it does not get is killed by SIGBUS.
     #[error(
         "{}: {free_mib} MiB of shared memory are free; expected at least {needed_mib} MiB: remove stale files or remount it larger",

@@ -1,7 +1,9 @@
 //! Run directories: found again, apart from each other, and gone when removed.
 #![allow(clippy::unwrap_used)]
 
-use coact_pipeline::{Ready, Run, RunSettings, WorldMode};
+use coact_pipeline::{Ready, Run, RunError, RunSettings, WorldMode};
+use std::fs::Permissions;
+use std::os::unix::fs::PermissionsExt;
 use std::path::PathBuf;
 
 fn ready(process: &str) -> Ready {
@@ -69,6 +71,82 @@ fn readiness_is_known_for_the_generation_that_reported_it() {
     run.report_ready(&ready("fields")).unwrap();
     assert_eq!(run.ready("fields", 2).unwrap(), Some(ready("fields")));
     assert_eq!(run.ready("fields", 3).unwrap(), None);
+    run.remove().unwrap();
+}
+
+/// A directory as a run has it, but not made by `Run::create`; removed when the test ends.
+struct Planted(PathBuf);
+
+impl Planted {
+    fn new(name: &str, mode: u32) -> Self {
+        let directory = PathBuf::from(format!("/dev/shm/coact_{name}-{}", std::process::id()));
+        std::fs::create_dir(&directory).unwrap();
+        std::fs::set_permissions(&directory, Permissions::from_mode(mode)).unwrap();
+        Self(directory)
+    }
+
+    /// With the description of `run`, under the id `id`.
+    fn describe(&self, run: &Run, id: &str, mode: u32) {
+        let text = std::fs::read_to_string(run.directory().join("run.json")).unwrap().replace(run.id(), id);
+        std::fs::write(self.0.join("run.json"), text).unwrap();
+        std::fs::set_permissions(self.0.join("run.json"), Permissions::from_mode(mode)).unwrap();
+    }
+}
+
+impl Drop for Planted {
+    fn drop(&mut self) {
+        std::fs::remove_dir_all(&self.0).ok();
+    }
+}
+
+#[test]
+fn a_run_lives_as_long_as_its_lock_is_held_and_is_removed_exactly_when_it_is_not() {
+    let run = Run::create(RunSettings::default()).unwrap();
+    let (found, directory) = (Run::load(run.directory()).unwrap(), run.directory().to_owned());
+    let memory = PathBuf::from(format!("/dev/shm/{}segment", run.prefix()));
+    std::fs::write(&memory, "x").unwrap();
+    assert!(found.owner_lives());
+    assert!(matches!(found.remove(), Err(RunError::Owned { .. })));
+    assert!(Run::remove_dead().is_empty());
+    assert!(directory.exists() && memory.exists());
+    // The owner ends: whatever has become of its description, and whoever has its process id now.
+    std::fs::write(directory.join("run.json"), "{").unwrap();
+    drop(run);
+    assert!(!found.owner_lives());
+    Run::remove_dead();
+    assert!(!directory.exists() && !memory.exists());
+}
+
+#[test]
+fn a_description_that_names_another_run_is_refused_and_that_run_is_not_touched() {
+    let victim = Run::create(RunSettings::default()).unwrap();
+    let planted = Planted::new("planted", 0o700);
+    planted.describe(&victim, victim.id(), 0o600);
+    let error = Run::load(&planted.0).unwrap_err();
+    assert!(matches!(error, RunError::Malformed { .. }), "{error}");
+    Run::remove_dead();
+    assert!(planted.0.exists(), "without a lock nothing says that it has ended");
+    assert!(Run::load(victim.directory()).unwrap().owner_lives());
+    victim.remove().unwrap();
+}
+
+#[test]
+fn what_others_can_open_or_own_is_not_trusted() {
+    let run = Run::create(RunSettings::default()).unwrap();
+    let id = format!("open-{}", std::process::id());
+    let planted = Planted::new("open", 0o755);
+    planted.describe(&run, &id, 0o600);
+    let open = Run::load(&planted.0).unwrap_err().to_string();
+    assert!(open.contains("is open to others (mode 755); expected a directory of this user"), "{open}");
+    std::fs::set_permissions(&planted.0, Permissions::from_mode(0o700)).unwrap();
+    assert!(Run::load(&planted.0).is_ok());
+    std::fs::set_permissions(planted.0.join("run.json"), Permissions::from_mode(0o644)).unwrap();
+    assert!(matches!(Run::load(&planted.0), Err(RunError::Untrusted { .. })));
+    // Only root can give a file away; elsewhere the modes above are the test.
+    if std::os::unix::fs::chown(planted.0.join("run.json"), Some(12345), None).is_ok() {
+        let foreign = Run::load(&planted.0).unwrap_err().to_string();
+        assert!(foreign.contains("belongs to user 12345"), "{foreign}");
+    }
     run.remove().unwrap();
 }
 

@@ -41,6 +41,8 @@ impl Bus {
     /// [`PortError::Join`].
     pub fn open(run: &Run, process: &str, generation: u32) -> Result<Self, PortError> {
         set_log_level_from_env_or(LogLevel::Fatal);
+        // iceoryx2 makes files, sockets and shared memory: nobody else may open them, whatever umask the process was given.
+        rustix::process::umask(rustix::fs::Mode::RWXG | rustix::fs::Mode::RWXO);
         let refused = |problem: String| PortError::Join { process: process.to_owned(), problem };
         let config = config(run).map_err(refused)?;
         let name = NodeName::new(process).map_err(|error| refused(format!("{error:?}")))?;
@@ -50,6 +52,8 @@ impl Bus {
             .signal_handling_mode(SignalHandlingMode::Disabled)
             .create::<ipc::Service>()
             .map_err(|error| refused(format!("{error:?}")))?;
+        // Its count of nodes iceoryx2 opens to everyone, whatever the umask.
+        run.close_to_others().map_err(|error| refused(error.to_string()))?;
         Ok(Self { node: Box::new(node), process: process.to_owned(), generation })
     }
 
