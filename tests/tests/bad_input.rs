@@ -55,6 +55,34 @@ fn a_malformed_task_is_refused_with_file_and_line() {
     );
 }
 
+#[test]
+fn what_is_no_regular_file_is_refused_wherever_a_file_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    for option in ["--task", "--pipeline", "--safety"] {
+        for (file, what) in [("/dev/zero", "is a device"), (pipe.to_str().unwrap(), "is a pipe")] {
+            let finished = refused(&[option, file]);
+            let expected = format!("{what}; expected a regular file");
+            assert!(finished.stderr.contains(&expected), "{option} {file}: {}", finished.stderr);
+        }
+    }
+    let script = format!("script:{}", pipe.display());
+    assert!(refused(&["--partner", &script]).stderr.contains("is a pipe"));
+}
+
+#[test]
+fn a_number_that_is_no_length_is_refused_with_its_range() {
+    for number in ["nan", "1e300", "-1e300"] {
+        let folder = configuration();
+        let task = folder.path().join("rt-config/tasks/toy-vehicle.toml");
+        let place = make_mistake(task.clone(), "radius = 0.0375", &format!("radius = {number}"));
+        let finished = refused(&["--task", task.to_str().unwrap()]);
+        assert!(finished.stderr.contains(&place), "{number}: {place}: {}", finished.stderr);
+        assert!(finished.stderr.contains("expected 0.0001 to 1 (m)"), "{number}: {}", finished.stderr);
+    }
+}
+
 /// Makes a mistake in the process table; returns its place, and what was printed.
 fn refused_pipeline(from: &str, to: &str) -> (String, String) {
     let folder = configuration();

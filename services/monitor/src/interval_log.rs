@@ -1,5 +1,6 @@
 use crate::duration_recorder::{INTERVAL_NS, histogram};
 use base64::Engine;
+use coact_input_file::{LONGEST_LOG, read_within};
 use hdrhistogram::Histogram;
 use hdrhistogram::serialization::interval_log::{
     IntervalLogIterator, IntervalLogWriterBuilder, LogEntry, Tag,
@@ -123,7 +124,7 @@ impl IntervalLog {
     /// The file cannot be read or written.
     pub fn repair(path: &Path) -> Result<(), IntervalLogError> {
         let error = |cause| IntervalLogError::File { path: path.to_owned(), cause };
-        let text = std::fs::read(path).map_err(error)?;
+        let text = read_within(path, LONGEST_LOG).map_err(error)?;
         let whole = text.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
         if whole < text.len() {
             let file = OpenOptions::new().write(true).open(path).map_err(error)?;
@@ -137,8 +138,8 @@ impl IntervalLog {
     /// # Errors
     /// The file cannot be read, or a line or an interval of it is damaged.
     pub fn read(path: &Path) -> Result<LogContents, IntervalLogError> {
-        let text =
-            std::fs::read(path).map_err(|cause| IntervalLogError::File { path: path.to_owned(), cause })?;
+        let text = read_within(path, LONGEST_LOG)
+            .map_err(|cause| IntervalLogError::File { path: path.to_owned(), cause })?;
         let line_of = |offset: usize| text[..offset].iter().filter(|&&byte| byte == b'\n').count() + 1;
         if !text.starts_with(b"#") {
             return Err(IntervalLogError::Line { path: path.to_owned(), line: 1 });

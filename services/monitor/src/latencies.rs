@@ -98,8 +98,8 @@ pub(crate) fn logs(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
 /// The counters that stand beside a folder's logs; none where none were written yet.
 pub(crate) fn read_counters(folder: &Path) -> Result<BTreeMap<String, ProcessCounters>, LatencyError> {
     let path = folder.join(COUNTERS);
-    match std::fs::read(&path) {
-        Ok(text) => serde_json::from_slice(&text)
+    match coact_input_file::read_text(&path) {
+        Ok(text) => serde_json::from_str(&text)
             .map_err(|cause| LatencyError::File { path, cause: std::io::Error::other(cause) }),
         Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => Ok(BTreeMap::new()),
         Err(cause) => Err(LatencyError::File { path, cause }),

@@ -67,7 +67,7 @@ impl Rules {
     /// # Errors
     /// The file cannot be read, or lacks a key, or has one too many.
     pub fn load(path: &Path) -> Result<Self, RulesError> {
-        let text = std::fs::read_to_string(path)
+        let text = coact_input_file::read_text(path)
             .map_err(|cause| RulesError::File { path: path.to_owned(), cause })?;
         toml::from_str(&text).map_err(|cause| RulesError::Content { path: path.to_owned(), cause })
     }

@@ -2,12 +2,13 @@
 
 mod actions;
 mod chains;
+mod ranges;
 mod references;
 mod scene;
 mod subgoals;
 
 use crate::source_file::SourceFile;
-use crate::task_file::{Name, TaskFile};
+use crate::task_file::{KindEntry, Name, TaskFile};
 use crate::{Gesture, Kind, Part, PersonGrip, Task, TaskError};
 use chains::acts;
 use coact_messages::{MAX_ACTS, MAX_KINDS, MAX_PARTS};
@@ -19,6 +20,7 @@ use std::path::{Path, PathBuf};
 pub(crate) fn load(path: &Path) -> Result<(Task, PathBuf, Option<PathBuf>), TaskError> {
     let source = SourceFile::read(path)?;
     let file: TaskFile = source.parse()?;
+    ranges::check(&source)?;
     let beside = |name: &Name| path.parent().unwrap_or(Path::new(".")).join(name.get_ref());
     let network = beside(&file.network);
     if !network.is_file() {
@@ -65,25 +67,13 @@ impl TaskReader<'_> {
     fn kinds(&self) -> Result<Vec<Kind>, TaskError> {
         self.within("kind", self.file.kind.len(), MAX_KINDS, "kinds of part")?;
         self.distinct("kind", self.file.kind.iter().map(|kind| &kind.name))?;
-        self.file
-            .kind
-            .iter()
-            .enumerate()
-            .map(|(index, entry)| {
-                for (key, value) in [("width", &entry.width), ("mass", &entry.mass)] {
-                    if !(*value.get_ref() > 0.0 && value.get_ref().is_finite()) {
-                        let key = format!("kind[{index}].{key}");
-                        return Err(self.source.error(value.span(), key, "expected a number above 0"));
-                    }
-                }
-                Ok(Kind {
-                    name: entry.name.get_ref().clone(),
-                    width: *entry.width.get_ref(),
-                    shape: entry.shape,
-                    mass: *entry.mass.get_ref(),
-                })
-            })
-            .collect()
+        let kind = |entry: &KindEntry| Kind {
+            name: entry.name.get_ref().clone(),
+            width: entry.width,
+            shape: entry.shape,
+            mass: entry.mass,
+        };
+        Ok(self.file.kind.iter().map(kind).collect())
     }
 
     fn parts(&self) -> Result<Vec<Part>, TaskError> {

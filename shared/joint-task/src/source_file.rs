@@ -10,7 +10,7 @@ pub(crate) struct SourceFile {
 impl SourceFile {
     pub(crate) fn read(path: &Path) -> Result<Self, TaskError> {
         let file = path.display().to_string();
-        match std::fs::read_to_string(path) {
+        match coact_input_file::read_text(path) {
             Ok(text) => Ok(Self { file, text }),
             Err(error) => Err(TaskError { file, line: 0, key: "file".into(), problem: error.to_string() }),
         }

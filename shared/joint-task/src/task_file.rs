@@ -28,9 +28,9 @@ pub(crate) struct TaskFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct KindEntry {
     pub name: Name,
-    pub width: Spanned<f64>,
+    pub width: f64,
     pub shape: Shape,
-    pub mass: Spanned<f64>,
+    pub mass: f64,
 }
 
 #[derive(Deserialize)]

@@ -75,7 +75,23 @@ fn number_where_a_name_belongs_is_refused() {
 #[test]
 fn negative_width_is_refused() {
     let error = error_after(TASK, "width = 0.075", "width = -0.075");
-    assert!(error.ends_with("kind[0].width: expected a number above 0"), "{error}");
+    assert!(error.ends_with("kind[0].width: -0.075; expected 0.0001 to 1 (m)"), "{error}");
+}
+
+#[test]
+fn every_number_has_a_range() {
+    for (from, to, key) in [
+        ("radius = 0.0375", "radius = nan", "kind[0].shape.cylinder.radius"),
+        ("height = 0.025", "height = 1e300", "kind[0].shape.cylinder.height"),
+        ("height = 0.025", "height = -1e300", "kind[0].shape.cylinder.height"),
+        ("height = 0.025", "height = 0xFFFFFFFF", "kind[0].shape.cylinder.height"),
+        ("mass = 0.06", "mass = inf", "kind[0].mass"),
+    ] {
+        let error = error_after(TASK, from, to);
+        let line = line_of(TASK, from);
+        assert!(error.starts_with(&format!("{TASK}:{line}: {key}: ")), "{to}: {error}");
+        assert!(error.contains("; expected 0.000"), "{to}: {error}");
+    }
 }
 
 #[test]

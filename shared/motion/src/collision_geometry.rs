@@ -125,6 +125,9 @@ fn straight(half: f64, radius: f64) -> Solid {
     Solid::Capsule(Capsule { start: end(-1.0), end: end(1.0), radius })
 }
 
+/// No mesh of a link is larger, bytes: a hundred times the usual ones.
+const LARGEST_MESH: u64 = 256 << 20;
+
 /// The bounding capsule of a mesh, or what stands in for it, in the frame of its geometry.
 fn mesh(
     mechanism: &Mechanism,
@@ -137,7 +140,10 @@ fn mesh(
     let file = locate(urdf.path_of(&link.name), filename);
     match (file, mechanism.meshes) {
         (Some(file), _) => {
-            let scene = mesh_loader::Loader::default().load(&file).map_err(|error| {
+            let scene = coact_input_file::read_within(&file, LARGEST_MESH).and_then(|bytes| {
+                mesh_loader::Loader::default().load_from_slice(&bytes, &file)
+            });
+            let scene = scene.map_err(|error| {
                 urdf.fault(&link.name, &format!("has a mesh that cannot be read: {}: {error}", file.display()))
             })?;
             let vertices = scene.meshes.iter().flat_map(|mesh| &mesh.vertices);

@@ -16,7 +16,7 @@ impl Pipeline {
     /// # Errors
     /// [`PipelineError`] names file, line and key, and what was expected there.
     pub fn load(path: &Path) -> Result<Self, PipelineError> {
-        let text = std::fs::read_to_string(path)
+        let text = coact_input_file::read_text(path)
             .map_err(|cause| PipelineError::Unreadable { file: path.to_owned(), cause })?;
         Self::parse(&text, path)
     }

@@ -222,7 +222,7 @@ fn ready_name(process: &str, generation: u32) -> String {
 }
 
 fn read_json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, RunError> {
-    let text = std::fs::read_to_string(path).map_err(|error| failed("cannot be read", path, error))?;
+    let text = coact_input_file::read_text(path).map_err(|error| failed("cannot be read", path, error))?;
     serde_json::from_str(&text)
         .map_err(|error| RunError::Malformed { path: path.to_owned(), problem: error.to_string() })
 }

@@ -1,7 +1,6 @@
 use crate::{Frame, ImagePoint, Reach, RecordingError, Size};
 use csv::StringRecord;
 use flate2::read::MultiGzDecoder;
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -81,7 +80,7 @@ pub fn read_file(path: &Path) -> Result<Vec<Reach>, RecordingError> {
 /// The whole text of a file, decompressed if need be.
 fn read_text(path: &Path) -> Result<Vec<u8>, RecordingError> {
     let io = |reason| RecordingError::Io { path: path.to_path_buf(), reason };
-    let file = File::open(path).map_err(io)?;
+    let file = coact_input_file::open(path).map_err(io)?;
     let is_compressed = path.extension().is_some_and(|extension| extension == "gz");
     let source: Box<dyn Read> =
         if is_compressed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };

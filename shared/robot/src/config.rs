@@ -48,7 +48,7 @@ pub(crate) struct HandConfig {
 
 impl Config {
     pub(crate) fn load(path: &Path) -> Result<Self, RobotError> {
-        let text = std::fs::read_to_string(path)
+        let text = coact_input_file::read_text(path)
             .map_err(|reason| RobotError::File { path: path.to_path_buf(), reason })?;
         let config: Self = toml::from_str(&text).map_err(|error| RobotError::Malformed {
             path: path.to_path_buf(),
@@ -74,7 +74,7 @@ impl Config {
     }
 
     pub(crate) fn fault(path: &Path, key: &str, message: &str) -> RobotError {
-        let text = std::fs::read_to_string(path).unwrap_or_default();
+        let text = coact_input_file::read_text(path).unwrap_or_default();
         let line = text.lines().position(|line| line.trim_start().starts_with(key)).map(|index| index + 1);
         RobotError::Malformed { path: path.to_path_buf(), line, message: format!("key \"{key}\": {message}") }
     }

@@ -28,7 +28,7 @@ impl Urdf {
     /// # Errors
     /// [`RobotError`] with the file and, where it is known, the line.
     pub fn load(path: &Path) -> Result<Self, RobotError> {
-        let text = std::fs::read_to_string(path)
+        let text = coact_input_file::read_text(path)
             .map_err(|reason| RobotError::File { path: path.to_path_buf(), reason })?;
         Self::parse(path, text)
     }
@@ -38,6 +38,10 @@ impl Urdf {
     /// # Errors
     /// [`RobotError::Malformed`].
     pub fn parse(path: &Path, text: String) -> Result<Self, RobotError> {
+        if let Some((line, problem)) = crate::xml_line::unreadable(&text) {
+            let message = format!("{problem}; expected <robot> with <link> and <joint> elements");
+            return Err(RobotError::Malformed { path: path.to_path_buf(), line: Some(line), message });
+        }
         match urdf_rs::read_from_string(&text) {
             Ok(robot) => {
                 let source = Source { path: path.to_path_buf(), text, prefix: String::new() };

@@ -25,6 +25,31 @@ fn others(name: &str) -> Option<PathBuf> {
     Some(path)
 }
 
+#[test]
+fn a_urdf_that_is_nested_without_end_is_refused() {
+    let text = format!("<robot name=\"a\">{}", "<link name=\"a\">".repeat(200_000));
+    let error = Urdf::parse(Path::new("deep.urdf"), text).unwrap_err().to_string();
+    assert!(error.starts_with("deep.urdf:1: is nested more than 32 deep"), "{error}");
+}
+
+proptest::proptest! {
+    #[test]
+    fn damage_anywhere_in_a_urdf_is_survived(
+        at in proptest::prelude::any::<proptest::sample::Index>(),
+        removed in 0_usize..300,
+        inserted in "[<>/\"'= a-z0-9!?-]{0,20}",
+    ) {
+        let (path, mut text) = ours();
+        let start = text.floor_char_boundary(at.index(text.len()));
+        let end = text.floor_char_boundary((start + removed).min(text.len()));
+        text.replace_range(start..end, &inserted);
+        // That it returns is what is tested.
+        if let Ok(urdf) = Urdf::parse(&path, text) {
+            urdf.chain(None, "palm").ok();
+        }
+    }
+}
+
 /// The error that `text` gets after `from` was replaced by `to`, as the user sees it.
 fn error_after(from: &str, to: &str) -> String {
     let (path, text) = ours();

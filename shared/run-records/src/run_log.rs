@@ -1,4 +1,5 @@
 use crate::{Record, RecordError};
+use coact_input_file::{LONGEST_LOG, read_text_within};
 use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -31,7 +32,7 @@ impl<R: Record> RunLog<R> {
         let path = report.join(R::FILE);
         let error = |cause| RecordError::File { path: path.clone(), cause };
         let file = OpenOptions::new().create(true).append(true).open(&path).map_err(error)?;
-        let text = std::fs::read_to_string(&path).map_err(error)?;
+        let text = read_text_within(&path, LONGEST_LOG).map_err(error)?;
         let whole = whole_lines(&text);
         if whole.len() < text.len() {
             file.set_len(whole.len() as u64).map_err(error)?;
@@ -53,7 +54,7 @@ impl<R: Record> RunLog<R> {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn read_file(path: &Path) -> Result<Vec<R>, RecordError> {
-        let text = std::fs::read_to_string(path)
+        let text = read_text_within(path, LONGEST_LOG)
             .map_err(|cause| RecordError::File { path: path.to_owned(), cause })?;
         parse(path, whole_lines(&text), 1)
     }

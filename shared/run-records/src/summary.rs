@@ -2,6 +2,7 @@ use crate::{
     AnticipationReport, Environment, FaultReport, Judgement, MotionReport, OutageReport, Percentiles,
     ProcessReport, ReactionReport, RecordError, TaskReport, TrackingReport,
 };
+use coact_input_file::LONGEST_LOG;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -71,7 +72,7 @@ impl Summary {
     /// There is none, or it is damaged.
     pub fn read(report: &Path) -> Result<Self, RecordError> {
         let path = report.join(Self::FILE);
-        let text = std::fs::read_to_string(&path)
+        let text = coact_input_file::read_text_within(&path, LONGEST_LOG)
             .map_err(|cause| RecordError::File { path: path.clone(), cause })?;
         serde_json::from_str(&text).map_err(|cause| RecordError::Summary { path, cause })
     }

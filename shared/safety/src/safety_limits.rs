@@ -83,7 +83,7 @@ impl SafetyLimits {
     /// # Errors
     /// [`SafetyError`]: the file cannot be read, or a key is missing, unknown or out of its range.
     pub fn load(file: &Path) -> Result<Self, SafetyError> {
-        let text = std::fs::read_to_string(file)
+        let text = coact_input_file::read_text(file)
             .map_err(|source| SafetyError::Unreadable { file: file.to_owned(), source })?;
         Self::parse(&text, file)
     }

@@ -17,7 +17,7 @@ use std::process::ExitCode;
 /// There is no readable `summary.json`.
 pub fn show(report: &Path, json: bool, strict: bool) -> Result<ExitCode> {
     let path = report.join(Summary::FILE);
-    let text = std::fs::read_to_string(&path)
+    let text = coact_input_file::read_text_within(&path, coact_input_file::LONGEST_LOG)
         .with_context(|| format!("{}: the run ended before it could be written", path.display()))?;
     let summary = Summary::read(report)?;
     if json {

@@ -52,8 +52,9 @@ impl Demonstration {
     pub fn read(path: &Path, known: &[String]) -> Result<Vec<Self>, LearnError> {
         let path = if path.is_dir() { path.join(Event::FILE) } else { path.to_owned() };
         let name = path.display().to_string();
-        let text =
-            || std::fs::read_to_string(&path).map_err(|cause| LearnError::File { path: path.clone(), cause });
+        let text = || {
+            coact_input_file::read_text(&path).map_err(|cause| LearnError::File { path: path.clone(), cause })
+        };
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("toml") => Ok(vec![Self::new(&name, entries_of_toml(&name, &text()?)?, known)?]),
             Some("csv") => Ok(vec![Self::new(&name, entries_of_csv(&name, &text()?)?, known)?]),

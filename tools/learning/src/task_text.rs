@@ -15,7 +15,7 @@ impl TaskText {
     /// # Errors
     /// It cannot be read, or is no TOML.
     pub fn read(path: &Path) -> Result<Self, LearnError> {
-        let text = std::fs::read_to_string(path)
+        let text = coact_input_file::read_text(path)
             .map_err(|cause| LearnError::File { path: path.to_owned(), cause })?;
         let document = text
             .parse()

@@ -50,7 +50,7 @@ impl PreshapeModel {
     /// # Errors
     /// [`ModelError`] with the file and, for a malformed one, the line and what was expected.
     pub fn load(path: &Path) -> Result<Self, ModelError> {
-        let text = std::fs::read_to_string(path)
+        let text = coact_input_file::read_text(path)
             .map_err(|reason| ModelError::File { path: path.to_path_buf(), reason })?;
         Self::parse(&text).map_err(|(line, message)| ModelError::Malformed {
             path: path.to_path_buf(),

@@ -57,7 +57,7 @@ impl Scenario {
     /// # Errors
     /// [`WorldError`] with file, line, key and what was expected.
     pub fn load(path: &Path, task: &Task) -> Result<Self, WorldError> {
-        let text = std::fs::read_to_string(path)
+        let text = coact_input_file::read_text(path)
             .map_err(|source| WorldError::File { path: path.to_path_buf(), source })?;
         let source = ScenarioSource { path, text: &text, task };
         let file: ScenarioFile = toml::from_str(&text).map_err(|error| {
