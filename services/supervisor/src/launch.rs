@@ -7,6 +7,7 @@ use crate::{
 use coact_joint_task::Task;
 use coact_pipeline::{Pipeline, ProcessEntry, Run, RunSettings, Trigger};
 use coact_run_records::{Event, RunLog, Summary, TaskReport};
+use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -65,6 +66,7 @@ impl Launch {
         observer: impl FnOnce(&Run, &AtomicBool) -> T + Send,
     ) -> Result<(Ending, T), LaunchError> {
         self.check()?;
+        raise_open_files();
         coact_realtime::exclude_real_time_cores(&self.pipeline);
         remove_dead_runs();
         let log = self.open_report()?;
@@ -156,6 +158,14 @@ impl Launch {
         });
         ProcessSet::new(specs, self.pipeline.restart, log, on_line)
     }
+}
+
+/// Raises the limit of open files as far as that is allowed, for itself and for all that it starts: the usual soft limit of
+/// 1024 is for programs that wait with `select`.
+fn raise_open_files() {
+    let Rlimit { maximum, .. } = getrlimit(Resource::Nofile);
+    // Refused only beyond the hard limit, which is what is asked for.
+    setrlimit(Resource::Nofile, Rlimit { current: maximum, maximum }).ok();
 }
 
 /// Removes what runs left behind whose supervisor was killed. Runs that still go on are not touched.

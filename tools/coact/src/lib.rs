@@ -1,6 +1,7 @@
 //! The operator's command line: what starts, watches and reports runs. Whatever no run needs is a study, and belongs to a
 //! second program, `coact-studies`, so that the first `tools/launch` need not wait until that is built.
 
+mod check;
 /// Readers who have seen enough.
 pub mod closed_pipe;
 mod inject;
@@ -44,6 +45,8 @@ struct Cli {
 enum Command {
     /// Start the process set, watch it build, and report
     Launch(launch::Args),
+    /// Say whether this machine can hold a period of 1 ms, and what would help
+    Check(check::Args),
     /// Inject a fault into a process of a running process set
     Inject(inject::Args),
     /// Say something to the robot of a running process set
@@ -75,6 +78,7 @@ fn run(arguments: &[OsString]) -> Result<ExitCode> {
     let command = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit()).command;
     match command {
         Command::Launch(args) => launch::run(args),
+        Command::Check(args) => check::run(args),
         Command::Inject(args) => inject::run(args),
         Command::Say(args) => say::run(args),
         Command::Latency(args) => latency::run(args),

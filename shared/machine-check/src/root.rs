@@ -1,0 +1,43 @@
+use std::path::{Path, PathBuf};
+
+/// The folder below which `/proc`, `/sys` and `/dev` are read.
+pub(crate) struct Root<'a>(pub(crate) &'a Path);
+
+impl Root<'_> {
+    pub(crate) fn path(&self, path: &str) -> PathBuf {
+        self.0.join(path.trim_start_matches('/'))
+    }
+
+    /// A file's text without the white space around it; none where it is not there or not allowed.
+    pub(crate) fn text(&self, path: &str) -> Option<String> {
+        std::fs::read_to_string(self.path(path)).ok().map(|text| text.trim().to_owned())
+    }
+
+    /// Names of what is in a folder.
+    pub(crate) fn names(&self, folder: &str) -> Vec<String> {
+        let entries = std::fs::read_dir(self.path(folder)).into_iter().flatten().flatten();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+}
+
+/// Whether a list of the kernel's, as in "0-2,5", contains a number.
+pub(crate) fn contains(list: &str, number: usize) -> bool {
+    list.trim().split(',').any(|part| {
+        let (first, last) = part.split_once('-').unwrap_or((part, part));
+        matches!((first.parse(), last.parse()), (Ok(first), Ok(last)) if (first..=last).contains(&number))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::contains;
+
+    #[test]
+    fn lists_of_the_kernel_have_ranges() {
+        assert!(contains("0-2,5\n", 2) && contains("0-2,5", 5));
+        assert!(!contains("0-2,5", 3) && !contains("", 0) && !contains("none", 0));
+    }
+}
