@@ -1,7 +1,8 @@
 use crate::executor::Executor;
 use crate::signals::Signals;
 use crate::{
-    Arguments, Bus, Cycle, Message, Output, PortError, ProcessError, Schedule, memory_lock, scheduling,
+    Arguments, Bus, Cycle, LogStyle, Message, Output, PortError, ProcessError, Schedule, memory_lock,
+    scheduling,
 };
 use clap::Parser;
 use coact_messages::topic;
@@ -9,7 +10,6 @@ use coact_pipeline::{GENERATION_VARIABLE, Pipeline, ProcessEntry, Ready, Run};
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
 use std::time::Duration;
-use tracing_subscriber::EnvFilter;
 
 /// How long a replacement waits for its predecessor's checkpoint before it begins anew. The supervisor publishes it before
 /// it starts the replacement, and hands it over within some 2 ms: after half a second it never will. Chosen by hand.
@@ -37,8 +37,7 @@ impl Process {
     /// [`ProcessError`] says what about the run, its process table or its topics is wrong.
     pub fn from_arguments(name: &str) -> Result<Self, ProcessError> {
         let arguments = Arguments::parse();
-        let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("warn"));
-        tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+        LogStyle::Process.log_to_stderr();
         Self::open(name, &arguments.run, generation()?)
     }
 

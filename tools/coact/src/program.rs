@@ -1,4 +1,5 @@
 use anyhow::Result;
+use coact_realtime::LogStyle;
 use owo_colors::{OwoColorize, Stream};
 use std::process::ExitCode;
 
@@ -7,16 +8,7 @@ const REFUSED: u8 = 2;
 
 /// Logs go to standard error, where results are not.
 pub fn begin() {
-    tracing_subscriber::fmt()
-        .with_writer(std::io::stderr)
-        .with_env_filter(
-            tracing_subscriber::EnvFilter::builder()
-                .with_default_directive(tracing::Level::WARN.into())
-                .from_env_lossy(),
-        )
-        .without_time()
-        .with_target(false)
-        .init();
+    LogStyle::Tool.log_to_stderr();
 }
 
 /// The exit status of a command; an error is told first.

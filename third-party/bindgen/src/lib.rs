@@ -1,0 +1,1 @@
+//! Empty: no build script of a system that we run on calls bindgen.
