@@ -47,6 +47,9 @@ class Pulse(ctypes.Structure):
         ("missed", ctypes.c_uint64),
         ("stale", ctypes.c_uint64),
         ("skipped", ctypes.c_uint64),
+        ("refused", ctypes.c_uint32 * 10),
+        ("refused_topic", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
     ]
 
     @staticmethod

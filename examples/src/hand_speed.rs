@@ -1,5 +1,5 @@
 use bytemuck::{Pod, Zeroable};
-use coact_messages::{Header, Percept};
+use coact_messages::{Flaw, Header, Percept, Plausible};
 use iceoryx2::prelude::ZeroCopySend;
 
 /// How fast the person's hand moves, smoothed (1 kHz).
@@ -26,6 +26,9 @@ pub struct HandSpeed {
 /// than the tracker's noise.
 const FOLLOWS: f64 = 0.05;
 
+/// No hand is faster, m/s: those of athletes who throw reach some 30.
+const FASTEST: f64 = 100.0;
+
 impl HandSpeed {
     /// Topic of the process `stage_as_process`.
     pub const TOPIC: &str = "example/hand-speed";
@@ -45,6 +48,17 @@ impl HandSpeed {
         }
         self.reaches = previous.reaches + u64::from(begins);
         self.reaching = u64::from(hand.reaching);
+    }
+}
+
+impl Plausible for HandSpeed {
+    /// Readers take in no message that holds what no hand does.
+    fn check(&self) -> Result<(), Flaw> {
+        let fast = |speed: f64| (0.0..FASTEST).contains(&speed);
+        if fast(self.now) && fast(self.highest) {
+            return Ok(());
+        }
+        Err(Flaw { field: "now, highest", expected: "speeds of a hand" })
     }
 }
 

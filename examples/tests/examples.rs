@@ -6,7 +6,7 @@
 use coact_examples::HandSpeed;
 use coact_messages::{FieldFrame, LAYOUT, Percept, Pulse, topic};
 use coact_period::{PERIOD, PERIOD_NS};
-use coact_pipeline::{Run, RunSettings};
+use coact_pipeline::{Ready, Run, RunSettings};
 use coact_realtime::{Bus, Input, Message, Output, now};
 use rustix::process::{Pid, Signal, kill_process};
 use std::path::{Path, PathBuf};
@@ -59,6 +59,9 @@ fn publish<T: Message>(
     fill: impl Fn(&mut T, u64),
     mut done: impl FnMut() -> bool,
 ) {
+    let pid = std::process::id();
+    run.report_ready(&Ready { process: process.to_owned(), pid, ..Ready::default() }).unwrap();
+    run.start(now()).unwrap();
     let bus = Bus::open(run, process, 0).unwrap();
     let mut output: Output<T> = bus.output(topic).unwrap();
     let begin = Instant::now();

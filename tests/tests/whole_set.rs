@@ -23,6 +23,7 @@ fn a_set_builds_at_its_rate_and_reports() {
         let cycles = finished.cycles(process);
         assert!((22_500..=25_100).contains(&cycles), "{process}: {cycles} cycles in 25 s");
     }
+    assert!(finished.summary().refused.is_empty(), "good messages are not refused");
     let printed: Summary = serde_json::from_str(&finished.stdout).unwrap();
     assert_eq!(&printed, finished.summary(), "--json prints the summary and nothing else");
     assert!(finished.supervisor.iter().all(|event| event.event != SupervisorEventKind::Died));

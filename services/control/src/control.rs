@@ -78,9 +78,9 @@ impl Control {
     }
 
     /// Goes on from the last command of a predecessor: its setpoints, its trajectory, its skill. A command without such a
-    /// state is ignored.
-    pub fn resume(&mut self, last: &Command) {
-        self.take_over(last);
+    /// state is ignored: `false`.
+    pub fn resume(&mut self, last: &Command) -> bool {
+        self.take_over(last)
     }
 
     /// One period: the setpoints of cycle `tick` into `out`, from the newest messages known. `previous` is the command

@@ -44,7 +44,10 @@ fn main() -> anyhow::Result<()> {
     let frame = process.bus().trigger(topic::FIELDS)?;
     let mut command = process.bus().output(topic::COMMAND)?;
     if let Some(last) = process.checkpoint(&mut command)? {
-        control.resume(&last);
+        let cycle = last.header.cycle;
+        if !control.resume(&last) {
+            tracing::warn!("control begins at rest: the state in its checkpoint of cycle {cycle} is damaged");
+        }
     }
     process.spawn_background("planner", move || planner.run())?;
     Ok(process.run_cycles(ControlCycle { control, sample, percept, frame, command })?)

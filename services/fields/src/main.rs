@@ -39,7 +39,12 @@ fn main() -> anyhow::Result<()> {
     let mut frame = process.bus().output(topic::FIELDS)?;
     let start = match process.checkpoint(&mut frame)? {
         Some(last) if network.fits(&last) => last,
-        _ => at_rest(&network),
+        Some(last) => {
+            let cycle = last.header.cycle;
+            tracing::warn!("fields begins at rest: its checkpoint of cycle {cycle} is of another task or network");
+            at_rest(&network)
+        }
+        None => at_rest(&network),
     };
     Ok(process.run_cycles(Fields { network, percept, start, previous, frame })?)
 }

@@ -79,7 +79,17 @@ impl Network {
 
     /// Whether `frame` is a state of this network, so that it can be resumed from.
     pub fn fits(&self, frame: &FieldFrame) -> bool {
-        frame.task == self.task && frame.layers.count as usize == self.plan.layers.len()
+        let (table, width) = (&frame.layers, self.plan.sites_per_population);
+        let stands_there = |(index, layer): (usize, &LayerPlan)| {
+            let SiteRange { first, last } = sites(layer, width);
+            let found = [table.kind[index], table.first_site[index], table.sites[index]];
+            let found = (found, table.first_population[index], table.populations[index]);
+            let expected = [layer.kind as u32, first as u32, (last - first) as u32];
+            found == (expected, layer.populations.start as u32, layer.populations.len() as u32)
+        };
+        frame.task == self.task
+            && table.count as usize == self.plan.layers.len()
+            && self.plan.layers.iter().enumerate().all(stands_there)
     }
 
     /// Integrates one period from `previous` into `out`.

@@ -1,6 +1,7 @@
 use crate::metrics::{END_TO_END, execution_name, hop_name, wakeup_name};
 use crate::{Metrics, ProcessCounters, Rules, percentiles, verdict};
 use coact_joint_task::Task;
+use coact_messages::Refusal;
 use coact_period::PERIOD_NS;
 use coact_run_records::{
     AnticipationReport, Environment, Event, FaultReport, Judgement, MotionReport, OutageReport, Percentiles,
@@ -29,6 +30,8 @@ pub struct Findings<'a> {
     pub tracking: TrackingReport,
     /// From decisions to movements.
     pub reaction: ReactionReport,
+    /// Messages that the monitor ignored, by the number of their [`Refusal`].
+    pub refused: [u32; Refusal::COUNT],
     /// Start of the run, ns of `CLOCK_MONOTONIC`.
     pub start_ns: u64,
     /// End of the run, likewise.
@@ -51,6 +54,7 @@ impl Findings<'_> {
             blind_s,
             tracking,
             reaction,
+            refused,
             start_ns,
             rules,
             ..
@@ -67,6 +71,7 @@ impl Findings<'_> {
             movement_reaction_ms: reaction,
             anticipation: AnticipationReport::new(events),
             task: TaskReport::new(task.subgoals.len(), events, duration_s),
+            refused: ignored(metrics, refused.map(u64::from)),
             faults: FaultReport::all(events, start_ns),
             work: Judgement::default(),
             timing: Judgement::default(),
@@ -115,6 +120,24 @@ impl Findings<'_> {
 
 fn percentiles_of(metrics: &Metrics, name: &str) -> Percentiles {
     metrics.histograms().get(name).map(|own| percentiles(own.total())).unwrap_or_default()
+}
+
+/// What each process ignored, by reason; processes that ignored nothing are left out.
+fn ignored(
+    metrics: Option<&Metrics>,
+    monitor: [u64; Refusal::COUNT],
+) -> BTreeMap<String, BTreeMap<String, u64>> {
+    let processes = metrics.into_iter().flat_map(Metrics::counters);
+    let processes = processes.map(|(name, counters)| (name.as_str(), counters.refused));
+    let by_reason = |counts: [u64; Refusal::COUNT]| {
+        let counts = Refusal::ALL.iter().zip(counts).filter(|(_, count)| *count > 0);
+        counts.map(|(reason, count)| (reason.name().to_owned(), count)).collect::<BTreeMap<_, _>>()
+    };
+    processes
+        .chain([("monitor", monitor)])
+        .map(|(name, counts)| (name.to_owned(), by_reason(counts)))
+        .filter(|(_, reasons)| !reasons.is_empty())
+        .collect()
 }
 
 fn hops(metrics: &Metrics) -> BTreeMap<String, Percentiles> {

@@ -16,7 +16,7 @@ const LOOK_EVERY: Duration = Duration::from_millis(5);
 const WRITE_EVERY: Duration = Duration::from_secs(1);
 
 fn main() -> anyhow::Result<()> {
-    let process = Process::from_arguments("monitor")?;
+    let mut process = Process::from_arguments("monitor")?;
     let watched = watched(&process)?;
     let names = watched.nodes.iter().map(|node| node.process.clone()).collect();
     if process.generation() == 0 {
@@ -32,12 +32,14 @@ fn main() -> anyhow::Result<()> {
     while !process.stop_requested() {
         std::thread::sleep(LOOK_EVERY);
         topics.drain(&mut monitor, &mut refused)?;
+        process.warn_of_refusals();
         if written.elapsed() >= WRITE_EVERY {
             written = Instant::now();
             warn_once(monitor.write(), &mut refused);
         }
     }
     topics.drain(&mut monitor, &mut refused)?;
+    monitor.refused(process.bus().refusals().counts());
     let machine = probe.map(|probe| environment::of_probe(&probe.lateness()));
     let environment = Environment { machine, ..environment::of_run(process.run(), process.pipeline()) };
     monitor.finish(environment, now())?;

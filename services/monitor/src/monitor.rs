@@ -6,7 +6,7 @@ use crate::{
     TaskWatch, Tracking, Watched,
 };
 use coact_joint_task::Task;
-use coact_messages::{Command, FieldFrame, NONE, Pulse, SensorSample, Speech, Truth};
+use coact_messages::{Command, FieldFrame, NONE, Pulse, Refusal, SensorSample, Speech, Truth};
 use coact_period::cycles;
 use coact_run_records::{
     Environment, Event, LogFollower, Record, RunLog, Snapshot, Summary, SupervisorEvent, SupervisorEventKind,
@@ -49,6 +49,8 @@ pub struct Monitor {
     /// Truths that are younger than the newest frame.
     waiting: VecDeque<Truth>,
     truth: Truth,
+    /// Messages that the monitor itself ignored.
+    refused: [u32; Refusal::COUNT],
 }
 
 impl Monitor {
@@ -96,6 +98,7 @@ impl Monitor {
             supervisor,
             waiting,
             truth,
+            refused: [0; Refusal::COUNT],
         })
     }
 
@@ -186,6 +189,11 @@ impl Monitor {
         Ok(())
     }
 
+    /// So many messages the monitor's own ports have ignored so far.
+    pub fn refused(&mut self, counts: [u32; Refusal::COUNT]) {
+        self.refused = counts;
+    }
+
     /// Reads what the supervisor wrote, settles faults, and writes events and snapshots; after each look at the topics.
     ///
     /// # Errors
@@ -234,6 +242,7 @@ impl Monitor {
             blind_s: blind_s(self.events.records()),
             tracking: self.tracking.report(),
             reaction: self.reaction.report(),
+            refused: self.refused,
             start_ns: self.start_ns,
             end_ns: now_ns,
             rules: &self.rules,

@@ -1,5 +1,5 @@
 use crate::Outage;
-use coact_messages::{Header, Pulse};
+use coact_messages::{Header, Pulse, Refusal};
 use coact_period::PERIOD_NS;
 
 /// What one process missed over the whole run, its restarts included.
@@ -23,6 +23,9 @@ pub struct ProcessCounters {
     pub outage: Outage,
     /// Cycles without timely output that descends from a sensor sample young enough to be used.
     pub outage_on_fresh_data: Outage,
+    /// Messages that it ignored, by the number of their [`Refusal`].
+    #[serde(default)]
+    pub refused: [u64; Refusal::COUNT],
     /// Misses at the end of what was seen so far, without a timely cycle in between.
     run: u64,
     /// PulseCounters of the newest pulse.
@@ -37,6 +40,8 @@ struct PulseCounters {
     missed: u64,
     stale: u64,
     skipped: u64,
+    #[serde(default)]
+    refused: [u32; Refusal::COUNT],
 }
 
 /// What a pulse tells of its cycle and of those since the pulse before.
@@ -67,6 +72,7 @@ impl ProcessCounters {
             missed: pulse.missed,
             stale: pulse.stale,
             skipped: pulse.skipped,
+            refused: pulse.refused,
         };
         let same = self.last.filter(|last| last.generation == now.generation && last.sequence < now.sequence);
         // A reader that connects late counts from there; a replacement has counted from its own start.
@@ -81,6 +87,9 @@ impl ProcessCounters {
         self.stale += now.stale.saturating_sub(before.stale);
         self.skipped += now.skipped.saturating_sub(before.skipped);
         self.unseen += unseen;
+        for (refused, (now, before)) in self.refused.iter_mut().zip(now.refused.iter().zip(before.refused)) {
+            *refused += u64::from(now.saturating_sub(before));
+        }
         self.restarts = self.restarts.max(now.generation);
         self.run = if missed == 0 { 0 } else { self.run + missed };
         self.longest_miss_run = self.longest_miss_run.max(self.run);

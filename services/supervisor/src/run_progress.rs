@@ -1,6 +1,6 @@
 use crate::{Note, NoteKind};
 use coact_joint_task::Task;
-use coact_messages::{FieldFrame, LayerKind, Pulse, Speech};
+use coact_messages::{FieldFrame, LayerKind, Pulse, Refusal, Speech, topic};
 use coact_run_records::{SupervisorEvent, SupervisorEventKind};
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -12,18 +12,21 @@ pub struct RunProgress {
     actions: Vec<String>,
     achieved: Vec<bool>,
     decision: Option<usize>,
-    /// Deadline misses of each process: of its dead generations, and of the present one.
-    missed: BTreeMap<String, DeadlineMisses>,
+    /// What the pulses of each process counted: deadline misses, of its dead generations and of the present one, and ignored
+    /// messages.
+    missed: BTreeMap<String, PulseCounts>,
     restarts: u32,
     notes: Vec<Note>,
 }
 
 #[derive(Debug, Default)]
-struct DeadlineMisses {
+struct PulseCounts {
     /// In generations that are dead.
     before: u64,
     generation: u32,
     now: u64,
+    /// For which reasons it has ignored messages, in any generation.
+    refused: [bool; Refusal::COUNT],
 }
 
 /// A population whose signal is above this stands for an achieved subgoal: the middle between rest (0) and a full peak (1).
@@ -79,7 +82,7 @@ impl RunProgress {
     /// The newest pulse of a process.
     pub fn pulse(&mut self, process: &str, pulse: &Pulse) {
         if !self.missed.contains_key(process) {
-            self.missed.insert(process.to_owned(), DeadlineMisses::default());
+            self.missed.insert(process.to_owned(), PulseCounts::default());
         }
         let Some(missed) = self.missed.get_mut(process) else { return };
         if pulse.header.generation != missed.generation {
@@ -87,6 +90,14 @@ impl RunProgress {
             missed.generation = pulse.header.generation;
         }
         missed.now = pulse.missed;
+        for (reason, (known, count)) in Refusal::ALL.iter().zip(missed.refused.iter_mut().zip(pulse.refused)) {
+            if count > 0 && !*known {
+                *known = true;
+                let topic = topic::ALL.get(pulse.refused_topic as usize).map_or("a topic", |entry| entry.name);
+                let text = format!("{process} ignores a message of {topic}: {}", reason.name());
+                self.notes.push(Note::new(NoteKind::Alarm, text));
+            }
+        }
     }
 
     /// Something that happened to a process.
@@ -207,5 +218,18 @@ mod tests {
         }
         progress.pulse("world", &Pulse { missed: 1, ..Pulse::default() });
         assert!(progress.status(Duration::ZERO).contains("missed 8"), "{}", progress.status(Duration::ZERO));
+    }
+
+    #[test]
+    fn each_reason_for_which_a_process_ignores_messages_is_told_once() {
+        let mut progress = progress();
+        let mut pulse = Pulse { refused_topic: 0, ..Pulse::default() };
+        for count in 0..3 {
+            pulse.refused[Refusal::Future as usize] = count;
+            progress.pulse("perception", &pulse);
+        }
+        pulse.header.generation = 1;
+        progress.pulse("perception", &pulse);
+        assert_eq!(texts(&mut progress), ["perception ignores a message of coact/sensors: from the future"]);
     }
 }

@@ -10,7 +10,7 @@ use std::time::Duration;
 const LOOK_EVERY: Duration = Duration::from_millis(10);
 
 fn main() -> anyhow::Result<()> {
-    let process = Process::from_arguments("voice")?;
+    let mut process = Process::from_arguments("voice")?;
     let (task, plan) = NetworkPlan::load(&process.run().settings().task)?;
     let mut voice = Voice::new(&task, Meanings::from(&plan));
     let mut fields = process.bus().input::<FieldFrame>(topic::FIELDS)?;
@@ -19,7 +19,9 @@ fn main() -> anyhow::Result<()> {
     process.report_ready()?;
     while !process.stop_requested() {
         std::thread::sleep(LOOK_EVERY);
-        if !fields.refresh()? {
+        let is_news = fields.refresh()?;
+        process.warn_of_refusals();
+        if !is_news {
             continue;
         }
         let Some(frame) = fields.latest() else { continue };

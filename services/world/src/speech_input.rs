@@ -1,14 +1,18 @@
 use anyhow::Context;
-use coact_messages::{Speech, topic};
+use coact_messages::{Refusal, Speech, topic};
 use coact_pipeline::Run;
-use coact_realtime::{Bus, Input};
+use coact_realtime::{Bus, Input, Refusals};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
-use std::time::Duration;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// How often it is looked whether something was said.
 const LISTEN_EVERY: Duration = Duration::from_millis(10);
 /// Sentences that may wait for the next cycle.
 const WAITING: usize = 8;
+/// From one sentence to the next: nobody says more than four a second, and what is said faster comes from no person. Chosen by
+/// hand.
+const SENTENCE: Duration = Duration::from_millis(250);
 
 /// Listens beside the cycle: to open the port of somebody who begins to speak takes longer than a cycle has.
 pub struct SpeechInput {
@@ -16,20 +20,20 @@ pub struct SpeechInput {
 }
 
 impl SpeechInput {
-    /// Begins to listen to [`topic::HEARD`] of `run`.
+    /// Begins to listen to [`topic::HEARD`] of `run`; what is not passed on is counted in `refusals`.
     ///
     /// # Errors
     /// The topic cannot be joined, or there can be no thread.
-    pub fn open(run: &Run) -> anyhow::Result<Self> {
+    pub fn open(run: &Run, refusals: Arc<Refusals>) -> anyhow::Result<Self> {
         let (sender, sentences) = sync_channel(WAITING);
         let (opened, outcome) = sync_channel(1);
         let run = run.clone();
         let listen = move || {
-            let joined = Bus::open(&run, "world-speech-input", 0);
+            let joined = Bus::open(&run, "world-speech-input", 0).map(|bus| bus.counting_in(refusals.clone()));
             match joined.and_then(|bus| Ok((bus.input::<Speech>(topic::HEARD)?, bus))) {
                 Ok((input, _bus)) => {
                     opened.send(Ok(())).ok();
-                    listen(input, &sender);
+                    listen(input, &sender, &refusals);
                 }
                 Err(error) => {
                     opened.send(Err(error)).ok();
@@ -50,10 +54,17 @@ impl SpeechInput {
     }
 }
 
-fn listen(mut input: Input<Speech>, sender: &SyncSender<Speech>) {
+fn listen(mut input: Input<Speech>, sender: &SyncSender<Speech>, refusals: &Refusals) {
+    let index = topic::ALL.iter().position(|entry| entry.name == topic::HEARD).unwrap_or_default() as u32;
+    let mut free_at = Instant::now();
     loop {
         let mut is_wanted = true;
         let pass_on = |speech: &Speech| {
+            let now = Instant::now();
+            if now < free_at {
+                return refusals.count(index, Refusal::TooOften);
+            }
+            free_at = now + SENTENCE;
             is_wanted &= !matches!(sender.try_send(*speech), Err(TrySendError::Disconnected(_)));
         };
         if let Err(error) = input.each(pass_on) {

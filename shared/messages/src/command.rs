@@ -1,4 +1,5 @@
-use crate::{Header, JOINTS};
+use crate::plausible::{bounded, index, optional};
+use crate::{Flaw, Header, JOINTS, MAX_POPULATIONS, Plausible};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -53,4 +54,19 @@ pub enum MotionPhase {
     Dwell = 7,
     /// Braking within limits because inputs stopped, then standing.
     Brake = 8,
+}
+
+/// Angles, velocities and accelerations beyond these are none of a joint's, rad, rad/s, rad/s²: far above every robot's
+/// limits, which whoever drives the joints keeps.
+const MOST: [f64; 3] = [1e2, 1e3, 1e5];
+
+impl Plausible for Command {
+    fn check(&self) -> Result<(), Flaw> {
+        bounded("position", &self.position, MOST[0])?;
+        bounded("velocity", &self.velocity, MOST[1])?;
+        bounded("acceleration", &self.acceleration, MOST[2])?;
+        bounded("tracking_error", &self.tracking_error, MOST[0])?;
+        optional("action", self.action, MAX_POPULATIONS)?;
+        index("phase", self.phase, MotionPhase::Brake as usize + 1)
+    }
 }

@@ -1,4 +1,5 @@
-use crate::{Header, MAX_LAYERS, MAX_POPULATIONS, MAX_SITES};
+use crate::plausible::{bounded, ensure, index, not_after, optional};
+use crate::{Flaw, Header, MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, Plausible};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -130,5 +131,51 @@ impl LayerKind {
             Self::ErrorMonitoring => "EML",
             Self::ActionExecution => "AEL",
         }
+    }
+}
+
+/// Activities, inputs and signals beyond this are none of a network's, whose thresholds are some 10. Chosen by hand.
+const MOST: f64 = 1e6;
+
+impl Plausible for FieldFrame {
+    fn check(&self) -> Result<(), Flaw> {
+        self.layers.check()?;
+        let (sites, populations) = (self.layers.used_sites(), self.layers.used_populations());
+        bounded("activity", &self.activity[..sites], MOST)?;
+        bounded("input", &self.input[..sites], MOST)?;
+        bounded("resting", &self.resting[..populations], MOST)?;
+        bounded("signal", &self.signal[..populations], MOST)?;
+        not_after("since", &self.header, &self.since[..populations])?;
+        optional("decision.action", self.decision.action, MAX_POPULATIONS)?;
+        not_after("decision.since", &self.header, &[self.decision.since])
+    }
+}
+
+impl LayerTable {
+    /// Sites of the rows that belong to a layer; all sites of the table's layers stand before it.
+    pub fn used_sites(&self) -> usize {
+        self.end(&self.first_site, &self.sites).min(MAX_SITES)
+    }
+
+    /// The same for populations.
+    pub fn used_populations(&self) -> usize {
+        self.end(&self.first_population, &self.populations).min(MAX_POPULATIONS)
+    }
+
+    fn end(&self, first: &[u32; MAX_LAYERS], count: &[u32; MAX_LAYERS]) -> usize {
+        let layers = (self.count as usize).min(MAX_LAYERS);
+        let ends = first.iter().zip(count).map(|(first, count)| *first as usize + *count as usize);
+        ends.take(layers).max().unwrap_or(0)
+    }
+
+    fn check(&self) -> Result<(), Flaw> {
+        index("layers.count", self.count, MAX_LAYERS + 1)?;
+        self.kind[..self.count as usize]
+            .iter()
+            .try_for_each(|kind| index("layers.kind", *kind, LayerKind::ALL.len()))?;
+        let sites = self.end(&self.first_site, &self.sites);
+        ensure(sites <= MAX_SITES, "layers.sites", "sites that a frame holds")?;
+        let populations = self.end(&self.first_population, &self.populations);
+        ensure(populations <= MAX_POPULATIONS, "layers.populations", "populations that a frame holds")
     }
 }

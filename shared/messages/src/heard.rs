@@ -1,4 +1,4 @@
-use crate::message_text;
+use crate::{Flaw, Header, message_text, plausible};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -27,6 +27,13 @@ impl Heard {
     /// The newest sentence; empty before the first, and for bytes that are no text.
     pub fn sentence(&self) -> &str {
         message_text::read(&self.text, self.length)
+    }
+}
+
+impl Heard {
+    pub(crate) fn check(&self, header: &Header) -> Result<(), Flaw> {
+        plausible::not_after("heard.cycle", header, &[self.cycle])?;
+        message_text::check("heard.text", &self.text, self.length)
     }
 }
 

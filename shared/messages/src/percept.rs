@@ -1,4 +1,5 @@
-use crate::{Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, PersonArm, WORKSPACES};
+use crate::plausible::{ensure, fractions, index, orientations, places};
+use crate::{Flaw, Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, PersonArm, Plausible, WORKSPACES};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -58,4 +59,35 @@ pub struct WorkspacePercept {
     pub position: [[f64; 3]; MAX_KINDS],
     /// Its orientation, quaternion x, y, z, w.
     pub orientation: [[f64; 4]; MAX_KINDS],
+}
+
+impl Plausible for Percept {
+    fn check(&self) -> Result<(), Flaw> {
+        self.arm.check()?;
+        self.hand.check()?;
+        fractions("act", &self.act)?;
+        self.workspace.iter().try_for_each(WorkspacePercept::check)?;
+        fractions("achieved", &self.achieved)?;
+        fractions("open", &self.open)?;
+        fractions("robot_holds", &self.robot_holds)?;
+        fractions("person_holds", &self.person_holds)?;
+        fractions("lost", &self.lost)
+    }
+}
+
+impl HandPercept {
+    fn check(&self) -> Result<(), Flaw> {
+        let is_distance = (0.0..=1.0).contains(&self.aperture);
+        ensure(is_distance, "hand.aperture", "a distance of two fingertips")?;
+        index("hand.reaching", self.reaching, 2)
+    }
+}
+
+impl WorkspacePercept {
+    fn check(&self) -> Result<(), Flaw> {
+        fractions("workspace.seen", &self.seen)?;
+        fractions("workspace.gone", &self.gone)?;
+        places("workspace.position", self.position.as_flattened())?;
+        orientations("workspace.orientation", &self.orientation)
+    }
 }

@@ -1,3 +1,5 @@
+use crate::Flaw;
+use crate::plausible::{ensure, index, places, velocities};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -48,5 +50,16 @@ impl PersonArm {
     /// Shoulder, elbow, wrist and fingertip.
     pub fn points(&self) -> [&TrackedPoint; 4] {
         [&self.shoulder, &self.elbow, &self.wrist, &self.fingertip]
+    }
+}
+
+impl PersonArm {
+    pub(crate) fn check(&self) -> Result<(), Flaw> {
+        index("arm.tracked", self.tracked, 2)?;
+        self.points().into_iter().try_for_each(|point| {
+            places("arm.position", &point.position)?;
+            velocities("arm.velocity", &point.velocity)?;
+            ensure(point.deviation >= 0.0, "arm.deviation", "a number that is not negative")
+        })
     }
 }

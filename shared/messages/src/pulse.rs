@@ -1,4 +1,5 @@
-use crate::Header;
+use crate::plausible::{ensure, optional};
+use crate::{Flaw, Header, Plausible, Refusal, topic};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -28,4 +29,25 @@ pub struct Pulse {
     pub stale: u64,
     /// Cycles skipped so far because the one before overran (this generation).
     pub skipped: u64,
+    /// Messages that it ignored so far (this generation), by the number of their [`Refusal`].
+    pub refused: [u32; Refusal::COUNT],
+    /// The topic of the last of them: index into [`topic::ALL`], or [`NONE`](crate::NONE).
+    pub refused_topic: u32,
+    /// Reserved, zero.
+    pub reserved: u32,
+}
+
+impl Plausible for Pulse {
+    fn check(&self) -> Result<(), Flaw> {
+        let times = [
+            self.released_ns,
+            self.scheduled_ns,
+            self.started_ns,
+            self.input_published_ns,
+            self.input_received_ns,
+        ];
+        let last = self.header.published_ns;
+        ensure(times.iter().all(|time| *time <= last), "times", "times before the publication")?;
+        optional("refused_topic", self.refused_topic, topic::ALL.len())
+    }
 }

@@ -1,4 +1,5 @@
-use crate::{Header, Heard, JOINTS, MAX_PARTS};
+use crate::plausible::{bounded, ensure, fractions, kind, not_after, orientations, places};
+use crate::{Flaw, Header, Heard, JOINTS, MAX_PARTS, Plausible};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -111,4 +112,55 @@ pub struct Sighting {
     pub position: [f64; 3],
     /// Orientation of that frame, quaternion x, y, z, w.
     pub orientation: [f64; 4],
+}
+
+/// No joint turns farther than this, rad, or faster, rad/s; no hand presses harder than this, N.
+const MOST: [f64; 3] = [1e2, 1e3, 1e6];
+
+impl Plausible for SensorSample {
+    fn check(&self) -> Result<(), Flaw> {
+        self.joints.check()?;
+        not_after("hand.captured_cycle", &self.header, &[self.hand.captured_cycle])?;
+        self.hand.keypoints.iter().try_for_each(Keypoint::check)?;
+        not_after("scene.captured_cycle", &self.header, &[self.scene.captured_cycle])?;
+        self.scene.check()?;
+        self.heard.check(&self.header)
+    }
+}
+
+impl JointReading {
+    fn check(&self) -> Result<(), Flaw> {
+        bounded("joints.position", &self.position, MOST[0])?;
+        bounded("joints.velocity", &self.velocity, MOST[1])?;
+        bounded("joints.touch", &[self.touch], MOST[2])?;
+        let force = |force: &f64| force.is_nan() || force.abs() <= MOST[2];
+        ensure(self.wrist_force.iter().all(force), "joints.wrist_force", "a force, or NaN: not measured")
+    }
+}
+
+impl Keypoint {
+    fn check(&self) -> Result<(), Flaw> {
+        fractions("hand.keypoints.confidence", &[self.confidence])?;
+        // Where a joint that was lost would be means nothing.
+        if self.confidence == 0.0 { Ok(()) } else { places("hand.keypoints.position", &self.position) }
+    }
+}
+
+impl SceneView {
+    fn check(&self) -> Result<(), Flaw> {
+        let (sightings, occluders) = (self.sightings as usize, self.occluders as usize);
+        ensure(sightings <= self.sighting.len(), "scene.sightings", "no more than there is room for")?;
+        ensure(occluders <= self.occluder.len(), "scene.occluders", "no more than there is room for")?;
+        places("scene.occluder", self.occluder[..occluders].as_flattened())?;
+        self.sighting[..sightings].iter().try_for_each(Sighting::check)
+    }
+}
+
+impl Sighting {
+    fn check(&self) -> Result<(), Flaw> {
+        kind("scene.sighting.kind", self.kind)?;
+        fractions("scene.sighting.confidence", &[self.confidence])?;
+        places("scene.sighting.position", &self.position)?;
+        orientations("scene.sighting.orientation", &[self.orientation])
+    }
 }

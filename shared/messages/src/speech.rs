@@ -1,4 +1,4 @@
-use crate::{Header, message_text};
+use crate::{Flaw, Header, Plausible, message_text};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -24,5 +24,11 @@ impl Speech {
     /// The sentence; empty for bytes that are no text.
     pub fn sentence(&self) -> &str {
         message_text::read(&self.text, self.length)
+    }
+}
+
+impl Plausible for Speech {
+    fn check(&self) -> Result<(), Flaw> {
+        message_text::check("text", &self.text, self.length)
     }
 }

@@ -11,9 +11,11 @@
 //! assert!(topic::may_read(topic::TRUTH, "monitor") && !topic::may_read(topic::TRUTH, "control"));
 //! assert!(topic::reads("control", topic::FIELDS) && !topic::reads("control", &topic::resume(topic::FIELDS)));
 //! assert_eq!(topic::depth(&topic::pulse("world")), 512);
+//! assert_eq!((topic::writer(topic::TRUTH), topic::writer(topic::HEARD)), (Some("world"), None));
 //! ```
 
 use crate::TopicEntry;
+use std::time::Duration;
 
 /// [`SensorSample`](crate::SensorSample), what the sensors tell.
 pub const SENSORS: &str = "coact/sensors";
@@ -49,6 +51,11 @@ const JOINTS_EACH_CYCLE: usize = 32;
 /// Depth of spoken sentences: many more than are said while nobody looks.
 const SENTENCES: usize = 32;
 
+/// How long ago the cycle of a message may be that is taken in: no writer of a set is silent for so long and lives, so what is
+/// older is a message of long ago that is sent again. Stages have shorter limits of their own. Chosen by hand, far above the
+/// watchdog's half second and the second that a monitor may be late.
+const LIFETIME: Duration = Duration::from_secs(5);
+
 /// A topic of the chain: of each message the next stage is told by an event.
 const CHAIN: TopicEntry = TopicEntry {
     name: "",
@@ -59,6 +66,7 @@ const CHAIN: TopicEntry = TopicEntry {
     announced: true,
     checkpoint: true,
     depth: NEWEST,
+    lifetime: Some(LIFETIME),
 };
 /// Any other topic.
 const PLAIN: TopicEntry = TopicEntry { announced: false, checkpoint: false, ..CHAIN };
@@ -109,6 +117,7 @@ pub const ALL: [TopicEntry; 10] = [
         message: "Speech",
         writers: &["voice"],
         readers: &["monitor", "supervisor"],
+        lifetime: None,
         depth: SENTENCES,
         ..PLAIN
     },
@@ -117,6 +126,7 @@ pub const ALL: [TopicEntry; 10] = [
         message: "Speech",
         writers: &[ANYONE],
         readers: &["world"],
+        lifetime: None,
         depth: SENTENCES,
         ..PLAIN
     },
@@ -143,6 +153,7 @@ pub const ALL: [TopicEntry; 10] = [
         message: "the checkpoint",
         writers: &["supervisor"],
         readers: STAGES,
+        lifetime: None,
         ..PLAIN
     },
 ];
@@ -183,6 +194,15 @@ pub fn reads(process: &str, topic: &str) -> bool {
 pub fn writes(process: &str, topic: &str) -> bool {
     find(topic).is_some_and(|entry| entry.writers.contains(&process))
         && topic.strip_prefix("coact/pulse/").is_none_or(|of| of == process)
+}
+
+/// The one process that writes `topic`; `None` when anybody may, or for a topic of a program outside the set.
+pub fn writer(topic: &str) -> Option<&str> {
+    let entry = find(topic)?;
+    match entry.name.strip_suffix('*') {
+        Some(family) => topic.strip_prefix(family),
+        None => entry.writers.first().copied().filter(|writer| *writer != ANYONE),
+    }
 }
 
 /// Whether `process` may read `topic`.

@@ -1,3 +1,5 @@
+use std::time::Duration;
+
 /// What is fixed of one topic: its message, its writers and its readers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TopicEntry {
@@ -17,6 +19,8 @@ pub struct TopicEntry {
     pub checkpoint: bool,
     /// How many messages a reader may fall behind without losing one.
     pub depth: usize,
+    /// How old a message may be when it is taken in; `None` when that does not matter.
+    pub lifetime: Option<Duration>,
 }
 
 impl TopicEntry {

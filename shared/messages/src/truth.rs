@@ -1,4 +1,5 @@
-use crate::{Header, WORKSPACES};
+use crate::plausible::{index, not_after, optional, subgoal};
+use crate::{Flaw, Header, MAX_POPULATIONS, Plausible, WORKSPACES};
 use bytemuck::{CheckedBitPattern, NoUninit, Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -67,4 +68,16 @@ pub enum PartnerPhase {
     Act = 3,
     /// Moving the empty hand back to rest.
     Withdraw = 4,
+}
+
+impl Plausible for Truth {
+    fn check(&self) -> Result<(), Flaw> {
+        index("phase", self.phase, PartnerPhase::Withdraw as usize + 1)?;
+        optional("chain", self.chain, MAX_POPULATIONS)?;
+        subgoal("subgoal", self.subgoal)?;
+        not_after("cycles", &self.header, &[self.onset_cycle, self.grasp_cycle])?;
+        index("error", self.error, PartnerError::AtHand as usize + 1)?;
+        index("waiting", self.waiting, 2)?;
+        index("hidden", self.hidden, 2)
+    }
 }

@@ -1,4 +1,5 @@
-use crate::{Header, JOINTS, MAX_PARTS};
+use crate::plausible::{bounded, ensure, index, kind, orientations, places, subgoal, velocities};
+use crate::{Flaw, Header, JOINTS, MAX_PARTS, Plausible};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -42,4 +43,24 @@ pub struct PartState {
     pub subgoal: u32,
     /// Reserved, zero.
     pub reserved: u32,
+}
+
+impl Plausible for WorldState {
+    fn check(&self) -> Result<(), Flaw> {
+        bounded("position", &self.position, 1e2)?;
+        bounded("velocity", &self.velocity, 1e3)?;
+        ensure(self.parts <= MAX_PARTS as u64, "parts", "no more than there is room for")?;
+        self.part[..self.parts as usize].iter().try_for_each(PartState::check)
+    }
+}
+
+impl PartState {
+    fn check(&self) -> Result<(), Flaw> {
+        places("part.position", &self.position)?;
+        orientations("part.orientation", &[self.orientation])?;
+        velocities("part.velocity", &self.velocity)?;
+        kind("part.kind", self.kind)?;
+        index("part.state", self.state, 4)?;
+        subgoal("part.subgoal", self.subgoal)
+    }
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 pub const GENERATION_VARIABLE: &str = "COACT_GENERATION";
 
 /// What a process reports when it is ready to run: in `<run>/ready/<name>.<generation>.json`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Ready {
     /// Its name in the process table.
     pub process: String,

@@ -1,13 +1,15 @@
-use crate::{Headed, Input, Message, Output, PortError, places};
-use coact_messages::{LAYOUT, topic};
+use crate::run_view::RunView;
+use crate::{Headed, Input, Message, Output, PortError, Refusals, places};
+use coact_messages::{Header, LAYOUT, topic};
 use coact_pipeline::Run;
 use iceoryx2::prelude::*;
 use iceoryx2::service::port_factory::{event, publish_subscribe};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Writers of one topic: the living one, and dead ones until the supervisor has cleaned up after them. It does so
 /// before each restart but the first, so there are two dead ones at most; one more is reserve.
-const MAX_WRITERS: usize = 4;
+pub(crate) const MAX_WRITERS: usize = 4;
 /// Processes that may have one topic open: the set (7 with the supervisor), the reservations for their replacements (6),
 /// the dead until they are cleaned up after, and operators' tools. Chosen by hand; more would only cost shared memory.
 const MAX_NODES: usize = 24;
@@ -21,6 +23,8 @@ pub struct Bus {
     node: Box<dyn Joined>,
     process: String,
     generation: u32,
+    run: Arc<RunView>,
+    refusals: Arc<Refusals>,
 }
 
 /// A node behind a trait, for the same reason as ports: who drops a bus need not compile iceoryx2.
@@ -54,7 +58,25 @@ impl Bus {
             .map_err(|error| refused(format!("{error:?}")))?;
         // Its count of nodes iceoryx2 opens to everyone, whatever the umask.
         run.close_to_others().map_err(|error| refused(error.to_string()))?;
-        Ok(Self { node: Box::new(node), process: process.to_owned(), generation })
+        let (run, refusals) = (Arc::new(RunView::new(run)), Arc::default());
+        Ok(Self { node: Box::new(node), process: process.to_owned(), generation, run, refusals })
+    }
+
+    /// Counts what its inputs ignore in `refusals`, too: for a thread of a process that has a bus of its own.
+    #[must_use]
+    pub fn counting_in(mut self, refusals: Arc<Refusals>) -> Self {
+        self.refusals = refusals;
+        self
+    }
+
+    /// What its inputs have ignored.
+    pub fn refusals(&self) -> &Arc<Refusals> {
+        &self.refusals
+    }
+
+    /// The run's clock has been started.
+    pub(crate) fn start(&self, start_ns: u64) {
+        self.run.start(start_ns);
     }
 
     /// A writer of `topic`. It announces each message by an event if [`topic::announces`] says so.
@@ -70,8 +92,7 @@ impl Bus {
     /// # Errors
     /// [`PortError::Refused`], or [`PortError::Closed`].
     pub fn input<T: Message>(&self, topic: &str) -> Result<Input<T>, PortError> {
-        self.may_read(topic)?;
-        Ok(Input::new(topic, T::reader(self, topic, false)?))
+        self.reader(topic, false)
     }
 
     /// A reader of `topic` that can wait for its messages.
@@ -79,8 +100,7 @@ impl Bus {
     /// # Errors
     /// As [`Bus::input`].
     pub fn trigger<T: Message>(&self, topic: &str) -> Result<Input<T>, PortError> {
-        self.may_read(topic)?;
-        Ok(Input::new(topic, T::reader(self, topic, true)?))
+        self.reader(topic, true)
     }
 
     /// The checkpoint of a killed predecessor: its newest message on `topic`, as the supervisor's
@@ -89,22 +109,35 @@ impl Bus {
     /// `None` when the predecessor left nothing, or when nobody publishes anything `within` this time.
     ///
     /// # Errors
-    /// [`PortError::Refused`] or [`PortError::Layout`].
+    /// [`PortError::Refused`].
     pub fn checkpoint<T: Message>(&self, topic: &str, within: Duration) -> Result<Option<Box<T>>, PortError> {
         let topic = topic::resume(topic);
-        let mut input = Input::new(&topic, T::reader(self, &topic, false)?);
+        let mut port = T::reader(self, &topic, false)?;
         let since = Instant::now();
         while since.elapsed() < within {
-            input.receive_any()?;
-            match input.latest() {
-                Some(message) if message.header().layout == LAYOUT => return Ok(Some(Box::new(*message))),
-                // The supervisor says that there is no checkpoint by a header of zeros.
-                Some(message) if message.header().layout == 0 => return Ok(None),
-                Some(message) => return Err(PortError::layout(&topic, message.header())),
+            port.receive(&mut |_, origin| self.run.is_supervisor(origin))?;
+            match port.newest() {
+                Some(message) => return Ok(self.usable(message)),
                 None => std::thread::sleep(CHECKPOINT_POLL),
             }
         }
         Ok(None)
+    }
+
+    /// The checkpoint that the supervisor's message holds, if it is one and is not damaged.
+    fn usable<T: Message>(&self, message: &T) -> Option<Box<T>> {
+        let Header { layout, cycle, .. } = *message.header();
+        // The supervisor says that there is no checkpoint by a header of zeros.
+        if layout == 0 {
+            return None;
+        }
+        let flaw = match message.check() {
+            _ if layout != LAYOUT => format!("its layout is {layout}, expected {LAYOUT}"),
+            Err(flaw) => flaw.to_string(),
+            Ok(()) => return Some(Box::new(*message)),
+        };
+        tracing::warn!("{} begins anew: its checkpoint of cycle {cycle} is damaged: {flaw}", self.process);
+        None
     }
 
     /// Frees what dead processes left in shared memory; returns how many were cleaned up.
@@ -117,6 +150,12 @@ impl Bus {
     /// Name of the process.
     pub fn process(&self) -> &str {
         &self.process
+    }
+
+    fn reader<T: Message>(&self, topic: &str, waits: bool) -> Result<Input<T>, PortError> {
+        self.may_read(topic)?;
+        let port = T::reader(self, topic, waits)?;
+        Ok(Input::new(topic, port, self.run.clone(), self.refusals.clone()))
     }
 
     fn may_read(&self, topic: &str) -> Result<(), PortError> {

@@ -31,7 +31,7 @@ impl CheckpointStore {
     /// To be called every few milliseconds while a replacement starts, otherwise as often as convenient.
     ///
     /// # Errors
-    /// [`PortError::Refused`] or [`PortError::Layout`].
+    /// [`PortError::Refused`].
     pub fn poll(&mut self) -> Result<(), PortError> {
         let Self { world, perception, fields, control } = self;
         world.poll()?;

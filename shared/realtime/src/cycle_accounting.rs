@@ -49,6 +49,7 @@ impl CycleAccounting {
             missed: self.deadline_misses,
             stale: self.stale_inputs,
             skipped: self.skipped_cycles,
+            ..Pulse::default()
         }
     }
 }

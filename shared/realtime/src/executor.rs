@@ -1,11 +1,12 @@
 use crate::cycle_accounting::{CycleAccounting, CycleTimes, misses_deadline};
 use crate::monotonic_clock::{now, timespec};
 use crate::signals::Signals;
-use crate::{Cycle, Output, PortError, ProcessError, Schedule, Tick};
+use crate::{Cycle, Output, PortError, ProcessError, Refusals, Schedule, Tick};
 use coact_messages::{Header, Pulse};
 use coact_pipeline::{ProcessEntry, Trigger};
 use rustix::thread::clock_nanosleep_absolute;
 use rustix::time::ClockId;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// The injected fault "slow" lasts so many cycles. Chosen by hand: some 150 ms, long enough to be seen in the report, and
@@ -21,6 +22,7 @@ pub(crate) struct Executor {
     latest_start_ns: Option<u64>,
     accounting: CycleAccounting,
     pulse: Output<Pulse>,
+    refusals: Arc<Refusals>,
     slowed_cycles: u32,
 }
 
@@ -41,12 +43,14 @@ impl Executor {
         schedule: Schedule,
         waits_for_topic: bool,
         pulse: Output<Pulse>,
+        refusals: Arc<Refusals>,
     ) -> Self {
         Self {
             schedule,
             latest_start_ns: waits_for_topic.then_some(entry.latest_start.as_nanos() as u64),
             accounting: CycleAccounting::default(),
             pulse,
+            refusals,
             slowed_cycles: 0,
         }
     }
@@ -106,9 +110,11 @@ impl Executor {
         input: Option<&Header>,
         output: Header,
     ) -> Result<(), PortError> {
-        let recorded = self.accounting.record(times, input, output);
+        let Self { accounting, refusals, .. } = self;
+        let (refused, refused_topic) = (refusals.counts(), refusals.topic());
+        let recorded = accounting.record(times, input, output);
         let mut pulse = self.pulse.loan()?;
-        *pulse = recorded;
+        *pulse = Pulse { refused, refused_topic, ..recorded };
         pulse.send_as_is()
     }
 
@@ -166,7 +172,7 @@ mod tests {
         };
         let pulse = bus.output(&topic::pulse("world")).unwrap();
         let schedule = Schedule { start_ns: now() };
-        let mut executor = Executor::new(&pipeline.processes[0], schedule, false, pulse);
+        let mut executor = Executor::new(&pipeline.processes[0], schedule, false, pulse, Arc::default());
         let signals = Signals::install().unwrap();
         let mut cycle = |cycle| {
             let scheduled_ns = executor.wait(cycle, &mut work, &signals).unwrap();

@@ -1,10 +1,10 @@
 use bytemuck::Pod;
-use coact_messages::Header;
+use coact_messages::{Header, Plausible};
 use iceoryx2::prelude::ZeroCopySend;
 use std::fmt::Debug;
 
-/// Plain memory that begins with a [`Header`]: what ports carry.
-pub trait Headed: Pod + ZeroCopySend + Debug {
+/// Plain memory that begins with a [`Header`], and can be judged: what ports carry.
+pub trait Headed: Pod + ZeroCopySend + Debug + Plausible {
     /// The message's header.
     fn header(&self) -> &Header;
 

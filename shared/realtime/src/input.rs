@@ -1,60 +1,79 @@
 use crate::monotonic_clock::now;
 use crate::port::Reader;
-use crate::{Headed, Message, PortError};
-use coact_messages::{Header, LAYOUT};
+use crate::refusals::topic_index;
+use crate::run_view::RunView;
+use crate::{Judge, Message, Origin, PortError, Refusals};
+use coact_messages::{Header, Refusal, topic};
+use std::sync::Arc;
 
-/// Reader of one topic. It keeps the newest message where its writer wrote it: nothing is copied.
+/// Reader of one topic. It keeps the newest good message where its writer wrote it: nothing is copied.
+///
+/// Each message is judged before anybody sees it: its layout, its time, its writer, its order and its contents. What is not
+/// good is given back, counted ([`Bus::refusals`](crate::Bus::refusals)), and otherwise ignored: the message before it stays.
 #[derive(Debug)]
 pub struct Input<T: Message> {
     topic: String,
     port: Box<dyn Reader<T>>,
+    bench: Bench,
     received_ns: u64,
 }
 
+/// The judge of one topic, with what judgement needs.
+#[derive(Debug)]
+struct Bench {
+    judge: Judge,
+    run: Arc<RunView>,
+    refusals: Arc<Refusals>,
+    writer: Option<String>,
+    topic_index: u32,
+}
+
 impl<T: Message> Input<T> {
-    pub(crate) fn new(topic: &str, port: Box<dyn Reader<T>>) -> Self {
-        Self { topic: topic.to_owned(), port, received_ns: 0 }
+    pub(crate) fn new(
+        topic: &str,
+        port: Box<dyn Reader<T>>,
+        run: Arc<RunView>,
+        refusals: Arc<Refusals>,
+    ) -> Self {
+        let bench = Bench {
+            judge: Judge::of(topic),
+            run,
+            refusals,
+            writer: topic::writer(topic).map(str::to_owned),
+            topic_index: topic_index(topic),
+        };
+        Self { topic: topic.to_owned(), port, bench, received_ns: 0 }
     }
 
-    /// Takes in what has arrived, keeps the newest, and returns whether there was anything newer.
-    ///
-    /// Newest is the highest cycle: messages of a dead writer that are found late do not replace its successor's.
+    /// Takes in what has arrived, keeps the newest good message, and returns whether there was any.
     ///
     /// # Errors
-    /// [`PortError::Layout`] when the writer was built from other layouts; [`PortError::Refused`].
+    /// [`PortError::Refused`].
     pub fn refresh(&mut self) -> Result<bool, PortError> {
-        let fresh = self.receive_any()?;
-        match self.latest() {
-            Some(message) if message.header().layout != LAYOUT => {
-                Err(PortError::layout(&self.topic, message.header()))
-            }
-            _ => Ok(fresh),
-        }
+        Ok(self.each(|_| {})? > 0)
     }
 
-    /// As [`Input::refresh`], but leaves the check of the layout to the caller.
-    pub(crate) fn receive_any(&mut self) -> Result<bool, PortError> {
-        let fresh = self.port.take_newest()?;
-        if fresh {
-            self.received_ns = now();
-        }
-        Ok(fresh)
-    }
-
-    /// Calls `visit` with every message that has arrived, oldest first, and keeps the last; returns how many there were.
+    /// Calls `visit` with every good message that has arrived, oldest first, and keeps the last; returns how many there were.
     ///
     /// # Errors
     /// As [`Input::refresh`].
     pub fn each(&mut self, mut visit: impl FnMut(&T)) -> Result<usize, PortError> {
-        let (mut count, topic) = (0, &self.topic);
-        self.port.visit(&mut |message| {
-            if message.header().layout != LAYOUT {
-                return Err(PortError::layout(topic, message.header()));
+        let Self { port, bench, .. } = self;
+        let mut count = 0;
+        let unreadable = port.receive(&mut |message, origin| {
+            let is_good = bench.is_good(message, origin);
+            if is_good {
+                visit(message);
+                count += 1;
             }
-            visit(message);
-            count += 1;
-            Ok(())
+            is_good
         })?;
+        if unreadable {
+            bench.refusals.count(bench.topic_index, Refusal::Unreadable);
+        }
+        if count > 0 {
+            self.received_ns = now();
+        }
         Ok(count)
     }
 
@@ -63,14 +82,14 @@ impl<T: Message> Input<T> {
         &self.topic
     }
 
-    /// The newest message taken in so far, however old it is.
+    /// The newest good message taken in so far, however old it is.
     pub fn latest(&self) -> Option<&T> {
         self.port.newest()
     }
 
     /// Its header.
     pub fn header(&self) -> Option<&Header> {
-        self.latest().map(Headed::header)
+        self.latest().map(T::header)
     }
 
     /// When it was taken in, ns of `CLOCK_MONOTONIC`; 0 when none was.
@@ -96,5 +115,25 @@ impl<T: Message> Input<T> {
             }
             self.port.wait(until_ns - now)?;
         }
+    }
+}
+
+impl Bench {
+    /// Judges a message, and counts it when it is not good.
+    fn is_good<T: Message>(&mut self, message: &T, origin: Origin) -> bool {
+        let Self { judge, run, refusals, writer, topic_index } = self;
+        let now_ns = now();
+        let time = (run.tick_at(now_ns), now_ns);
+        let is_writer = |generation, origin| {
+            writer.as_deref().is_some_and(|writer| run.is(writer, generation, origin))
+        };
+        let verdict = judge
+            .judge(message.header(), origin, time, is_writer)
+            .and_then(|()| message.check().map_err(|_| Refusal::Implausible));
+        match verdict {
+            Ok(()) => judge.accept(message.header()),
+            Err(refusal) => refusals.count(*topic_index, refusal),
+        }
+        verdict.is_ok()
     }
 }

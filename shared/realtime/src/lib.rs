@@ -5,22 +5,30 @@
 //! publishes, and counts deadline misses, stale inputs and skipped cycles. The counters leave the process in its
 //! [`Pulse`](coact_messages::Pulse).
 //!
+//! Each message is judged by its reader before a stage sees it ([`Judge`], [`Plausible`](coact_messages::Plausible)); what is
+//! not good is ignored and counted ([`Refusals`]).
+//!
 //! Ports work without a process, too. Messages are written and read in place, in the shared memory of one run:
 //!
 //! ```
 //! use coact_messages::{Pulse, topic};
-//! use coact_pipeline::{Run, RunSettings};
+//! use coact_period::PERIOD_NS;
+//! use coact_pipeline::{Ready, Run, RunSettings};
 //! use coact_realtime::{Bus, Input, Output, Schedule, now};
 //!
 //! let run = Run::create(RunSettings::default())?;
+//! // Seven periods ago the run began, and this program reported that it is the process "fields" of it.
+//! let schedule = Schedule { start_ns: now() - 7 * PERIOD_NS };
+//! run.start(schedule.start_ns)?;
+//! run.report_ready(&Ready { process: "fields".into(), pid: std::process::id(), ..Ready::default() })?;
+//!
 //! let bus = Bus::open(&run, "fields", 0)?;
 //! let mut output: Output<Pulse> = bus.output(&topic::pulse("fields"))?;
 //! let mut input: Input<Pulse> = bus.input(&topic::pulse("fields"))?;
-//!
-//! let schedule = Schedule { start_ns: now() };
 //! let mut pulse = output.loan()?;
 //! pulse.released_ns = schedule.release(7);
 //! pulse.missed = 2;
+//! pulse.refused_topic = coact_messages::NONE;
 //! pulse.send(7, now())?;
 //!
 //! assert!(input.refresh()?, "something newer has come");
@@ -42,12 +50,14 @@ mod each_topic;
 mod executor;
 mod headed;
 mod input;
+mod judge;
 mod latency_probe;
 mod loan;
 mod log_style;
 mod memory_lock;
 mod message;
 mod monotonic_clock;
+mod origin;
 mod output;
 mod places;
 #[doc(hidden)]
@@ -55,7 +65,9 @@ pub mod port;
 mod port_error;
 mod process;
 mod process_error;
+mod refusals;
 mod reservation;
+mod run_view;
 mod schedule;
 mod scheduling;
 mod scheduling_class;
@@ -72,15 +84,18 @@ pub use checkpoint_store::CheckpointStore;
 pub use cycle::Cycle;
 pub use headed::Headed;
 pub use input::Input;
+pub use judge::Judge;
 pub use latency_probe::LatencyProbe;
 pub use loan::Loan;
 pub use log_style::LogStyle;
 pub use message::{Message, open_reader, open_writer};
 pub use monotonic_clock::{monotonic_time, now};
+pub use origin::Origin;
 pub use output::Output;
 pub use port_error::PortError;
 pub use process::Process;
 pub use process_error::ProcessError;
+pub use refusals::Refusals;
 pub use reservation::Reservation;
 pub use schedule::Schedule;
 pub use scheduling::exclude_real_time_cores;

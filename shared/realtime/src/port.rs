@@ -3,17 +3,15 @@
 //! iceoryx2's ports are generic by the message's type, and a program that names one compiles all of it again: 15 s of a
 //! core for each of our programs. Behind these traits they are compiled once for each message, in this crate.
 
-use crate::PortError;
+use crate::{Origin, PortError};
 use std::fmt::Debug;
 use std::ptr::NonNull;
 
 /// Reads one topic, and keeps the newest message where its writer wrote it.
 pub trait Reader<T>: Debug {
-    /// Takes in all that has arrived, keeps the message of the highest cycle; returns whether there was anything newer.
-    fn take_newest(&mut self) -> Result<bool, PortError>;
-
-    /// Shows `visit` every message that has arrived, oldest first, and keeps the last; ends with the first error.
-    fn visit(&mut self, visit: &mut dyn FnMut(&T) -> Result<(), PortError>) -> Result<(), PortError>;
+    /// Shows `is_good` every message that has arrived, oldest first, with its origin, and keeps the last good one; the others
+    /// are given back. Returns whether there was one that could not be read.
+    fn receive(&mut self, is_good: &mut dyn FnMut(&T, Origin) -> bool) -> Result<bool, PortError>;
 
     /// The message that is kept.
     fn newest(&self) -> Option<&T>;

@@ -1,4 +1,4 @@
-use coact_messages::{Header, LAYOUT, topic};
+use coact_messages::topic;
 use std::fmt::Debug;
 
 /// Why a port could not be opened or used.
@@ -46,18 +46,6 @@ pub enum PortError {
         /// How many read it.
         viewers: usize,
     },
-    /// The sender was built from other message layouts.
-    #[error(
-        "topic {topic}: message of layout {found}; expected layout {expected}: rebuild all programs together"
-    )]
-    Layout {
-        /// The topic.
-        topic: String,
-        /// Layout of the message.
-        found: u32,
-        /// Layout of this program.
-        expected: u32,
-    },
 }
 
 impl PortError {
@@ -68,10 +56,5 @@ impl PortError {
     pub(crate) fn closed(topic: &str, process: &str) -> Self {
         let readers = topic::find(topic).map_or(String::new(), |entry| entry.readers.join(" or "));
         Self::Closed { process: process.to_owned(), topic: topic.to_owned(), readers }
-    }
-
-    /// For a message with this header.
-    pub(crate) fn layout(topic: &str, header: &Header) -> Self {
-        Self::Layout { topic: topic.to_owned(), found: header.layout, expected: LAYOUT }
     }
 }

@@ -5,7 +5,7 @@ use crate::{
     scheduling,
 };
 use clap::Parser;
-use coact_messages::topic;
+use coact_messages::{Refusal, topic};
 use coact_pipeline::{GENERATION_VARIABLE, Pipeline, ProcessEntry, Ready, Run};
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
@@ -28,6 +28,8 @@ pub struct Process {
     bus: Bus,
     signals: Signals,
     resumed: bool,
+    /// The reasons for ignoring messages that were warned of.
+    warned: [bool; Refusal::COUNT],
 }
 
 impl Process {
@@ -56,7 +58,7 @@ impl Process {
             scheduling::exclude_real_time_cores(&pipeline);
         }
         let bus = Bus::open(&run, name, generation)?;
-        Ok(Self { run, pipeline, entry, generation, bus, signals, resumed: false })
+        Ok(Self { run, pipeline, entry, generation, bus, signals, resumed: false, warned: [false; Refusal::COUNT] })
     }
 
     /// The run that it takes part in.
@@ -129,6 +131,19 @@ impl Process {
         Ok(())
     }
 
+    /// Warns of the messages that its inputs have ignored, once for each reason. For processes without a pulse, which would
+    /// carry the counts; never to be called on a real-time thread.
+    pub fn warn_of_refusals(&mut self) {
+        let counts = self.bus.refusals().counts();
+        for (reason, (warned, count)) in Refusal::ALL.iter().zip(self.warned.iter_mut().zip(counts)) {
+            if count > 0 && !*warned {
+                *warned = true;
+                let name = topic::ALL.get(self.bus.refusals().topic() as usize).map_or("a topic", |own| own.name);
+                tracing::warn!("a message of {name} is ignored: {}", reason.name());
+            }
+        }
+    }
+
     /// Becomes real time as far as the process table wants and the machine grants, and reports readiness.
     ///
     /// The report says what was refused, and the supervisor shows that in red; the process runs all the same.
@@ -162,6 +177,7 @@ impl Process {
     pub fn wait_for_start(&self) -> Result<Option<Schedule>, ProcessError> {
         while !self.stop_requested() {
             if let Some(start_ns) = self.run.start_ns()? {
+                self.bus.start(start_ns);
                 return Ok(Some(Schedule { start_ns }));
             }
             std::thread::sleep(START_POLL);
@@ -179,8 +195,8 @@ impl Process {
         let pulse = self.bus.output(&topic::pulse(&self.entry.name))?;
         self.report_ready()?;
         let Some(schedule) = self.wait_for_start()? else { return Ok(()) };
-        let Self { entry, signals, .. } = self;
-        Executor::new(&entry, schedule, waits, pulse).run(&mut cycle, &signals)?;
+        let Self { entry, signals, bus, .. } = self;
+        Executor::new(&entry, schedule, waits, pulse, bus.refusals().clone()).run(&mut cycle, &signals)?;
         Ok(())
     }
 }

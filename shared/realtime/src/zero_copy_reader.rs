@@ -1,8 +1,10 @@
 use crate::monotonic_clock::timespec;
+use crate::bus::MAX_WRITERS;
 use crate::port::Reader;
-use crate::{Bus, Headed, PortError, places};
-use iceoryx2::port::{listener::Listener, port_name::PortName, subscriber::Subscriber};
-use iceoryx2::prelude::{FileDescriptorBased, ipc};
+use crate::{Bus, Headed, Origin, PortError, places};
+use coact_messages::topic;
+use iceoryx2::port::{ReceiveError, listener::Listener, port_name::PortName, subscriber::Subscriber};
+use iceoryx2::prelude::{FileDescriptorBased, PayloadHeader, ipc};
 use iceoryx2::sample::Sample;
 use rustix::event::{PollFd, PollFlags, poll};
 use std::os::fd::BorrowedFd;
@@ -15,6 +17,9 @@ pub(crate) struct ZeroCopyReader<T: Headed> {
     newest: Option<Sample<ipc::Service, T, ()>>,
     subscriber: Subscriber<ipc::Service, T, ()>,
     listener: Option<Listener<ipc::Service>>,
+    /// So many messages are taken in at one look: all that the queues of all writers hold, so that who sends without end keeps
+    /// no reader from its cycle.
+    most: usize,
 }
 
 impl<T: Headed> ZeroCopyReader<T> {
@@ -31,33 +36,30 @@ impl<T: Headed> ZeroCopyReader<T> {
         let name = name.map_err(|error| PortError::refused(topic, "naming", error))?;
         let subscriber = service.subscriber_builder().name(&name).create();
         let subscriber = subscriber.map_err(|error| PortError::refused(topic, "reading", error))?;
-        Ok(Self { topic: topic.to_owned(), newest: None, subscriber, listener })
-    }
-
-    fn receive(&self) -> Result<Option<Sample<ipc::Service, T, ()>>, PortError> {
-        self.subscriber.receive().map_err(|error| PortError::refused(&self.topic, "receiving", error))
+        let most = MAX_WRITERS * topic::depth(topic);
+        Ok(Self { topic: topic.to_owned(), newest: None, subscriber, listener, most })
     }
 }
 
 impl<T: Headed> Reader<T> for ZeroCopyReader<T> {
-    fn take_newest(&mut self) -> Result<bool, PortError> {
-        let mut fresh = false;
-        while let Some(sample) = self.receive()? {
-            let cycle = Headed::header(&*sample).cycle;
-            if self.newest().is_none_or(|newest| cycle >= newest.header().cycle) {
+    fn receive(&mut self, is_good: &mut dyn FnMut(&T, Origin) -> bool) -> Result<bool, PortError> {
+        for _ in 0..self.most {
+            let sample = match self.subscriber.receive() {
+                Ok(Some(sample)) => sample,
+                Ok(None) => return Ok(false),
+                // A sender whose memory is gone or cannot be mapped: the other senders can still be heard.
+                Err(ReceiveError::ConnectionFailure(_)) => return Ok(true),
+                Err(error) => return Err(PortError::refused(&self.topic, "receiving", error)),
+            };
+            let origin = Origin {
+                publisher: sample.origin().value(),
+                pid: sample.header().node_id().pid::<ipc::Service>().map_or(0, |pid| pid.value() as u32),
+            };
+            if is_good(&sample, origin) {
                 self.newest = Some(sample);
-                fresh = true;
             }
         }
-        Ok(fresh)
-    }
-
-    fn visit(&mut self, visit: &mut dyn FnMut(&T) -> Result<(), PortError>) -> Result<(), PortError> {
-        while let Some(sample) = self.receive()? {
-            visit(&sample)?;
-            self.newest = Some(sample);
-        }
-        Ok(())
+        Ok(false)
     }
 
     fn newest(&self) -> Option<&T> {

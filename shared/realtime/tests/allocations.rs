@@ -14,7 +14,7 @@ const CYCLES: u64 = 200;
 
 #[test]
 fn reading_allocates_nothing() {
-    let run = TestRun::new(support::TABLE);
+    let run = TestRun::started();
     let bus = Bus::open(&run.0, "fields", 0).unwrap();
     let mut input: Input<SensorSample> = bus.trigger(topic::SENSORS).unwrap();
     let mut output: Output<SensorSample> = bus.output(topic::SENSORS).unwrap();

@@ -6,10 +6,10 @@ mod support;
 use coact_messages::{FieldFrame, topic};
 use coact_period::PERIOD;
 use coact_pipeline::Pipeline;
-use coact_realtime::{Bus, CheckpointStore, Input, Process, TopicAnchors};
+use coact_realtime::{Bus, CheckpointStore, Input, Process, Schedule, TopicAnchors, now};
 use std::io::Read;
 use std::time::Duration;
-use support::{TABLE, TestRun, child_run, spawn};
+use support::{TestRun, child_run, ready, spawn};
 
 /// As often as the supervisor polls.
 const POLL_INTERVAL: Duration = Duration::from_millis(2);
@@ -19,9 +19,12 @@ const POLL_INTERVAL: Duration = Duration::from_millis(2);
 #[ignore = "the process to be killed, started by the tests below"]
 fn sender() {
     let Some(run) = child_run() else { return };
+    ready(&run, "fields", 0);
     let bus = Bus::open(&run, "fields", 0).unwrap();
     let mut output = bus.output::<FieldFrame>(topic::FIELDS).unwrap();
-    for cycle in 1.. {
+    let schedule = Schedule { start_ns: run.start_ns().unwrap().unwrap() };
+    loop {
+        let cycle = schedule.tick_at(now());
         let mut frame = output.loan().unwrap();
         frame.activity.fill(cycle as f64);
         frame.send(cycle, 0).unwrap();
@@ -60,7 +63,7 @@ fn printed_by_replacement(run: &TestRun, store: &mut CheckpointStore) -> String 
 
 #[test]
 fn replacement_resumes_from_the_last_frame_of_the_killed_process() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
     let supervisor = Bus::open(&run.0, "supervisor", 0).unwrap();
     let pipeline = Pipeline::load(&run.0.settings().pipeline).unwrap();
     let anchors = TopicAnchors::new(&supervisor, &pipeline).unwrap();
@@ -68,7 +71,7 @@ fn replacement_resumes_from_the_last_frame_of_the_killed_process() {
     let mut store = CheckpointStore::new(&supervisor).unwrap();
     let mut observed: Input<FieldFrame> = supervisor.input(topic::FIELDS).unwrap();
     let mut sender = spawn("sender", &run.0);
-    while observed.header().is_none_or(|header| header.cycle < 30) {
+    while observed.header().is_none_or(|header| header.sequence < 30) {
         store.poll().unwrap();
         observed.refresh().unwrap();
         std::thread::sleep(POLL_INTERVAL);
@@ -90,7 +93,7 @@ fn replacement_resumes_from_the_last_frame_of_the_killed_process() {
 
 #[test]
 fn replacement_is_told_at_once_that_there_is_no_checkpoint() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
     let supervisor = Bus::open(&run.0, "supervisor", 0).unwrap();
     let pipeline = Pipeline::load(&run.0.settings().pipeline).unwrap();
     let _anchors = TopicAnchors::new(&supervisor, &pipeline).unwrap();

@@ -3,7 +3,7 @@
 
 mod support;
 
-use coact_messages::{FieldFrame, Header, Percept, Pulse, topic};
+use coact_messages::{FieldFrame, Header, LAYOUT, Percept, Pulse, topic};
 use coact_period::PERIOD_NS;
 use coact_realtime::{Bus, Cycle, Input, Message, Output, PortError, Process, Schedule, Tick, now};
 use std::path::{Path, PathBuf};
@@ -50,7 +50,13 @@ impl<In: Message, Out: Message> Cycle for Relay<In, Out> {
 
     fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
         if tick.cycle > self.last {
-            return Ok(Header { cycle: tick.cycle, published_ns: now(), ..Header::default() });
+            return Ok(Header {
+                layout: LAYOUT,
+                sequence: tick.cycle,
+                cycle: tick.cycle,
+                published_ns: now(),
+                ..Header::default()
+            });
         }
         let sensor_ns = self.input.header().map_or(tick.cycle, |header| header.cycle);
         self.output.loan()?.send(tick.cycle, sensor_ns)

@@ -1,17 +1,19 @@
-//! Ports: messages lie in the run's own shared memory, the newest counts, and other layouts are refused.
+//! Ports: messages lie in the run's own shared memory, the newest counts, and what is not good is ignored.
 #![allow(clippy::unwrap_used)]
 
 mod support;
 
 use bytemuck::Zeroable;
-use coact_messages::{FieldFrame, LAYOUT, Percept, Pulse, Truth, WorldState, topic};
+use coact_messages::{
+    FieldFrame, Header, LAYOUT, Percept, Pulse, Refusal, Truth, WorldState, topic,
+};
 use coact_realtime::{Bus, Input, PortError};
 use iceoryx2::prelude::*;
-use support::{TABLE, TestRun};
+use support::{TestRun, ready};
 
 fn send(output: &mut coact_realtime::Output<Percept>, cycle: u64) {
     let mut loan = output.loan().unwrap();
-    loan.act[0] = cycle as f64;
+    loan.act[0] = 1.0 / cycle as f64;
     loan.send(cycle, 42).unwrap();
 }
 
@@ -28,7 +30,7 @@ fn file_at(address: usize) -> Option<String> {
 
 #[test]
 fn message_is_written_and_read_in_the_shared_memory_of_its_run() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
     let bus = Bus::open(&run.0, "fields", 0).unwrap();
     let mut input: Input<FieldFrame> = bus.input(topic::FIELDS).unwrap();
     let mut output = bus.output::<FieldFrame>(topic::FIELDS).unwrap();
@@ -46,7 +48,8 @@ fn message_is_written_and_read_in_the_shared_memory_of_its_run() {
 
 #[test]
 fn header_tells_where_the_message_comes_from() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
+    ready(&run.0, "perception", 3);
     let bus = Bus::open(&run.0, "perception", 3).unwrap();
     let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
     let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
@@ -62,7 +65,7 @@ fn header_tells_where_the_message_comes_from() {
 
 #[test]
 fn refresh_keeps_the_newest_and_tells_whether_it_is_newer() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
     let bus = Bus::open(&run.0, "perception", 0).unwrap();
     let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
     let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
@@ -71,17 +74,19 @@ fn refresh_keeps_the_newest_and_tells_whether_it_is_newer() {
         send(&mut output, cycle);
     }
     assert!(input.refresh().unwrap());
-    assert_eq!(input.latest().unwrap().act[0], 20.0);
+    assert_eq!(input.latest().unwrap().act[0], 1.0 / 20.0);
     assert!(!input.refresh().unwrap(), "the same message again is not newer");
-    assert_eq!(input.latest().unwrap().act[0], 20.0);
+    assert_eq!(input.latest().unwrap().act[0], 1.0 / 20.0);
 }
 
 #[test]
 fn late_message_of_a_dead_writer_does_not_replace_its_successors() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
     let bus = Bus::open(&run.0, "perception", 0).unwrap();
+    let replacement = Bus::open(&run.0, "perception", 1).unwrap();
+    ready(&run.0, "perception", 1);
     let mut dead = bus.output::<Percept>(topic::PERCEPT).unwrap();
-    let mut successor = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    let mut successor = replacement.output::<Percept>(topic::PERCEPT).unwrap();
     let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
     send(&mut successor, 9);
     input.refresh().unwrap();
@@ -92,7 +97,7 @@ fn late_message_of_a_dead_writer_does_not_replace_its_successors() {
 
 #[test]
 fn reader_that_joins_late_gets_the_last_message_with_the_next_one_at_the_latest() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
     let bus = Bus::open(&run.0, "perception", 0).unwrap();
     let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
     send(&mut output, 1);
@@ -105,7 +110,7 @@ fn reader_that_joins_late_gets_the_last_message_with_the_next_one_at_the_latest(
 
 #[test]
 fn reader_of_pulses_misses_none_while_it_falls_behind_by_half_a_second() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
     let bus = Bus::open(&run.0, "monitor", 0).unwrap();
     let topic = topic::pulse("fields");
     let mut input: Input<Pulse> = bus.input(&topic).unwrap();
@@ -123,7 +128,7 @@ fn reader_of_pulses_misses_none_while_it_falls_behind_by_half_a_second() {
 
 #[test]
 fn writer_is_not_delayed_by_a_reader_that_never_reads() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
     let bus = Bus::open(&run.0, "perception", 0).unwrap();
     let mut hung: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
     let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
@@ -134,33 +139,105 @@ fn writer_is_not_delayed_by_a_reader_that_never_reads() {
     assert_eq!(hung.header().unwrap().cycle, 1000);
 }
 
-#[test]
-fn message_of_another_layout_is_refused() {
-    let run = TestRun::new(TABLE);
-    let bus = Bus::open(&run.0, "fields", 0).unwrap();
-    let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
-    // A program that was built from other layouts.
+/// A program of the same user that joins the run by itself, and sends `percept` as it is.
+fn send_as_stranger(run: &TestRun, percept: Percept) {
     let mut config = Config::default();
     config.global.prefix = FileName::new(run.0.prefix().as_bytes()).unwrap();
     config.global.set_root_path(&Path::new(run.0.iceoryx2_root().as_os_str().as_encoded_bytes()).unwrap());
     let node = NodeBuilder::new().config(&config).create::<ipc::Service>().unwrap();
     let name = ServiceName::new(topic::PERCEPT).unwrap();
     let service = node.service_builder(&name).publish_subscribe::<Percept>().open().unwrap();
-    let mut percept = Percept::zeroed();
-    percept.header.layout = LAYOUT + 1;
     let publisher = service.publisher_builder().create().unwrap();
     publisher.send_copy(percept).unwrap();
-    match input.refresh() {
-        Err(PortError::Layout { topic, found, expected }) => {
-            assert_eq!((topic.as_str(), found, expected), (topic::PERCEPT, LAYOUT + 1, LAYOUT));
-        }
-        other => panic!("{other:?}"),
+    // The reader connects while the sender lives; what it took in outlives it.
+    std::mem::forget((node, service, publisher));
+}
+
+fn refused(bus: &Bus) -> Vec<(Refusal, u32)> {
+    let counts = bus.refusals().counts();
+    Refusal::ALL.into_iter().zip(counts).filter(|(_, count)| *count > 0).collect()
+}
+
+#[test]
+fn message_of_another_layout_is_ignored_and_counted_and_the_one_before_it_stays() {
+    let run = TestRun::started();
+    let bus = Bus::open(&run.0, "perception", 0).unwrap();
+    let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
+    let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    send(&mut output, 7);
+    assert!(input.refresh().unwrap());
+    let mut percept = Percept::zeroed();
+    percept.header = Header { layout: LAYOUT + 1, cycle: 8, ..Header::zeroed() };
+    send_as_stranger(&run, percept);
+    assert!(!input.refresh().unwrap());
+    assert_eq!(input.header().unwrap().cycle, 7);
+    assert_eq!(refused(&bus), [(Refusal::Layout, 1)]);
+    let index = bus.refusals().topic() as usize;
+    assert_eq!(topic::ALL[index].name, topic::PERCEPT);
+    send(&mut output, 9);
+    assert!(input.refresh().unwrap(), "its writer is heard as before");
+}
+
+#[test]
+fn who_is_not_the_topics_process_is_not_heard_whatever_generation_he_says() {
+    let run = TestRun::started();
+    let bus = Bus::open(&run.0, "perception", 0).unwrap();
+    let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
+    let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    for (generation, reason) in [(0, Refusal::Writer), (1, Refusal::Writer), (u32::MAX, Refusal::Writer)] {
+        send(&mut output, 10);
+        assert!(input.refresh().unwrap());
+        let before = bus.refusals().counts()[reason as usize];
+        let mut percept = Percept::zeroed();
+        percept.header = Header { layout: LAYOUT, generation, sequence: 99, cycle: 11, ..Header::zeroed() };
+        send_as_stranger(&run, percept);
+        assert!(!input.refresh().unwrap(), "generation {generation}");
+        assert_eq!(bus.refusals().counts()[reason as usize], before + 1, "generation {generation}");
     }
 }
 
 #[test]
+fn what_the_writer_itself_garbles_is_ignored_and_the_message_before_it_stays() {
+    let run = TestRun::started();
+    let bus = Bus::open(&run.0, "perception", 0).unwrap();
+    let mut input: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
+    let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    let garble: [fn(&mut Percept); 5] = [
+        |percept| percept.act[100] = f64::NAN,
+        |percept| percept.achieved[63] = 1.5,
+        |percept| percept.arm.elbow.position[2] = f64::INFINITY,
+        |percept| percept.workspace[1].orientation[31] = [9.0; 4],
+        |percept| bytemuck::bytes_of_mut(&mut percept.hand).fill(0xff),
+    ];
+    for (index, garble) in garble.into_iter().enumerate() {
+        let cycle = 10 * index as u64 + 10;
+        output.loan().unwrap().send(cycle, 0).unwrap();
+        assert!(input.refresh().unwrap());
+        let mut loan = output.loan().unwrap();
+        garble(&mut loan);
+        loan.send(cycle + 1, 0).unwrap();
+        assert!(!input.refresh().unwrap(), "{index}");
+        assert_eq!(input.header().unwrap().cycle, cycle);
+        // Memory is loaned again with what it held.
+        *output.loan().unwrap() = Percept::zeroed();
+    }
+    assert_eq!(refused(&bus), [(Refusal::Implausible, 5)]);
+}
+
+#[test]
+fn message_of_a_cycle_to_come_starts_no_cycle() {
+    let run = TestRun::started();
+    let bus = Bus::open(&run.0, "perception", 0).unwrap();
+    let mut input: Input<Percept> = bus.trigger(topic::PERCEPT).unwrap();
+    let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
+    send(&mut output, 1_000_000);
+    assert!(!input.wait_for(2000, coact_realtime::now() + coact_period::PERIOD_NS).unwrap());
+    assert_eq!(refused(&bus), [(Refusal::Future, 1)]);
+}
+
+#[test]
 fn closed_topics_are_for_their_readers_alone() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
     for process in ["world", "perception", "fields", "control", "voice", "supervisor"] {
         let bus = Bus::open(&run.0, process, 0).unwrap();
         assert!(matches!(bus.input::<Truth>(topic::TRUTH), Err(PortError::Closed { .. })));
@@ -179,7 +256,7 @@ fn closed_topics_are_for_their_readers_alone() {
 
 #[test]
 fn waiting_ends_with_the_message_and_not_with_its_event_alone() {
-    let run = TestRun::new(TABLE);
+    let run = TestRun::started();
     let bus = Bus::open(&run.0, "fields", 0).unwrap();
     let mut input: Input<Percept> = bus.trigger(topic::PERCEPT).unwrap();
     let mut output = bus.output::<Percept>(topic::PERCEPT).unwrap();
@@ -194,7 +271,7 @@ fn waiting_ends_with_the_message_and_not_with_its_event_alone() {
 
 #[test]
 fn runs_beside_each_other_do_not_hear_each_other_and_leave_nothing() {
-    let (first, second) = (TestRun::new(TABLE), TestRun::new(TABLE));
+    let (first, second) = (TestRun::started(), TestRun::started());
     let (prefix, directory) = (first.0.prefix(), first.0.directory().to_owned());
     let bus = Bus::open(&first.0, "perception", 0).unwrap();
     let other = Bus::open(&second.0, "fields", 0).unwrap();

@@ -34,6 +34,10 @@ pub struct Summary {
     pub anticipation: AnticipationReport,
     /// What was done and said.
     pub task: TaskReport,
+    /// How many messages each process ignored because they were not good, by process and reason; processes that ignored none
+    /// are left out.
+    #[serde(default)]
+    pub refused: BTreeMap<String, BTreeMap<String, u64>>,
     /// Faults, and the recovery from each.
     pub faults: Vec<FaultReport>,
     /// The work: task, anticipation, safety, nothing lost.
@@ -122,6 +126,7 @@ mod tests {
             movement_reaction_ms: ReactionReport::default(),
             anticipation: AnticipationReport::new(&[]),
             task: TaskReport::new(2, &[Event::Assembly { at_ms: 1200, completed: 1 }], 2.0),
+            refused: BTreeMap::new(),
             faults: Vec::new(),
             work: Judgement::new(vec!["only 0 of 2 subgoals were achieved".into()]),
             timing: Judgement::default(),

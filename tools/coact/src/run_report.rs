@@ -7,6 +7,7 @@ use coact_run_records::{
     Summary, TaskReport,
 };
 use owo_colors::{OwoColorize, Stream};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -55,6 +56,7 @@ fn render(summary: &Summary, report: &Path) -> String {
         lines.extend(summary.environment.machine.as_ref().map(machine));
         lines.push(privileges(&summary.environment));
     }
+    lines.extend(summary.refused.iter().map(|(process, reasons)| ignored(process, reasons)));
     lines.extend(summary.faults.iter().map(fault));
     if summary.blind_s > 0.0 {
         lines.push(format!("monitor       saw nothing for {:.1} s", summary.blind_s));
@@ -97,6 +99,11 @@ fn outage(summary: &Summary) -> String {
         text.push_str(&format!("; most of the processes {name}, {}", short(&process.outage)));
     }
     text
+}
+
+fn ignored(process: &str, reasons: &BTreeMap<String, u64>) -> String {
+    let reasons: Vec<_> = reasons.iter().map(|(reason, count)| format!("{count} {reason}")).collect();
+    format!("ignored       by {process}: messages {}", reasons.join(", "))
 }
 
 fn task(task: &TaskReport) -> String {
@@ -218,6 +225,7 @@ mod tests {
                 decisions: Vec::new(),
                 utterances: Vec::new(),
             },
+            refused: BTreeMap::new(),
             faults: vec![FaultReport {
                 process: "fields".into(),
                 fault: "kill".into(),

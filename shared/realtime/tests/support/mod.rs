@@ -1,7 +1,8 @@
 //! A run of its own for each test, and helpers to be a process of it.
 #![allow(dead_code, clippy::unwrap_used, reason = "each test binary uses a part of this")]
 
-use coact_pipeline::{Run, RunSettings};
+use coact_period::PERIOD_NS;
+use coact_pipeline::{Ready, Run, RunSettings};
 use std::process::{Child, Command, Stdio};
 
 /// A run that is removed when the test ends, however it ends.
@@ -14,6 +15,22 @@ impl TestRun {
         std::fs::write(&table, pipeline).unwrap();
         Self(Run::create(RunSettings { pipeline: table, ..RunSettings::default() }).unwrap())
     }
+}
+
+impl TestRun {
+    /// A run that started two seconds ago, of which this program is all processes, in their first start.
+    pub fn started() -> Self {
+        let own = Self::new(TABLE);
+        own.0.start(coact_realtime::now() - 2000 * PERIOD_NS).unwrap();
+        ["world", "perception", "fields", "control"].iter().for_each(|name| ready(&own.0, name, 0));
+        own
+    }
+}
+
+/// Reports that this program is the process `name` of `run`, in this generation.
+pub fn ready(run: &Run, name: &str, generation: u32) {
+    let pid = std::process::id();
+    run.report_ready(&Ready { process: name.to_owned(), generation, pid, ..Ready::default() }).unwrap();
 }
 
 impl Drop for TestRun {

@@ -1,0 +1,46 @@
+use crate::{Origin, Schedule};
+use coact_pipeline::Run;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What the ports of a process know of their run: its present cycle, and which process is which.
+#[derive(Debug)]
+pub(crate) struct RunView {
+    run: Run,
+    /// Release of tick 0; 0 while that is not known.
+    start_ns: AtomicU64,
+}
+
+impl RunView {
+    pub(crate) fn new(run: &Run) -> Self {
+        Self { run: run.clone(), start_ns: AtomicU64::new(0) }
+    }
+
+    /// The present cycle; 0 before the start of the run.
+    ///
+    /// Until the start is known, the run's directory is looked at each time: processes of a set are told before their first
+    /// cycle, by [`RunView::start`].
+    pub(crate) fn tick_at(&self, ns: u64) -> u64 {
+        let mut start_ns = self.start_ns.load(Ordering::Relaxed);
+        if start_ns == 0 {
+            start_ns = self.run.start_ns().ok().flatten().unwrap_or(0);
+            self.start(start_ns);
+        }
+        if start_ns == 0 { 0 } else { Schedule { start_ns }.tick_at(ns) }
+    }
+
+    pub(crate) fn start(&self, start_ns: u64) {
+        self.start_ns.store(start_ns, Ordering::Relaxed);
+    }
+
+    /// Whether the process `name` of the run has reported, in this generation, that it is ready, and is the origin's process.
+    ///
+    /// It reads a file, once for each writer that begins to send: to connect to one costs more.
+    pub(crate) fn is(&self, name: &str, generation: u32, origin: Origin) -> bool {
+        self.run.ready(name, generation).is_ok_and(|ready| ready.is_some_and(|ready| ready.pid == origin.pid))
+    }
+
+    /// Whether the origin's process is the supervisor of the run.
+    pub(crate) fn is_supervisor(&self, origin: Origin) -> bool {
+        origin.pid == self.run.owner()
+    }
+}
