@@ -64,6 +64,7 @@ impl Summary {
             movement_reaction_ms: ReactionReport::default(),
             anticipation: AnticipationReport::new(&[]),
             task,
+            refused: BTreeMap::new(),
             faults: Vec::new(),
             work: Judgement::new(vec![reason.clone()]),
             timing: Judgement::new(vec![reason]),

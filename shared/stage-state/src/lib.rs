@@ -9,7 +9,8 @@
 //!   flag), so its layout is fixed and has no gaps.
 //! - [`StageState::store`] writes it behind a mark, which names the stage and the layout of its state.
 //! - [`StageState::load`] refuses words with another mark, words that are no value of an enum or a flag, and numbers that
-//!   [`StageState::check`] finds implausible; the error says which. What was loaded needs no further checks.
+//!   [`StageState::check`] finds implausible; the error says which. A checksum behind the state tells what else was changed.
+//!   What was loaded needs no further checks.
 //!
 //! ```
 //! use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};

@@ -29,6 +29,12 @@ pub enum StateError {
         /// What stands there.
         found: u64,
     },
+    /// The checksum is another one.
+    #[error("the checksum of the state of {stage} is wrong; the message is damaged, start without it")]
+    Checksum {
+        /// Whose state it is.
+        stage: &'static str,
+    },
     /// A field is not what it can be.
     #[error("the state of {stage} is refused: {reason}; the message is damaged, start without it")]
     Implausible {

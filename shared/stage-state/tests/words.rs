@@ -82,7 +82,7 @@ fn refusal(change: impl Fn(&mut [f64; WORDS])) -> StateError {
 
 #[test]
 fn words_behind_the_state_are_zero() {
-    assert!(stored(&example())[10..].iter().all(|word| word.to_bits() == 0));
+    assert!(stored(&example())[11..].iter().all(|word| word.to_bits() == 0));
 }
 
 #[test]
@@ -109,6 +109,16 @@ fn the_word_that_is_no_value_of_its_type_is_named() {
 fn an_implausible_field_is_named() {
     assert!(refusal(|words| words[7] = f64::INFINITY).to_string().contains("angles"));
     assert!(refusal(|words| words[9] = -1.0).to_string().contains("elapsed"));
+}
+
+#[test]
+fn any_word_that_was_changed_is_found_out() {
+    for word in 0..=10 {
+        for bit in 0..64 {
+            let changed = |words: &mut [f64; WORDS]| words[word] = f64::from_bits(words[word].to_bits() ^ 1 << bit);
+            refusal(changed);
+        }
+    }
 }
 
 #[test]

@@ -1,0 +1,115 @@
+//! A message of zeros, or one of a network, can be; garbage cannot. Judging is cheap beside a cycle.
+#![allow(clippy::unwrap_used)]
+
+use bytemuck::{Pod, zeroed_box};
+use coact_messages::{
+    Command, FieldFrame, LayerKind, Percept, Plausible, Pulse, SensorSample, Speech, Truth, WorldState,
+};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Sites and populations of the toy vehicle's network.
+const SITES: usize = 1920;
+const POPULATIONS: usize = 192;
+
+/// Checks a message with all bytes zero, and one with all bytes set: NaN, indices and counts without end.
+fn refuses_garbage<T: Pod + Plausible>() {
+    let mut message: Box<T> = zeroed_box();
+    assert_eq!(message.check(), Ok(()), "{}", std::any::type_name::<T>());
+    bytemuck::bytes_of_mut(&mut *message).fill(0xff);
+    assert!(message.check().is_err(), "{}", std::any::type_name::<T>());
+}
+
+#[test]
+fn garbage_is_refused_and_messages_of_zeros_are_not() {
+    refuses_garbage::<SensorSample>();
+    refuses_garbage::<Percept>();
+    refuses_garbage::<FieldFrame>();
+    refuses_garbage::<Command>();
+    refuses_garbage::<Pulse>();
+    refuses_garbage::<Speech>();
+    refuses_garbage::<Truth>();
+    refuses_garbage::<WorldState>();
+}
+
+fn frame() -> Box<FieldFrame> {
+    let mut frame: Box<FieldFrame> = zeroed_box();
+    frame.layers.count = 1;
+    frame.layers.kind[0] = LayerKind::ActionExecution as u32;
+    frame.layers.sites[0] = SITES as u32;
+    frame.layers.populations[0] = POPULATIONS as u32;
+    frame
+}
+
+#[test]
+fn each_number_of_a_frame_that_a_layer_uses_is_looked_at() {
+    let bad = [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e300, f64::from_bits(0xfff0_dead_beef_0001)];
+    for value in bad {
+        for site in 0..SITES {
+            let mut frame = frame();
+            frame.activity[site] = value;
+            assert_eq!(frame.check().unwrap_err().field, "activity", "{site}: {value}");
+        }
+        let mut frame = frame();
+        frame.activity[SITES] = value;
+        assert_eq!(frame.check(), Ok(()), "no layer stands there");
+    }
+}
+
+#[test]
+fn a_frame_whose_layers_do_not_fit_into_it_is_refused() {
+    let damage: [fn(&mut FieldFrame); 5] = [
+        |frame| frame.layers.count = 17,
+        |frame| frame.layers.kind[0] = 9,
+        |frame| frame.layers.first_site[0] = u32::MAX,
+        |frame| frame.layers.populations[0] = 1025,
+        |frame| frame.since[3] = 2,
+    ];
+    for damage in damage {
+        let mut frame = frame();
+        damage(&mut frame);
+        assert!(frame.check().is_err());
+    }
+}
+
+#[test]
+fn a_force_that_is_not_measured_and_a_joint_that_is_lost_are_told_by_nan() {
+    let mut sample: Box<SensorSample> = zeroed_box();
+    sample.joints.wrist_force = [f64::NAN; 3];
+    sample.hand.keypoints[2].position = [f64::NAN; 3];
+    assert_eq!(sample.check(), Ok(()));
+    sample.hand.keypoints[2].confidence = 0.5;
+    assert_eq!(sample.check().unwrap_err().field, "hand.keypoints.position");
+    sample.joints.position[3] = f64::NAN;
+    assert_eq!(sample.check().unwrap_err().field, "joints.position");
+}
+
+#[test]
+fn text_that_is_none_is_refused() {
+    let mut speech: Box<Speech> = zeroed_box();
+    speech.write("give me the wheel");
+    assert_eq!(speech.check(), Ok(()));
+    speech.text[0] = 0xff;
+    assert_eq!(speech.check().unwrap_err().field, "text");
+    speech.write("");
+    speech.length = 257;
+    assert!(speech.check().is_err());
+}
+
+/// Prints the cost (`--nocapture`); 200 us would be seen in every cycle, and are far above what a busy machine makes of some.
+#[test]
+fn judging_a_frame_costs_little_of_a_cycle() {
+    let (frame, percept) = (frame(), zeroed_box::<Percept>());
+    for (name, message) in [("FieldFrame", &*frame as &dyn Plausible), ("Percept", &*percept)] {
+        let mut spans: Vec<_> = (0..2000)
+            .map(|_| {
+                let begin = Instant::now();
+                assert!(black_box(black_box(message).check()).is_ok());
+                begin.elapsed()
+            })
+            .collect();
+        spans.sort_unstable();
+        println!("{name}: {} ns median, {} ns p99", spans[1000].as_nanos(), spans[1980].as_nanos());
+        assert!(spans[1000].as_micros() < 200, "{name}: {:?}", spans[1000]);
+    }
+}
