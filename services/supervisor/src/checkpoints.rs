@@ -3,6 +3,12 @@ pub trait Checkpoints {
     /// Publishes the checkpoint of `process`, and frees what is reserved for its replacement: that is about to be started.
     fn publish(&mut self, process: &str);
 
+    /// The checkpoint of `process` ended a replacement that took it up: it is never published again. In words, what is lost;
+    /// `None` when there was none.
+    fn drop_newest(&mut self, _process: &str) -> Option<String> {
+        None
+    }
+
     /// In words, that a topic which `process` reads has no place left for it; `None` while all have.
     fn crowd(&self, _process: &str) -> Option<String> {
         None

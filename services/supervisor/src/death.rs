@@ -4,6 +4,7 @@ use crate::running::Running;
 use rustix::process::Signal;
 use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
+use std::time::Duration;
 
 /// How a process ended.
 #[derive(Debug)]
@@ -15,19 +16,35 @@ pub(crate) struct Death {
     pub(crate) was_ready: bool,
     /// It ended by itself, not by a signal.
     pub(crate) exited: bool,
+    /// Nobody else ended it: it crashed, hung or never got ready.
+    pub(crate) by_itself: bool,
+    /// How long it lived.
+    pub(crate) lived: Duration,
     pub(crate) child: RunningChild,
 }
 
 impl Death {
-    pub(crate) fn new(running: Running, status: ExitStatus) -> Self {
+    pub(crate) fn new(running: Running, status: ExitStatus, now: Duration) -> Self {
         Self {
             pid: running.child.pid(),
             reason: running.kill_reason.map_or_else(|| describe(status), |reason| reason.to_string()),
             not_ready_in_time: matches!(running.kill_reason, Some(KillReason::NotReadyInTime(_))),
             was_ready: running.ready,
             exited: status.code().is_some(),
+            by_itself: by_itself(running.kill_reason, status),
+            lived: now.saturating_sub(running.since),
             child: running.child,
         }
+    }
+}
+
+/// Whether the reason lies in the process: no signal came from outside, or one because it was hung.
+fn by_itself(killed: Option<KillReason>, status: ExitStatus) -> bool {
+    let outside = [Signal::KILL, Signal::TERM, Signal::INT].map(|signal| Some(signal.as_raw()));
+    match killed {
+        Some(KillReason::Hung(_) | KillReason::NotReadyInTime(_)) => true,
+        Some(_) => false,
+        None => !outside.contains(&status.signal()),
     }
 }
 

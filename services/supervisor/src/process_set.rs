@@ -196,11 +196,13 @@ impl ProcessSet {
 
     /// Logs a death. A first start that failed gives the set up; otherwise the restart policy decides.
     fn on_exit(&mut self, index: usize, death: Death, checkpoints: &dyn Checkpoints) -> Result<(), GaveUp> {
-        let Death { pid, mut reason, was_ready, not_ready_in_time, exited, child } = death;
+        let of_its_state = self.processes[index].died_of_its_state(&death);
+        let Death { pid, mut reason, was_ready, not_ready_in_time, exited, child, .. } = death;
         let crowd = if was_ready { None } else { checkpoints.crowd(&self.processes[index].spec.name) };
         if let Some(crowd) = &crowd {
             reason = format!("{reason}; {crowd}");
         }
+        self.processes[index].begins_anew = of_its_state && crowd.is_none();
         self.record(index, SupervisorEventKind::Died, Some(pid), Some(reason.clone()));
         let Supervised { spec, generation, .. } = &self.processes[index];
         if spec.needed && *generation == 0 && !was_ready && (exited || not_ready_in_time) {
@@ -275,10 +277,23 @@ impl ProcessSet {
             _ => return Ok(()),
         };
         if kind == SupervisorEventKind::Restarted {
-            checkpoints.publish(&process.spec.name);
-            self.processes[index].generation += 1;
+            self.resume(index, checkpoints);
         }
         self.spawn(index, kind)
+    }
+
+    /// Makes the checkpoint ready for the replacement; none when its predecessor died of it, and says what is lost.
+    fn resume(&mut self, index: usize, checkpoints: &mut dyn Checkpoints) {
+        let Supervised { spec, begins_anew, .. } = &self.processes[index];
+        let (begins_anew, name) = (*begins_anew, spec.name.clone());
+        let lost = if begins_anew { checkpoints.drop_newest(&name) } else { None };
+        checkpoints.publish(&name);
+        let process = &mut self.processes[index];
+        process.generation += 1;
+        process.resumed = !begins_anew;
+        if lost.is_some() {
+            self.record(index, SupervisorEventKind::StateDropped, Some(0), lost);
+        }
     }
 
     /// True when no process that is to be started before this order has to be waited for.

@@ -120,6 +120,7 @@ impl RunProgress {
                 (NoteKind::Disturbance, format!("injecting {fault} into {process}"))
             }
             SupervisorEventKind::GaveUp => (NoteKind::Alarm, format!("{process} is given up: {reason}")),
+            SupervisorEventKind::StateDropped => (NoteKind::Alarm, format!("{process} begins anew: {reason}")),
             SupervisorEventKind::Restarted => {
                 self.restarts += 1;
                 return;

@@ -115,6 +115,14 @@ impl Checkpoints for RunTopics {
         self.warn_once(outcome);
     }
 
+    fn drop_newest(&mut self, process: &str) -> Option<String> {
+        let outcome = self.store.drop_newest(process);
+        let dropped = outcome.as_ref().ok().copied().flatten();
+        self.warn_once(outcome.map(drop));
+        let header = dropped?;
+        Some(format!("its state of cycle {} ended a replacement; lost: {}", header.cycle, lost(process)))
+    }
+
     fn crowd(&self, process: &str) -> Option<String> {
         self.anchors.crowd(process)
     }
@@ -122,5 +130,16 @@ impl Checkpoints for RunTopics {
     fn recovered(&mut self, process: &str) {
         self.unreserved.insert(process.to_owned());
         self.clean_at = Some(monotonic_time() + Self::CLEANUP_DELAY);
+    }
+}
+
+/// What a process knows only from its checkpoint.
+fn lost(process: &str) -> &'static str {
+    match process {
+        "world" => "where the simulated parts and the person were",
+        "perception" => "what was seen of parts and of the person's hand",
+        "fields" => "remembered parts, achieved subgoals and the decision",
+        "control" => "the movement under way and what the hand holds",
+        _ => "its state",
     }
 }

@@ -18,6 +18,10 @@ pub(crate) struct Supervised {
     pub(crate) fault: Option<Fault>,
     /// The next replacement is to be killed before it is ready.
     pub(crate) crash_next: bool,
+    /// It was given its predecessor's checkpoint.
+    pub(crate) resumed: bool,
+    /// The next replacement begins without one: its predecessor died of it.
+    pub(crate) begins_anew: bool,
 }
 
 /// What state a process is in.
@@ -37,6 +41,10 @@ impl Supervised {
     /// How long after its start a replacement is killed by `crash-on-start`: while it opens its ports. Chosen by hand.
     const CRASH_AFTER: Duration = Duration::from_millis(5);
 
+    /// A replacement that ends by itself sooner than this died of the state that it took up: what is wrong in it shows within
+    /// some cycles, and later on it works on its own. Chosen by hand.
+    const OWN_STATE: Duration = Duration::from_millis(500);
+
     pub(crate) fn new(spec: ProcessSpec) -> Self {
         Self {
             spec,
@@ -46,7 +54,14 @@ impl Supervised {
             refusals: RestartHistory::default(),
             fault: None,
             crash_next: false,
+            resumed: false,
+            begins_anew: false,
         }
+    }
+
+    /// Whether it died of the checkpoint that it was given.
+    pub(crate) fn died_of_its_state(&self, death: &Death) -> bool {
+        self.resumed && self.fault.is_none() && death.by_itself && death.lived < Self::OWN_STATE
     }
 
     pub(crate) fn running(&self) -> Option<&Running> {
@@ -85,7 +100,7 @@ impl Supervised {
         else {
             return None;
         };
-        Some(Death::new(running, status))
+        Some(Death::new(running, status, now))
     }
 
     /// True once, when its ready file has appeared.

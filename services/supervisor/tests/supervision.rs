@@ -27,6 +27,10 @@ impl Checkpoints for RecordedCalls {
     fn publish(&mut self, process: &str) {
         self.0.push(format!("publish {process}"));
     }
+    fn drop_newest(&mut self, process: &str) -> Option<String> {
+        self.0.push(format!("drop {process}"));
+        Some("its memory".into())
+    }
     fn recovered(&mut self, process: &str) {
         self.0.push(format!("recovered {process}"));
     }
@@ -153,6 +157,40 @@ fn a_killed_process_is_replaced_after_its_checkpoint_was_published_and_the_other
     assert_eq!(died.fault.as_deref(), Some("kill"));
     let restarted = trial.events.iter().find(|event| event.event == SupervisorEventKind::Restarted).unwrap();
     assert_eq!((restarted.generation, restarted.pid), (1, trial.pid("a")));
+}
+
+#[test]
+fn a_replacement_that_dies_of_its_checkpoint_is_followed_by_one_that_begins_anew() {
+    // The first one is killed, the second takes up what it left and crashes, the third lives.
+    let poisoned = "touch \"$READY\"; [ \"$COACT_GENERATION\" = 1 ] && exit 101; exec sleep 600";
+    let mut trial = Trial::of(&[("a", poisoned)]);
+    trial.run_until_ready();
+    rustix::process::kill_process(
+        rustix::process::Pid::from_raw(trial.pid("a") as i32).unwrap(),
+        rustix::process::Signal::KILL,
+    )
+    .unwrap();
+    let mut calls = RecordedCalls::default();
+    let third = |trial: &Trial| {
+        trial.events.iter().any(|event| event.event == SupervisorEventKind::Ready && event.generation == 2)
+    };
+    trial.until(&mut calls, third).unwrap();
+    let calls: Vec<_> = calls.0.into_iter().filter(|call| !call.starts_with("recovered")).collect();
+    assert_eq!(calls, ["publish a", "drop a", "publish a"]);
+    let dropped = trial.events.iter().find(|event| event.event == SupervisorEventKind::StateDropped).unwrap();
+    assert_eq!(dropped.reason.as_deref(), Some("its memory"));
+}
+
+#[test]
+fn replacements_that_others_kill_keep_their_checkpoint() {
+    let killed = "touch \"$READY\"; [ \"$COACT_GENERATION\" -lt 3 ] && kill -9 $$; exec sleep 600";
+    let mut trial = Trial::of(&[("a", killed)]);
+    let mut calls = RecordedCalls::default();
+    let fourth = |trial: &Trial| {
+        trial.events.iter().any(|event| event.event == SupervisorEventKind::Ready && event.generation == 3)
+    };
+    trial.until(&mut calls, fourth).unwrap();
+    assert!(calls.0.iter().all(|call| !call.starts_with("drop")), "{:?}", calls.0);
 }
 
 #[test]

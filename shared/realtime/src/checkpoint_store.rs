@@ -55,4 +55,19 @@ impl CheckpointStore {
             _ => Ok(None),
         }
     }
+
+    /// The checkpoint of `process` is not published any more: replacements die of it. The process begins anew, and what it
+    /// sends then is its checkpoint. Returns the dropped one's header, as [`CheckpointStore::publish`] does.
+    ///
+    /// # Errors
+    /// As [`CheckpointStore::poll`].
+    pub fn drop_newest(&mut self, process: &str) -> Result<Option<Header>, PortError> {
+        match topic::state_of(process) {
+            Some(topic::WORLD_STATE) => self.world.drop_newest(),
+            Some(topic::PERCEPT) => self.perception.drop_newest(),
+            Some(topic::FIELDS) => self.fields.drop_newest(),
+            Some(topic::COMMAND) => self.control.drop_newest(),
+            _ => Ok(None),
+        }
+    }
 }

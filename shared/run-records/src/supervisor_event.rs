@@ -40,6 +40,8 @@ pub enum SupervisorEventKind {
     Died,
     /// Started again after a death.
     Restarted,
+    /// To be started again without its checkpoint, because a replacement died of it.
+    StateDropped,
     /// Not started again: the restart intensity is exhausted.
     GaveUp,
     /// About to get a fault injected.
