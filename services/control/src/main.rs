@@ -42,7 +42,7 @@ fn main() -> anyhow::Result<()> {
     let sample = process.bus().input(topic::SENSORS)?;
     let percept = process.bus().input(topic::PERCEPT)?;
     let frame = process.bus().trigger(topic::FIELDS)?;
-    let mut command = process.bus().output(topic::COMMAND)?;
+    let mut command: Output<Command> = process.bus().output(topic::COMMAND)?;
     if let Some(last) = process.checkpoint(&mut command)? {
         let cycle = last.header.cycle;
         if !control.resume(&last) {

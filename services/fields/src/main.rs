@@ -36,12 +36,14 @@ fn main() -> anyhow::Result<()> {
     let network = Network::new(plan, task.fingerprint, process.run().settings().seed)?;
     let percept = process.bus().trigger(topic::PERCEPT)?;
     let previous = process.bus().input(topic::FIELDS)?;
-    let mut frame = process.bus().output(topic::FIELDS)?;
+    let mut frame: Output<FieldFrame> = process.bus().output(topic::FIELDS)?;
     let start = match process.checkpoint(&mut frame)? {
         Some(last) if network.fits(&last) => last,
         Some(last) => {
             let cycle = last.header.cycle;
-            tracing::warn!("fields begins at rest: its checkpoint of cycle {cycle} is of another task or network");
+            tracing::warn!(
+                "fields begins at rest: its checkpoint of cycle {cycle} is of another task or network"
+            );
             at_rest(&network)
         }
         None => at_rest(&network),

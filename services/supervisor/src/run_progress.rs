@@ -90,10 +90,12 @@ impl RunProgress {
             missed.generation = pulse.header.generation;
         }
         missed.now = pulse.missed;
-        for (reason, (known, count)) in Refusal::ALL.iter().zip(missed.refused.iter_mut().zip(pulse.refused)) {
+        for (reason, (known, count)) in Refusal::ALL.iter().zip(missed.refused.iter_mut().zip(pulse.refused))
+        {
             if count > 0 && !*known {
                 *known = true;
-                let topic = topic::ALL.get(pulse.refused_topic as usize).map_or("a topic", |entry| entry.name);
+                let topic =
+                    topic::ALL.get(pulse.refused_topic as usize).map_or("a topic", |entry| entry.name);
                 let text = format!("{process} ignores a message of {topic}: {}", reason.name());
                 self.notes.push(Note::new(NoteKind::Alarm, text));
             }
@@ -120,7 +122,9 @@ impl RunProgress {
                 (NoteKind::Disturbance, format!("injecting {fault} into {process}"))
             }
             SupervisorEventKind::GaveUp => (NoteKind::Alarm, format!("{process} is given up: {reason}")),
-            SupervisorEventKind::StateDropped => (NoteKind::Alarm, format!("{process} begins anew: {reason}")),
+            SupervisorEventKind::StateDropped => {
+                (NoteKind::Alarm, format!("{process} begins anew: {reason}"))
+            }
             SupervisorEventKind::Restarted => {
                 self.restarts += 1;
                 return;

@@ -122,7 +122,8 @@ fn simulate(mut process: Process) -> anyhow::Result<()> {
         sample.continue_after(&last.header);
         truth.continue_after(&last.header);
     }
-    let (heard, skipped) = (SpeechInput::open(process.run(), process.bus().refusals().clone())?, world.skipped());
+    let (heard, skipped) =
+        (SpeechInput::open(process.run(), process.bus().refusals().clone())?, world.skipped());
     Ok(process.run_cycles(Hardware { world, command, sample, truth, state, heard, skipped })?)
 }
 

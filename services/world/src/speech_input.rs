@@ -2,8 +2,8 @@ use anyhow::Context;
 use coact_messages::{Refusal, Speech, topic};
 use coact_pipeline::Run;
 use coact_realtime::{Bus, Input, Refusals};
-use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::time::{Duration, Instant};
 
 /// How often it is looked whether something was said.
@@ -29,7 +29,8 @@ impl SpeechInput {
         let (opened, outcome) = sync_channel(1);
         let run = run.clone();
         let listen = move || {
-            let joined = Bus::open(&run, "world-speech-input", 0).map(|bus| bus.counting_in(refusals.clone()));
+            let joined =
+                Bus::open(&run, "world-speech-input", 0).map(|bus| bus.counting_in(refusals.clone()));
             match joined.and_then(|bus| Ok((bus.input::<Speech>(topic::HEARD)?, bus))) {
                 Ok((input, _bus)) => {
                     opened.send(Ok(())).ok();

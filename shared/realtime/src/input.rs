@@ -124,9 +124,8 @@ impl Bench {
         let Self { judge, run, refusals, writer, topic_index } = self;
         let now_ns = now();
         let time = (run.tick_at(now_ns), now_ns);
-        let is_writer = |generation, origin| {
-            writer.as_deref().is_some_and(|writer| run.is(writer, generation, origin))
-        };
+        let is_writer =
+            |generation, origin| writer.as_deref().is_some_and(|writer| run.is(writer, generation, origin));
         let verdict = judge
             .judge(message.header(), origin, time, is_writer)
             .and_then(|()| message.check().map_err(|_| Refusal::Implausible));

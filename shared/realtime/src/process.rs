@@ -58,7 +58,16 @@ impl Process {
             scheduling::exclude_real_time_cores(&pipeline);
         }
         let bus = Bus::open(&run, name, generation)?;
-        Ok(Self { run, pipeline, entry, generation, bus, signals, resumed: false, warned: [false; Refusal::COUNT] })
+        Ok(Self {
+            run,
+            pipeline,
+            entry,
+            generation,
+            bus,
+            signals,
+            resumed: false,
+            warned: [false; Refusal::COUNT],
+        })
     }
 
     /// The run that it takes part in.
@@ -138,7 +147,8 @@ impl Process {
         for (reason, (warned, count)) in Refusal::ALL.iter().zip(self.warned.iter_mut().zip(counts)) {
             if count > 0 && !*warned {
                 *warned = true;
-                let name = topic::ALL.get(self.bus.refusals().topic() as usize).map_or("a topic", |own| own.name);
+                let name =
+                    topic::ALL.get(self.bus.refusals().topic() as usize).map_or("a topic", |own| own.name);
                 tracing::warn!("a message of {name} is ignored: {}", reason.name());
             }
         }

@@ -1,5 +1,5 @@
-use crate::monotonic_clock::timespec;
 use crate::bus::MAX_WRITERS;
+use crate::monotonic_clock::timespec;
 use crate::port::Reader;
 use crate::{Bus, Headed, Origin, PortError, places};
 use coact_messages::topic;

@@ -4,9 +4,7 @@
 mod support;
 
 use bytemuck::Zeroable;
-use coact_messages::{
-    FieldFrame, Header, LAYOUT, Percept, Pulse, Refusal, Truth, WorldState, topic,
-};
+use coact_messages::{FieldFrame, Header, LAYOUT, Percept, Pulse, Refusal, Truth, WorldState, topic};
 use coact_realtime::{Bus, Input, PortError};
 use iceoryx2::prelude::*;
 use support::{TestRun, ready};

@@ -115,7 +115,8 @@ fn an_implausible_field_is_named() {
 fn any_word_that_was_changed_is_found_out() {
     for word in 0..=10 {
         for bit in 0..64 {
-            let changed = |words: &mut [f64; WORDS]| words[word] = f64::from_bits(words[word].to_bits() ^ 1 << bit);
+            let changed =
+                |words: &mut [f64; WORDS]| words[word] = f64::from_bits(words[word].to_bits() ^ 1 << bit);
             refusal(changed);
         }
     }

@@ -5,8 +5,8 @@ use crate::ResumeError;
 use crate::simulation_state::SimulationState;
 use bytemuck::bytes_of;
 use coact_messages::WorldState;
-use rand::{RngExt, SeedableRng};
 use coact_stage_state::StageState;
+use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 #[test]
