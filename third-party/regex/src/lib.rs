@@ -1,0 +1,3 @@
+//! The interface of regex, by regex-lite.
+
+pub use regex_lite::*;
