@@ -29,7 +29,9 @@ fn main() -> anyhow::Result<()> {
     let mut monitor = Monitor::open(since_start(watched, schedule))?;
     let mut written = Instant::now();
     let mut refused = None;
+    let mut heartbeat = process.heartbeat()?;
     while !process.stop_requested() {
+        heartbeat.beat()?;
         std::thread::sleep(LOOK_EVERY);
         topics.drain(&mut monitor, &mut refused)?;
         process.warn_of_refusals();

@@ -10,6 +10,8 @@ pub(crate) enum KillReason {
     NotReadyInTime(Duration),
     /// It published no pulse for more than this time.
     Hung(Duration),
+    /// It showed no sign of life for more than this time.
+    NoHeartbeat(Duration),
     /// It did not end within this time after SIGTERM.
     DidNotStop(Duration),
 }
@@ -20,6 +22,9 @@ impl fmt::Display for KillReason {
             Self::InjectedCrash => write!(f, "killed before it was ready: injected crash-on-start"),
             Self::NotReadyInTime(limit) => write!(f, "not ready within {} s", limit.as_secs_f64()),
             Self::Hung(limit) => write!(f, "hung: no pulse for more than {} ms", limit.as_millis()),
+            Self::NoHeartbeat(limit) => {
+                write!(f, "hung: no heartbeat for more than {} ms", limit.as_millis())
+            }
             Self::DidNotStop(limit) => write!(f, "killed: it did not end within {} s", limit.as_secs_f64()),
         }
     }

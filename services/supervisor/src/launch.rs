@@ -149,6 +149,7 @@ impl Launch {
             arguments: vec!["--run".into(), run.directory().into()],
             ready_directory: run.directory().join("ready"),
             ready_within: entry.ready_within,
+            heartbeat_file: run.heartbeat_file(&entry.name),
             hung_after: (entry.trigger != Trigger::None).then_some(self.pipeline.restart.hung_after),
             stop_grace: entry.stop_grace,
         };

@@ -30,11 +30,14 @@ mod run_loop;
 mod run_progress;
 mod run_topics;
 mod running;
+mod service_manager;
 mod stderr_tail;
 mod supervised;
 mod supervisor_log;
 mod terminal;
 mod topic_reader;
+mod watch_clock;
+mod watchdog;
 
 pub use checkpoints::Checkpoints;
 pub use child::RunningChild;

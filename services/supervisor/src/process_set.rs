@@ -1,5 +1,8 @@
 use crate::death::Death;
+use crate::kill_reason::KillReason;
 use crate::supervised::{Lifecycle, Supervised};
+use crate::watch_clock::WatchClock;
+use crate::watchdog;
 use crate::{Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSpec, RunningChild, SupervisorLog};
 use coact_pipeline::RestartPolicy;
 use coact_realtime::monotonic_time;
@@ -20,6 +23,11 @@ pub struct ProcessSet {
     new_events: Vec<SupervisorEvent>,
     /// From when on pulses are expected; none while the run's clock does not run yet.
     pulses_from: Option<Duration>,
+    /// The same by the watch clock, once that time has come.
+    pulses_due_since: Option<Duration>,
+    watch_clock: WatchClock,
+    /// When heartbeats are looked at next, by the watch clock.
+    heartbeats_at: Duration,
     /// Called with process name and line for each line that a process writes to standard error.
     on_line: LineSink,
 }
@@ -31,6 +39,8 @@ impl ProcessSet {
     /// How often a stopping set is looked at when no process ends. Chosen by hand; not sensitive.
     const STOP_POLL: Duration = Duration::from_millis(3);
 
+    /// How often heartbeats are looked at; they come as often. Chosen by hand; not sensitive.
+    const HEARTBEAT_POLL: Duration = Duration::from_millis(100);
     /// Shortest pause before a replacement that found no place is started again. Chosen by hand: long enough to leave the
     /// core to the survivors.
     const PLACE_POLL: Duration = Duration::from_millis(10);
@@ -44,7 +54,17 @@ impl ProcessSet {
     ) -> Self {
         let mut processes: Vec<_> = specs.into_iter().map(Supervised::new).collect();
         processes.sort_by_key(|process| process.spec.order);
-        Self { processes, policy, log, new_events: Vec::new(), pulses_from: None, on_line }
+        Self {
+            processes,
+            policy,
+            log,
+            new_events: Vec::new(),
+            pulses_from: None,
+            pulses_due_since: None,
+            watch_clock: WatchClock::default(),
+            heartbeats_at: Duration::ZERO,
+            on_line,
+        }
     }
 
     /// Waits until a process dies, a signal arrives, or `limit` has passed.
@@ -79,12 +99,39 @@ impl ProcessSet {
     pub fn advance(&mut self, checkpoints: &mut dyn Checkpoints) -> Result<(), GaveUp> {
         self.replace_dead(checkpoints)?;
         for index in 0..self.processes.len() {
-            if self.processes[index].becomes_ready(monotonic_time()) {
+            if self.processes[index].becomes_ready(monotonic_time(), self.watch_clock.watched()) {
                 self.on_ready(index, checkpoints);
             }
-            self.processes[index].watchdog(monotonic_time(), self.pulses_from);
+            self.processes[index].look(monotonic_time());
         }
+        self.watch();
         Ok(())
+    }
+
+    /// Kills what hangs: of the chain, by its pulses; of the others, by their heartbeats.
+    fn watch(&mut self) {
+        self.watch_clock.look(monotonic_time());
+        let watched = self.watch_clock.watched();
+        if watched >= self.heartbeats_at {
+            self.heartbeats_at = watched + Self::HEARTBEAT_POLL;
+            for process in self.processes.iter_mut().filter(|process| process.spec.hung_after.is_none()) {
+                process.take_heartbeat(watched);
+                process.watch_heartbeat(watched);
+            }
+        }
+        if self.pulses_from.is_none_or(|from| monotonic_time() < from) {
+            return;
+        }
+        let due_since = *self.pulses_due_since.get_or_insert(watched);
+        let silent =
+            |(index, process): (usize, &Supervised)| Some((index, process.silence(watched, due_since)?));
+        let (indices, silences): (Vec<_>, Vec<_>) =
+            self.processes.iter().enumerate().filter_map(silent).unzip();
+        for (index, limit) in indices.into_iter().zip(watchdog::hung(&silences)) {
+            if let (Some(limit), Some(running)) = (limit, self.processes[index].running_mut()) {
+                running.kill(KillReason::Hung(limit));
+            }
+        }
     }
 
     /// The run's clock starts at `from`: pulses are expected from then on.
@@ -92,12 +139,14 @@ impl ProcessSet {
         self.pulses_from = Some(from);
     }
 
-    /// A process published a pulse at `at`: it is not hung.
-    pub fn pulse(&mut self, process: &str, at: Duration) {
+    /// A process published a pulse: it is not hung.
+    pub fn pulse(&mut self, process: &str) {
+        let watched = self.watch_clock.watched();
         let running =
             self.processes.iter_mut().find(|p| p.spec.name == process).and_then(Supervised::running_mut);
         if let Some(running) = running {
-            running.last_sign = running.last_sign.max(at);
+            running.last_sign = watched;
+            running.has_pulsed = true;
         }
     }
 

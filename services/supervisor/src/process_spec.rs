@@ -19,9 +19,12 @@ pub struct ProcessSpec {
     pub arguments: Vec<OsString>,
     /// Where it writes `<name>.<generation>.json` when it is ready.
     pub ready_directory: PathBuf,
-    /// How long it may take until then.
+    /// How long it may take until then; a replacement ten times as long as the first start, if that is less.
     pub ready_within: Duration,
-    /// Silence (no pulse) after which the watchdog takes it for hung and kills it; `None` for a process without pulses.
+    /// The file that it touches as a sign of life, if it sends no pulses.
+    pub heartbeat_file: PathBuf,
+    /// Silence (no pulse) after which the watchdog takes it for hung and kills it; `None` for a process without pulses. One
+    /// that is not real time gets half a second at least.
     pub hung_after: Option<Duration>,
     /// How long it may take to end after SIGTERM.
     pub stop_grace: Duration,

@@ -1,6 +1,7 @@
 use crate::control_socket::ControlSocket;
 use crate::ending::EndCondition;
 use crate::run_topics::RunTopics;
+use crate::service_manager::ServiceManager;
 use crate::topic_reader::TopicReader;
 use crate::{
     Ending, Injection, InjectionRefusal, LaunchError, Note, NoteKind, ProcessSet, RunProgress, Terminal,
@@ -40,6 +41,7 @@ pub(crate) struct RunLoop<'a> {
     interrupted: Arc<AtomicBool>,
     /// Release of tick 0, once the whole set was ready.
     start: Option<Duration>,
+    service_manager: ServiceManager,
     /// When the status is shown next.
     status_at: Duration,
 }
@@ -82,6 +84,7 @@ impl<'a> RunLoop<'a> {
             end,
             interrupted,
             start: None,
+            service_manager: ServiceManager::from_environment(),
             status_at: Duration::ZERO,
         })
     }
@@ -95,6 +98,7 @@ impl<'a> RunLoop<'a> {
         let ending = self.supervise();
         self.show();
         self.terminal.status("stopping".into());
+        self.service_manager.run_ends();
         let Self { set, topics, .. } = &mut self;
         set.stop(|| topics.poll());
         self.show_events();
@@ -104,6 +108,7 @@ impl<'a> RunLoop<'a> {
     fn supervise(&mut self) -> Result<Ending, LaunchError> {
         loop {
             self.set.wait(POLL_INTERVAL);
+            self.service_manager.is_alive(monotonic_time());
             self.set.replace_dead(&mut self.topics)?;
             self.topics.poll();
             self.reader.poll(&mut self.set, &mut self.progress);
@@ -126,6 +131,7 @@ impl<'a> RunLoop<'a> {
         self.run.start(start.as_nanos() as u64)?;
         self.set.expect_pulses(start);
         self.start = Some(start);
+        self.service_manager.run_begins();
         self.warn_of_missing_privileges();
         Ok(())
     }

@@ -1,7 +1,7 @@
 use crate::RunningChild;
 use crate::kill_reason::KillReason;
 use rustix::process::Signal;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 /// What is known of a running process. Times are of `CLOCK_MONOTONIC`.
 #[derive(Debug)]
@@ -9,8 +9,14 @@ pub(crate) struct Running {
     pub(crate) child: RunningChild,
     pub(crate) since: Duration,
     pub(crate) ready: bool,
-    /// Its newest sign of life: a pulse, or its start.
+    /// Its newest sign of life, by the watch clock: a pulse, a heartbeat, or its readiness.
     pub(crate) last_sign: Duration,
+    /// It has sent a pulse.
+    pub(crate) has_pulsed: bool,
+    /// It has real-time scheduling, by its own report.
+    pub(crate) is_realtime: bool,
+    /// Its newest heartbeat, if it has any.
+    pub(crate) heartbeat: Option<SystemTime>,
     /// Why the watchdog killed it, if it did.
     pub(crate) kill_reason: Option<KillReason>,
     /// When a process that was stopped by a fault is continued.
@@ -26,7 +32,10 @@ impl Running {
             child,
             since: now,
             ready: false,
-            last_sign: now,
+            last_sign: Duration::ZERO,
+            has_pulsed: false,
+            is_realtime: false,
+            heartbeat: None,
             kill_reason: None,
             continue_at: None,
             crash_at,

@@ -1,7 +1,9 @@
 use crate::death::Death;
 use crate::kill_reason::KillReason;
 use crate::running::Running;
+use crate::watchdog::Silence;
 use crate::{Fault, ProcessSpec, RestartHistory, RunningChild};
+use coact_pipeline::Ready;
 use rustix::process::Signal;
 use std::time::Duration;
 
@@ -22,6 +24,8 @@ pub(crate) struct Supervised {
     pub(crate) resumed: bool,
     /// The next replacement begins without one: its predecessor died of it.
     pub(crate) begins_anew: bool,
+    /// How long the first start took until it was ready.
+    pub(crate) first_start: Option<Duration>,
 }
 
 /// What state a process is in.
@@ -44,6 +48,14 @@ impl Supervised {
     /// A replacement that ends by itself sooner than this died of the state that it took up: what is wrong in it shows within
     /// some cycles, and later on it works on its own. Chosen by hand.
     const OWN_STATE: Duration = Duration::from_millis(500);
+    /// A replacement that takes so many times as long as the first start did is stuck. Chosen by hand: the first start has
+    /// the machine to share with all others, a replacement with the running chain.
+    const STARTS_TIMES_USUAL: u32 = 10;
+    /// No start is stuck before this time: below it, the machine's lateness counts. Chosen by hand.
+    const SHORTEST_START_LIMIT: Duration = Duration::from_millis(200);
+    /// A process that follows the run at its own pace shows a sign of life ten times a second; one that has shown none for
+    /// so long hangs. Chosen by hand.
+    const HEARTBEAT_WITHIN: Duration = Duration::from_secs(1);
 
     pub(crate) fn new(spec: ProcessSpec) -> Self {
         Self {
@@ -56,6 +68,7 @@ impl Supervised {
             crash_next: false,
             resumed: false,
             begins_anew: false,
+            first_start: None,
         }
     }
 
@@ -89,6 +102,8 @@ impl Supervised {
 
     /// Enters a child that was just started.
     pub(crate) fn started(&mut self, child: RunningChild, now: Duration) {
+        // A predecessor's heartbeat is none of this one's.
+        std::fs::remove_file(&self.spec.heartbeat_file).ok();
         let crash_at = std::mem::take(&mut self.crash_next).then_some(now + Self::CRASH_AFTER);
         self.lifecycle = Lifecycle::Running(Running::new(child, now, crash_at));
     }
@@ -103,25 +118,72 @@ impl Supervised {
         Some(Death::new(running, status, now))
     }
 
-    /// True once, when its ready file has appeared.
-    pub(crate) fn becomes_ready(&mut self, now: Duration) -> bool {
+    /// True once, when its ready file has appeared. `watched` is the time of the watch clock.
+    pub(crate) fn becomes_ready(&mut self, now: Duration, watched: Duration) -> bool {
         if self.running().is_none_or(|running| running.ready) {
             return false;
         }
-        let has_reported = self.spec.ready_file(self.generation).exists();
+        let Ok(report) = std::fs::read(self.spec.ready_file(self.generation)) else { return false };
+        let is_first = self.generation == 0;
         let Some(running) = self.running_mut() else { return false };
-        if running.crash_at.is_some() || running.kill_reason.is_some() || !has_reported {
+        if running.crash_at.is_some() || running.kill_reason.is_some() {
             return false;
         }
         running.ready = true;
-        running.last_sign = now;
+        running.last_sign = watched;
+        // Whatever does not say that it is real time is not taken for it.
+        running.is_realtime = serde_json::from_slice::<Ready>(&report).is_ok_and(|ready| ready.priority > 0);
+        let took = now.saturating_sub(running.since);
+        if is_first {
+            self.first_start = Some(took);
+        }
         true
     }
 
-    /// Kills it when it is not ready in time, hung, or due to crash by an injected fault; continues it when its injected
-    /// pause is over. Pulses are expected from `pulses_from` on.
-    pub(crate) fn watchdog(&mut self, now: Duration, pulses_from: Option<Duration>) {
-        let (ready_within, hung_after) = (self.spec.ready_within, self.spec.hung_after);
+    /// How long its present start may take: the first one what the table says, a replacement's little more than usual.
+    fn start_limit(&self) -> Duration {
+        let usual = self.first_start.filter(|_| self.generation > 0);
+        let limit = usual.map(|usual| (Self::STARTS_TIMES_USUAL * usual).max(Self::SHORTEST_START_LIMIT));
+        limit.map_or(self.spec.ready_within, |limit| limit.min(self.spec.ready_within))
+    }
+
+    /// Takes in its heartbeat: a file that it touches. One that never did is not watched by it.
+    pub(crate) fn take_heartbeat(&mut self, watched: Duration) {
+        let file = &self.spec.heartbeat_file;
+        let Lifecycle::Running(running) = &mut self.lifecycle else { return };
+        let Ok(beat) = std::fs::metadata(file).and_then(|metadata| metadata.modified()) else { return };
+        if running.heartbeat != Some(beat) {
+            running.heartbeat = Some(beat);
+            running.last_sign = watched;
+        }
+    }
+
+    /// Kills it when its heartbeat stopped.
+    pub(crate) fn watch_heartbeat(&mut self, watched: Duration) {
+        let Some(running) = self.running_mut().filter(|running| running.ready && running.heartbeat.is_some())
+        else {
+            return;
+        };
+        if watched.saturating_sub(running.last_sign) > Self::HEARTBEAT_WITHIN {
+            running.kill(KillReason::NoHeartbeat(Self::HEARTBEAT_WITHIN));
+        }
+    }
+
+    /// How long it has been silent, if it is one that sends pulses in each cycle.
+    pub(crate) fn silence(&self, watched: Duration, pulses_from: Duration) -> Option<Silence> {
+        let limit = self.spec.hung_after?;
+        let running = self.running().filter(|running| running.ready)?;
+        Some(Silence {
+            for_time: watched.saturating_sub(running.last_sign.max(pulses_from)),
+            limit,
+            is_steady: running.has_pulsed && running.is_realtime,
+        })
+    }
+
+    /// Kills it when it is not ready in time, or due to crash by an injected fault; continues it when its injected pause is
+    /// over.
+    pub(crate) fn look(&mut self, now: Duration) {
+        let ready_within = self.start_limit();
         let Lifecycle::Running(running) = &mut self.lifecycle else { return };
         if running.continue_at.is_some_and(|due| now >= due) {
             running.continue_at = None;
@@ -134,12 +196,6 @@ impl Supervised {
         }
         if !running.ready && now.saturating_sub(running.since) > ready_within {
             running.kill(KillReason::NotReadyInTime(ready_within));
-        }
-        if let (Some(limit), Some(from)) = (hung_after, pulses_from)
-            && running.ready
-            && now.saturating_sub(running.last_sign.max(from)) > limit
-        {
-            running.kill(KillReason::Hung(limit));
         }
     }
 

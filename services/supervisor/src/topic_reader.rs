@@ -2,7 +2,6 @@ use crate::{ProcessSet, RunProgress};
 use coact_messages::{FieldFrame, Pulse, Speech, topic};
 use coact_pipeline::{Pipeline, Trigger};
 use coact_realtime::{Bus, Input, PortError};
-use std::time::Duration;
 
 /// Reads what the supervisor needs of the run's topics: the newest field frame, what is said, every process's pulses.
 pub(crate) struct TopicReader {
@@ -39,7 +38,7 @@ impl TopicReader {
             if input.refresh()?
                 && let Some(pulse) = input.latest()
             {
-                set.pulse(process, Duration::from_nanos(pulse.header.published_ns));
+                set.pulse(process);
                 progress.pulse(process, pulse);
             }
         }

@@ -17,7 +17,9 @@ fn main() -> anyhow::Result<()> {
     let mut speech = process.bus().output::<Speech>(topic::SPEECH)?;
     let mut speaker = Speaker::from_environment();
     process.report_ready()?;
+    let mut heartbeat = process.heartbeat()?;
     while !process.stop_requested() {
+        heartbeat.beat()?;
         std::thread::sleep(LOOK_EVERY);
         let is_news = fields.refresh()?;
         process.warn_of_refusals();

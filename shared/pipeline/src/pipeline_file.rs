@@ -18,10 +18,11 @@ const RESTART: RestartPolicy = RestartPolicy {
     window: Duration::from_secs(30),
     backoff_initial: Duration::from_millis(10),
     backoff_max: Duration::from_secs(2),
-    hung_after: Duration::from_millis(500),
+    hung_after: Duration::from_millis(10),
 };
-/// A shorter silence would take a process for hung that a busy machine delays. Chosen by hand.
-const SHORTEST_HUNG_AFTER: Duration = Duration::from_millis(50);
+/// A shorter silence would take a process for hung that is a few cycles late: after a fault, a stall, or when peers join.
+/// Chosen by hand.
+const SHORTEST_HUNG_AFTER: Duration = Duration::from_millis(5);
 /// A longer window would remember restarts that have nothing to do with each other.
 const LONGEST_WINDOW: Duration = Duration::from_secs(24 * 3600);
 /// A name becomes part of topic names and of the names of sockets, of which the system takes 108 bytes.

@@ -15,6 +15,7 @@ use std::sync::Arc;
 ///                    /start        clock reading of tick 0, written when all are ready
 ///                    /config/      iceoryx2.toml: where other iceoryx2 clients find the run's topics
 ///                    /ready/       <name>.<generation>.json, one for each process start
+///                           <name>.heartbeat, touched as a sign of life
 ///                    /iox/         root directory of iceoryx2
 /// /dev/shm/coact_<id>_*            the run's shared memory
 /// ```
@@ -199,6 +200,11 @@ impl Run {
     pub fn ready(&self, process: &str, generation: u32) -> Result<Option<Ready>, RunError> {
         let path = self.directory.join(ready_name(process, generation));
         if path.exists() { read_json(&path).map(Some) } else { Ok(None) }
+    }
+
+    /// The file that a process without pulses touches as a sign of life.
+    pub fn heartbeat_file(&self, process: &str) -> PathBuf {
+        self.ready_directory().join(format!("{process}.heartbeat"))
     }
 
     fn ready_directory(&self) -> PathBuf {

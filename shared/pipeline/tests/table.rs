@@ -56,7 +56,7 @@ fn every_mistake_names_file_line_key_and_what_was_expected() {
         ),
         ("name = \"world\"", "name = \"My World\"", "p.toml:14: name: is My World; expected 1 to 32 of"),
         ("window_s = 10", "window_s = 0", "p.toml:4: window_s: is 0; expected seconds"),
-        ("intensity = 3", "hung_after_ms = 49", "p.toml:3: hung_after_ms: is 49; expected at least 50"),
+        ("intensity = 3", "hung_after_ms = 4", "p.toml:3: hung_after_ms: is 4; expected at least 5"),
         ("order = 3", "order = \"x\"", "p.toml:8: order: invalid type: string \"x\"; expected u32"),
         (
             "realtime = true",

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// The injected fault "slow" lasts so many cycles. Chosen by hand: some 150 ms, long enough to be seen in the report, and
-/// short enough that the watchdog (500 ms) does not take the process for hung.
+/// its pulses come every 3 ms, often enough that the watchdog does not take the process for hung.
 const SLOWED_CYCLES: u32 = 50;
 /// Each of them takes so much longer: two periods, so that every one misses its deadline and skips a cycle.
 const SLOWDOWN: Duration = coact_period::PERIOD.saturating_mul(2);

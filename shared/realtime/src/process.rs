@@ -1,8 +1,8 @@
 use crate::executor::Executor;
 use crate::signals::Signals;
 use crate::{
-    Arguments, Bus, Cycle, LogStyle, Message, Output, PortError, ProcessError, Schedule, memory_lock,
-    scheduling,
+    Arguments, Bus, Cycle, Heartbeat, LogStyle, Message, Output, PortError, ProcessError, Schedule,
+    memory_lock, scheduling,
 };
 use clap::Parser;
 use coact_messages::{Refusal, topic};
@@ -178,6 +178,14 @@ impl Process {
         };
         scheduling::report_obtained(&mut ready);
         Ok(self.run.report_ready(&ready)?)
+    }
+
+    /// The sign of life of a process without cycles: to be begun when its loop begins, and to beat in each turn of it.
+    ///
+    /// # Errors
+    /// [`ProcessError::Heartbeat`].
+    pub fn heartbeat(&self) -> Result<Heartbeat, ProcessError> {
+        Heartbeat::begin(&self.run.heartbeat_file(&self.entry.name)).map_err(ProcessError::Heartbeat)
     }
 
     /// Waits until the run starts; `None` when the process is to stop before.

@@ -36,6 +36,9 @@ pub enum ProcessError {
     /// No thread for background work. The message contains the cause, so that it is no source as well.
     #[error("the system grants no thread for background work: {0}; raise the limit on threads (ulimit -u)")]
     Thread(std::io::Error),
+    /// The sign of life cannot be shown. The message contains the cause.
+    #[error("no heartbeat can be written: {0}; expected a writable run directory")]
+    Heartbeat(std::io::Error),
     /// A signal handler cannot be installed. The message contains the cause.
     #[error("signals cannot be handled: {0}; expected a system that lets a process handle SIGTERM")]
     Signals(std::io::Error),

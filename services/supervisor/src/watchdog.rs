@@ -1,0 +1,70 @@
+use std::time::Duration;
+
+/// How long the processes of the chain may be silent. All times are of the [watch clock](crate::watch_clock::WatchClock).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Silence {
+    /// Since its last pulse, or since it became ready.
+    pub(crate) for_time: Duration,
+    /// How long it may be.
+    pub(crate) limit: Duration,
+    /// It is real time and has sent a pulse already: others' load does not delay it, and what it does once is done.
+    pub(crate) is_steady: bool,
+}
+
+/// How long a process may be silent that is not real time, has not sent its first pulse yet, or is silent together with all
+/// others: then the machine may be late. Chosen by hand.
+pub(crate) const MACHINE_LATE: Duration = Duration::from_millis(500);
+
+/// Which of the watched processes hang, with the limit that each has exceeded.
+///
+/// One that is silent while another one goes on, hangs. When all are silent together, their core stands still, or one
+/// keeps it from the others: that is waited for as long as machines are late.
+pub(crate) fn hung(watched: &[Silence]) -> Vec<Option<Duration>> {
+    let all_silent = watched.len() > 1 && watched.iter().all(|silence| silence.for_time > silence.limit);
+    let limit = |silence: &Silence| match silence.is_steady && !all_silent {
+        true => silence.limit,
+        false => silence.limit.max(MACHINE_LATE),
+    };
+    watched.iter().map(|silence| Some(limit(silence)).filter(|&limit| silence.for_time > limit)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMIT: Duration = Duration::from_millis(10);
+
+    fn silent(ms: u64) -> Silence {
+        Silence { for_time: Duration::from_millis(ms), limit: LIMIT, is_steady: true }
+    }
+
+    #[test]
+    fn one_that_is_silent_while_others_go_on_hangs() {
+        assert_eq!(hung(&[silent(2), silent(11), silent(10)]), [None, Some(LIMIT), None]);
+        assert_eq!(hung(&[silent(11), silent(11), silent(1)]), [Some(LIMIT), Some(LIMIT), None]);
+    }
+
+    #[test]
+    fn when_all_are_silent_together_the_machine_gets_its_time() {
+        assert_eq!(hung(&[silent(11), silent(400)]), [None, None]);
+        assert_eq!(hung(&[silent(501), silent(502)]), [Some(MACHINE_LATE), Some(MACHINE_LATE)]);
+        assert_eq!(hung(&[silent(11)]), [Some(LIMIT)], "nobody to compare it with");
+        assert_eq!(hung(&[]), []);
+    }
+
+    #[test]
+    fn one_that_is_not_real_time_or_has_only_begun_gets_more_time() {
+        let beginning = Silence { is_steady: false, ..silent(400) };
+        assert_eq!(hung(&[silent(1), beginning]), [None, None]);
+        let too_long = Silence { is_steady: false, ..silent(501) };
+        assert_eq!(hung(&[silent(1), too_long]), [None, Some(MACHINE_LATE)]);
+    }
+
+    #[test]
+    fn a_longer_limit_of_the_table_holds_always() {
+        let limit = Duration::from_secs(2);
+        let patient = |ms| Silence { limit, ..silent(ms) };
+        assert_eq!(hung(&[patient(1900), patient(2001)]), [None, Some(limit)]);
+        assert_eq!(hung(&[patient(2001), patient(2001)]), [Some(limit), Some(limit)]);
+    }
+}
