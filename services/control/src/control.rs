@@ -1,15 +1,25 @@
-use crate::guard::Guard;
+use crate::braking_path::BrakingPath;
+use crate::guard::{Guard, Moving};
 use crate::inputs::Inputs;
+use crate::person_capsules::PersonCapsules;
 use crate::planning::{HandGoals, PlannerLink, PlanningThread, SkillPlanner};
 use crate::robot::{CollisionModels, RobotModel};
-use crate::servo::Servo;
-use crate::state::{ControlState, SkillPhase};
+use crate::servo::{ArmStep, Servo};
+use crate::state::{ControlState, PathProgress, SkillPhase};
 use crate::{ControlError, reachability};
 use coact_joint_task::{Action, Task};
 use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
+use coact_period::PERIOD_S;
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
 use coact_stage_state::StageState;
+
+/// What is left in each cycle of the speed that the guard does not admit. Chosen by hand: a hundredth of what braking takes
+/// away, so that the arm holds a speed a little below the admitted one.
+const SLOWER: f64 = 0.99;
+
+/// An arm whose speed override is below this stands. Chosen by hand: the hand would creep by less than 10 mm a second.
+const SLOWEST: f64 = 0.01;
 
 /// The control stage: decisions in, setpoints out, one period at each step.
 #[derive(Debug)]
@@ -138,30 +148,71 @@ impl Control {
         sound
     }
 
-    /// The setpoints of this cycle: along the trajectory as fast as the guard allows. Without fresh inputs the joints brake.
+    /// The setpoints of this cycle: along the trajectory as fast as the guard admits. Without fresh inputs, or while nobody
+    /// knows where the person is, all joints brake.
     fn serve(&mut self, inputs: &Inputs) {
-        let speed_override = self.speed_override(inputs);
-        let ControlState { arm, fingers, .. } = &mut self.state;
-        if inputs.blind() {
-            self.servo.brake(arm, fingers);
-        } else {
-            self.servo.advance(arm, fingers, speed_override);
+        self.state.note_handover();
+        let person = inputs.person(&self.model.part_capsules, &self.limits);
+        match person.filter(|_| !inputs.blind()) {
+            None => self.servo.brake(&mut self.state.arm, &mut self.state.fingers),
+            Some(person) => {
+                let step = self.arm_step(&person);
+                self.servo.advance(&mut self.state.arm, &mut self.state.fingers, step);
+            }
         }
     }
 
-    /// How fast the arm may go on: slower, or not at all, where the person comes near.
-    fn speed_override(&mut self, inputs: &Inputs) -> f64 {
-        if self.state.arm_has_arrived() {
-            return 1.0;
+    /// The arm's next step, as fast as the guard admits; none: it brakes.
+    fn arm_step(&mut self, person: &PersonCapsules) -> Option<ArmStep> {
+        let arm = &self.state.arm;
+        if arm.braking.is_set() {
+            return None;
         }
-        let Some(person) = inputs.person(&self.model.part_capsules, &self.limits.person) else { return 1.0 };
+        if self.state.arm_has_arrived() {
+            let step = self.servo.step_towards(arm, 1.0);
+            self.state.arm.fastest = 1.0;
+            return step;
+        }
+        let step = self.admitted(self.state.arm.fastest, person);
+        self.adjust_fastest(step.is_some(), person);
+        step
+    }
+
+    /// Lets the arm become faster, little by little, where the guard would admit that for good; slower at once where it does not
+    /// admit the present speed. So an arm beside a person moves steadily, and does not tremble between its planned speed and
+    /// braking.
+    fn adjust_fastest(&mut self, admitted: bool, person: &PersonCapsules) {
+        let limits = self.limits.guard;
+        let PathProgress { speed_override, .. } = self.state.arm.progress;
+        let faster = (self.state.arm.fastest + limits.quickening * PERIOD_S).min(1.0);
+        if !admitted {
+            let slower = speed_override.min(self.state.arm.fastest) * SLOWER;
+            self.state.arm.fastest = if slower < SLOWEST { 0.0 } else { slower };
+        } else if faster > self.state.arm.fastest && self.admits_for_good(faster, person) {
+            self.state.arm.fastest = faster;
+        }
+        let arm = &mut self.state.arm;
+        let is_blocked = arm.fastest < limits.blocked_override;
+        arm.blocked = if is_blocked { arm.blocked.saturating_add(1) } else { arm.blocked.saturating_sub(1) };
+    }
+
+    /// The next step with a speed override that goes towards `wanted`, if the limiters and the guard admit it.
+    fn admitted(&mut self, wanted: f64, person: &PersonCapsules) -> Option<ArmStep> {
+        let step = self.servo.step_towards(&self.state.arm, wanted)?;
+        self.admits(step.progress, person, 0.0).then_some(step)
+    }
+
+    /// Whether the guard would admit this speed override, with some room to spare, if the arm went on steadily with it.
+    fn admits_for_good(&mut self, speed_override: f64, person: &PersonCapsules) -> bool {
+        let progress = PathProgress { speed_override, override_rate: 0.0, ..self.state.arm.progress };
+        self.admits(progress, person, self.limits.guard.hysteresis)
+    }
+
+    fn admits(&mut self, progress: PathProgress, person: &PersonCapsules, spare: f64) -> bool {
         let (grip, closure) = (self.held_in(), coact_messages::finger_closure(&self.servo.position()));
-        let speed_override = self.guard.speed_override(&self.state, grip, closure, &person);
-        let is_blocked = speed_override < self.limits.guard.blocked_override;
-        let blocked = self.state.arm.blocked;
-        self.state.arm.blocked =
-            if is_blocked { blocked.saturating_add(1) } else { blocked.saturating_sub(1) };
-        speed_override
+        let Self { servo, guard, state, .. } = self;
+        let braking = BrakingPath::from(progress, &state.arm.trajectory, servo.arm_limits());
+        braking.is_some_and(|braking| guard.admits(&Moving { state, grip, closure }, &braking, person, spare))
     }
 
     /// The grip in which the held part is held: index into the grip table.

@@ -1,12 +1,16 @@
-use crate::person_capsules::PersonCapsules;
+use crate::braking_path::{BrakingPath, BrakingPoint};
+use crate::person_capsules::{BodyPart, PersonCapsules};
 use crate::robot::{CollisionModels, FingerShape, RobotModel};
 use crate::state::ControlState;
 use coact_motion::{Capsule, CollisionModel, Mechanism};
 use coact_robot::{JointLimits, RobotError};
 use coact_safety::GuardLimits;
 
-/// Keeps the protective separation between the robot, with what it holds, and the person: says how fast the trajectory
-/// under way may go on.
+/// Keeps the robot, with what it holds, clear of the person: says whether the arm may go on for another cycle.
+///
+/// It may, if braking along its path after that cycle keeps the protective separation from all that the person may reach
+/// meanwhile, or closes nothing by its own motion that is nearer; what is beside the person moves slowly. So the arm can always
+/// be stopped in time: what was found admissible in the last cycle is to brake from there.
 #[derive(Debug)]
 pub(crate) struct Guard {
     limits: GuardLimits,
@@ -17,16 +21,32 @@ pub(crate) struct Guard {
     holding: Vec<CollisionModel>,
     /// Limits of the fingers' bases.
     bases: JointLimits,
-    /// Where the person is at the moment looked at.
-    person: Vec<Capsule>,
+    /// Capsules of the moving links at the start of a braking path, at one of its points, and at the point before.
+    start: Vec<Capsule>,
+    links: Vec<Capsule>,
+    before: Vec<Capsule>,
+}
+
+/// What moves along a trajectory.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moving<'a> {
+    pub state: &'a ControlState,
+    /// Grip in which a part is held.
+    pub grip: Option<usize>,
+    /// Finger closure of an empty hand, rad.
+    pub closure: f64,
 }
 
 /// Finger shapes of the empty hand for which there is a collision model. Chosen by hand, between memory and how far the
 /// fingers are from the nearest of them; not sensitive: the hand moves among people with its fingers in a shape at rest.
 const SHAPES: usize = 13;
-/// Steps ahead at which leaving is compared with standing still, besides the last one: close together at first, where the
-/// arm is nearest to the person.
-const COMPARED: [u32; 3] = [1, 2, 4];
+/// How much nearer the fingers may be than those of the most similar model, m, and the arm than its computed braking.
+const BETWEEN_SHAPES: f64 = 0.002;
+/// Distances are computed with errors below this, m.
+const EXACT: f64 = 1e-9;
+/// No point of a link moves faster than this for each rad/s of all joints together, m: the arm's length with the hand, and
+/// some.
+const LEVER: f64 = 1.3;
 
 impl Guard {
     /// # Errors
@@ -44,91 +64,141 @@ impl Guard {
             let closed = model.hand_angles(FingerShape::Closed(index));
             models.of(&[closed], Some((grip.kind, grip.in_palm)))
         });
+        let (empty, holding) =
+            (empty.collect::<Result<Vec<_>, _>>()?, holding.collect::<Result<Vec<_>, _>>()?);
+        let most = empty.iter().chain(&holding).map(|model| model.links().len()).max().unwrap_or(0);
         Ok(Self {
             limits,
             mechanism: models.mechanism.clone(),
-            empty: empty.collect::<Result<_, _>>()?,
-            holding: holding.collect::<Result<_, _>>()?,
+            empty,
+            holding,
             bases,
-            person: Vec::with_capacity(PersonCapsules::MOST),
+            start: Vec::with_capacity(most),
+            links: Vec::with_capacity(most),
+            before: Vec::with_capacity(most),
         })
     }
 
-    /// Speed override at which the trajectory under way may go on, with a part held in `grip`, or with an empty hand whose
-    /// finger closure is `closure` rad.
-    ///
-    /// Where the protective separation will be violated within the horizon, the arm slows down in proportion to the time that
-    /// is left, and stands when that is the time that it takes to stop. Where it is violated already, the arm stands, unless
-    /// it leaves the person.
-    pub fn speed_override(
+    /// Whether the arm may begin this braking path in the next cycle. `spare`: so much more room is asked for, m.
+    pub fn admits(
         &mut self,
-        state: &ControlState,
-        grip: Option<usize>,
-        closure: f64,
+        moving: &Moving,
+        braking: &BrakingPath,
         person: &PersonCapsules,
-    ) -> f64 {
-        let GuardLimits { protective_separation, horizon_steps, .. } = self.limits;
-        let (horizon, stopped) =
-            (self.limits.horizon.as_secs_f64(), self.limits.stopped_within.as_secs_f64());
-        let ahead = |step: u32| horizon / f64::from(horizon_steps) * f64::from(step);
-        let mut violates = |ahead: f64| {
-            let t = state.arm.elapsed + ahead;
-            self.separation(state, grip, closure, person, (t, ahead), protective_separation)
-                < protective_separation
-        };
-        if violates(0.0) {
-            let leaves = self.leaves(state, grip, closure, person, ahead);
-            return if leaves { self.limits.escape_override } else { 0.0 };
-        }
-        let violated = (1..=horizon_steps).map(ahead).find(|ahead| violates(*ahead));
-        violated.map_or(1.0, |ahead| ((ahead - stopped) / (horizon - stopped)).clamp(0.0, 1.0))
-    }
-
-    /// Whether going on brings the arm away from a person who is too near: at the horizon it is farther away than if it
-    /// stood still, and nowhere on the way is it nearer than that. The person moves on in both cases.
-    fn leaves(
-        &mut self,
-        state: &ControlState,
-        grip: Option<usize>,
-        closure: f64,
-        person: &PersonCapsules,
-        ahead: impl Fn(u32) -> f64,
+        spare: f64,
     ) -> bool {
-        let now = state.arm.elapsed;
-        let steps = COMPARED.into_iter().chain([self.limits.horizon_steps]);
-        let gains = steps.map(ahead).map(|ahead| {
-            let mut separation =
-                |t: f64| self.separation(state, grip, closure, person, (t, ahead), f64::INFINITY);
-            separation(now + ahead) - separation(now)
-        });
-        let (least, last) = gains.fold((0.0, 0.0), |(least, _): (f64, f64), gain| (least.min(gain), gain));
-        least > -self.limits.escape_loss && last > self.limits.escape_gain
-    }
-
-    /// Distance between the robot at time `t` of the trajectory, s, and the person `ahead` s from now, m; `most` when it is
-    /// more. Where the hands shall touch, without the robot's.
-    fn separation(
-        &mut self,
-        state: &ControlState,
-        grip: Option<usize>,
-        closure: f64,
-        person: &PersonCapsules,
-        (t, ahead): (f64, f64),
-        most: f64,
-    ) -> f64 {
-        self.person.clear();
-        self.person.extend(person.after(ahead));
-        let model = match grip.and_then(|grip| self.holding.get(grip)) {
+        let Self { limits, mechanism, start, before, links, .. } = self;
+        let model = match moving.grip.and_then(|grip| self.holding.get(grip)) {
             Some(holding) => holding,
-            None => &self.empty[self.shape(closure)],
+            None => &self.empty[shape(&self.bases, moving.closure)],
         };
-        let with_hand = !state.may_touch_person(t);
-        model.distance(&self.mechanism, &state.arm.trajectory.posture(t), &self.person, with_hand, most)
+        let look = |links: &mut Vec<Capsule>, point: &BrakingPoint| {
+            model.moving_bounding_capsules(mechanism, &point.posture, links);
+        };
+        let kept = limits.protective_separation + BETWEEN_SHAPES + spare;
+        let points = braking.points();
+        look(start, &points[0]);
+        if is_far(start, points, person, kept) {
+            return true;
+        }
+        let hands = model.moving_hands();
+        links.clone_from(start);
+        points.iter().zip(&points[1..]).all(|(earlier, point)| {
+            std::mem::swap(links, before);
+            look(links, point);
+            let robot = Approach { start, before, links, hands, span: point.ahead - earlier.ahead };
+            let touches = moving.state.may_touch_person(point.at);
+            person.parts().all(|part| robot.is_clear_of(part, point.ahead, touches, kept, limits))
+        })
+    }
+}
+
+/// The collision model of an empty hand that is most like one with this finger closure, rad.
+fn shape(bases: &JointLimits, closure: f64) -> usize {
+    let fraction = (closure - bases.lower) / (bases.upper - bases.lower);
+    (fraction * (SHAPES - 1) as f64).round().clamp(0.0, (SHAPES - 1) as f64) as usize
+}
+
+/// Whether arm and person cannot come nearer than `kept` m to each other while the arm brakes.
+fn is_far(links: &[Capsule], points: &[BrakingPoint], person: &PersonCapsules, kept: f64) -> bool {
+    let turned = |(one, other): (&BrakingPoint, &BrakingPoint)| -> f64 {
+        one.posture.iter().zip(&other.posture).map(|(one, other)| (one - other).abs()).sum()
+    };
+    let travel = LEVER * points.iter().zip(&points[1..]).map(turned).sum::<f64>();
+    let last = points.last().map_or(0.0, |point| point.ahead);
+    person.parts().all(|part| {
+        let (here, room) = (part.after(0.0), kept + travel + part.reach(last));
+        links.iter().all(|link| link.least_distance(&here) > room)
+    })
+}
+
+/// The robot's links on their way to one point of a braking path: where they are at its start, at the point before, and here.
+struct Approach<'a> {
+    start: &'a [Capsule],
+    before: &'a [Capsule],
+    links: &'a [Capsule],
+    /// Of each link: whether it belongs to the hand.
+    hands: &'a [bool],
+    /// Time since the point before, s.
+    span: f64,
+}
+
+impl Approach<'_> {
+    /// Whether it stays `kept` m clear of all places that a part of the body may have reached by then, or closes on none; beside
+    /// it, it is slow. In a handover the robot's hand may touch the person's, slowly.
+    fn is_clear_of(
+        &self,
+        part: &BodyPart,
+        ahead: f64,
+        touches: bool,
+        kept: f64,
+        limits: &GuardLimits,
+    ) -> bool {
+        let there = part.after(ahead);
+        let room = kept + part.growth(ahead);
+        [false, true].into_iter().all(|hand| {
+            let nearest = self.nearest(self.links, hand, &there, room);
+            if nearest >= room {
+                return true;
+            }
+            let is_handover = touches && hand && part.hands_over;
+            let beside = if is_handover { room } else { limits.protective_separation };
+            let is_slow = || self.is_slower(hand, &there, beside, limits.contact_speed);
+            let here = part.after(0.0);
+            let closes_on = |there: &Capsule, room: f64| {
+                self.nearest(self.links, hand, there, room)
+                    < self.nearest(self.start, hand, there, room) - EXACT
+            };
+            // From somebody who is not seen nobody knows what leads away.
+            let closes = || !part.is_seen || closes_on(&there, room) || closes_on(&here, kept);
+            let is_bound =
+                || self.near(hand, &there, room).all(|link| part.is_bound_away_from(link, kept, ahead));
+            (is_handover || !closes() || is_bound()) && is_slow()
+        })
     }
 
-    /// The collision model of an empty hand that is most like one with this finger closure, rad.
-    fn shape(&self, closure: f64) -> usize {
-        let fraction = (closure - self.bases.lower) / (self.bases.upper - self.bases.lower);
-        (fraction * (SHAPES - 1) as f64).round().clamp(0.0, (SHAPES - 1) as f64) as usize
+    /// Distance of what is, or is not, the hand, m; `most` when it is more.
+    fn nearest(&self, links: &[Capsule], hand: bool, there: &Capsule, most: f64) -> f64 {
+        let own = links.iter().zip(self.hands).filter(|(_, of_hand)| **of_hand == hand);
+        own.fold(most, |nearest, (link, _)| {
+            if link.least_distance(there) < nearest { nearest.min(link.distance(there)) } else { nearest }
+        })
+    }
+
+    /// The links that are nearer than `within` m.
+    fn near(&self, hand: bool, there: &Capsule, within: f64) -> impl Iterator<Item = &Capsule> {
+        let own = self.links.iter().zip(self.hands).filter(move |(_, of_hand)| **of_hand == hand);
+        own.map(|(link, _)| link)
+            .filter(move |link| link.least_distance(there) < within && link.distance(there) < within)
+    }
+
+    /// Whether all links that are nearer than `within` m move no faster than this, m/s.
+    fn is_slower(&self, hand: bool, there: &Capsule, within: f64, most: f64) -> bool {
+        let moved =
+            self.before.iter().zip(self.links).zip(self.hands).filter(|(_, of_hand)| **of_hand == hand);
+        moved.into_iter().all(|((before, link), _)| {
+            let way = (link.start - before.start).norm().max((link.end - before.end).norm());
+            way <= most * self.span || link.least_distance(there) >= within || link.distance(there) >= within
+        })
     }
 }

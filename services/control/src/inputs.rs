@@ -3,7 +3,7 @@ use crate::sighting_frame::{SHORTEST, frame_of};
 use coact_messages::{Decision, FieldFrame, Percept, PersonArm, ROBOT, SceneView, SensorSample, Sighting};
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
-use coact_safety::{PersonLimits, StaleLimits};
+use coact_safety::{SafetyLimits, StaleLimits};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
 /// Touch below this is nothing, N. Chosen by hand: fingers that are closed on a part press far harder; not sensitive.
@@ -47,9 +47,10 @@ impl<'a> Inputs<'a> {
         }
     }
 
-    /// Whether a sensor sample or a field frame is missing: the robot must not move on.
+    /// Whether a message is missing, or the person has not been seen yet and may be anywhere: the robot must not move on.
     pub fn blind(&self) -> bool {
-        self.sample.is_none() || self.frame.is_none()
+        let knows_person = self.percept.is_some_and(|percept| percept.arm.age < u64::MAX);
+        self.sample.is_none() || self.frame.is_none() || !knows_person
     }
 
     /// The present cycle.
@@ -129,8 +130,9 @@ impl<'a> Inputs<'a> {
         })
     }
 
-    /// The person's arm with what the hand holds, when it is tracked. `part_capsules`: around each kind of part.
-    pub fn person(&self, part_capsules: &[Capsule], limits: &PersonLimits) -> Option<PersonCapsules> {
+    /// The person with what the hand holds, where she was seen last; none when she never was. `part_capsules`: around each
+    /// kind of part.
+    pub fn person(&self, part_capsules: &[Capsule], limits: &SafetyLimits) -> Option<PersonCapsules> {
         let scene = &self.sample?.scene;
         let held =
             sightings(scene).iter().enumerate().filter(|(_, seen)| self.in_person_hand(seen.kind as usize));
@@ -138,8 +140,8 @@ impl<'a> Inputs<'a> {
             Some((index, part_capsules.get(seen.kind as usize)?.within(&frame_of(seen)?)))
         });
         let ago = seconds(self.tick.saturating_sub(scene.captured_cycle));
-        let arm = PersonCapsules::of(self.arm()?, limits)?;
-        Some(arm.holding(capsules, ago, limits.carried_within))
+        let person = PersonCapsules::of(&self.percept?.arm, &limits.person, &limits.stale)?;
+        Some(person.holding(capsules, ago, limits.person.carried_within))
     }
 
     /// Force with which somebody pulls or pushes at the hand and what it holds, N; `None` when it is not measured.

@@ -37,6 +37,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod braking_path;
 mod control;
 mod control_error;
 mod decide;

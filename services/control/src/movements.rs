@@ -156,7 +156,7 @@ impl Control {
 
     /// Whether the arm stands, and will until it is told otherwise.
     fn stands(&self) -> bool {
-        let still = self.state.arm_has_arrived() || self.state.arm.speed_override == 0.0;
+        let still = self.state.arm_has_arrived() || self.state.arm.progress.stands();
         !self.state.arm.braking.is_set() && still && self.servo.arm_stands()
     }
 
@@ -179,7 +179,7 @@ impl Control {
             leave: self.leave(start),
             held: hand.held().map(|kind| (kind, hand.in_palm.isometry())),
             held_in: self.held_in(),
-            person: inputs.person(&self.model.part_capsules, &self.limits.person),
+            person: inputs.person(&self.model.part_capsules, &self.limits),
             in_sight: InSight::of(inputs.parts_in_sight(), inputs.occluders()),
         }
     }

@@ -1,53 +1,83 @@
-use coact_messages::PersonArm;
+use coact_messages::{PersonArm, TrackedPoint};
 use coact_motion::Capsule;
-use coact_safety::PersonLimits;
+use coact_period::{cycles, seconds};
+use coact_safety::{PersonLimits, StaleLimits};
 use nalgebra::{Point3, Vector3};
 
-/// Upper arm, forearm and hand of the person, and what the hand holds, as bounding capsules; and how they move.
+/// Head, upper arm, forearm and hand of the person, and what the hand holds, as bounding capsules; how they move, and how
+/// far they may be from there.
+///
+/// A part of the body that is not seen is where it was last, and grows at the speed of walking people and reaching hands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PersonCapsules {
-    limbs: [MovingCapsule; 3],
+    /// Upper arm, forearm, hand.
+    limbs: [BodyPart; 3],
     /// What is in the hand: index of its sighting, and a capsule around it.
-    held: Option<(usize, MovingCapsule)>,
-    /// For how long all that is taken to go on as it moves, s.
-    extrapolated: f64,
+    held: Option<(usize, BodyPart)>,
+    head: BodyPart,
 }
 
-/// A capsule whose ends move, m/s.
+/// A part of the person's body, or what the hand holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct MovingCapsule {
+pub(crate) struct BodyPart {
     now: Capsule,
+    /// Velocities of its ends, m/s.
     velocities: [Vector3<f64>; 2],
+    /// For how long it is taken to go on as it moves, s.
+    extrapolated: f64,
+    /// Time since it was seen, s, and whether that is recent.
+    age: f64,
+    pub is_seen: bool,
+    /// Its speed, m/s, as far as it is known; what it may accelerate with, m/s², and its greatest possible speed, m/s.
+    speed: f64,
+    acceleration: f64,
+    most_speed: f64,
+    /// Where the arm's length binds it to, while the shoulder is seen and it is not.
+    bound: Option<ArmBound>,
+    /// Whether it may take or give a part in a handover.
+    pub hands_over: bool,
 }
 
 /// Shorter than this, a forearm has no direction, m.
 const SHORTEST: f64 = 1e-6;
 
 impl PersonCapsules {
-    /// Most capsules that there are of a person: three limbs, and what the hand holds.
-    pub const MOST: usize = 4;
-
-    /// Around the arm that perception has estimated; none when its numbers are not finite. A hand whose end was never seen goes on
-    /// along the forearm.
-    pub fn of(arm: &PersonArm, limits: &PersonLimits) -> Option<Self> {
+    /// Around the arm that perception has estimated, as it was seen last; none when it never was, or when its numbers are not
+    /// finite. A hand whose end was never seen goes on along the forearm.
+    pub fn of(arm: &PersonArm, limits: &PersonLimits, stale: &StaleLimits) -> Option<Self> {
         let points = arm.points();
         let mut numbers = points.iter().flat_map(|point| point.position.iter().chain(&point.velocity));
-        if !numbers.all(|number| number.is_finite()) {
+        if arm.age == u64::MAX || !numbers.all(|number| number.is_finite()) {
             return None;
         }
-        let mut positions = points.map(|point| Point3::from(point.position));
-        let velocities = points.map(|point| Vector3::from(point.velocity));
-        let [_, elbow, wrist, tip] = &mut positions;
-        if !arm.fingertip.deviation.is_finite() {
-            let along = (*wrist - *elbow).try_normalize(SHORTEST).unwrap_or_else(Vector3::zeros);
-            *tip = *wrist + limits.hand_length * along;
+        // A joint that was never seen is put where the others suggest: it is as old as they are.
+        let [shoulder, elbow, wrist, fingertip] = points.map(|point| TrackedPoint {
+            age: if point.age == u64::MAX { arm.age } else { point.age },
+            ..*point
+        });
+        let part = |from: &TrackedPoint, to: &TrackedPoint| BodyPart::between(from, to, limits, stale);
+        let [mut upper_arm, mut forearm, mut hand] =
+            [part(&shoulder, &elbow), part(&elbow, &wrist), part(&wrist, &fingertip)];
+        if arm.fingertip.age == u64::MAX {
+            let line = forearm.now.end - forearm.now.start;
+            let along = line.try_normalize(SHORTEST).unwrap_or_else(Vector3::zeros);
+            hand.now.end = hand.now.start + limits.hand_length * along;
         }
-        let limb = |index: usize| MovingCapsule {
-            now: Capsule { start: positions[index], end: positions[index + 1], radius: limits.radii[index] },
-            velocities: [velocities[index], velocities[index + 1]],
-        };
-        let extrapolated = limits.extrapolated.as_secs_f64();
-        Some(Self { limbs: std::array::from_fn(limb), held: None, extrapolated })
+        for (limb, radius) in [&mut upper_arm, &mut forearm, &mut hand].into_iter().zip(limits.radii) {
+            limb.now.radius = radius;
+        }
+        if shoulder.age <= cycles(stale.hand_after) {
+            for limb in [&mut upper_arm, &mut forearm, &mut hand].into_iter().filter(|limb| !limb.is_seen) {
+                limb.bound = Some(ArmBound::of(&shoulder, limb, limits));
+            }
+        }
+        // The robot's fingers reach around a part to the wrist, where the forearm ends.
+        (forearm.hands_over, hand.hands_over) = (true, true);
+        let mut head = part(&shoulder, &shoulder);
+        head.now.radius = limits.head_radius;
+        head.now.end += limits.head_height * Vector3::z();
+        head.most_speed = limits.walking_speed.max(head.speed);
+        Some(Self { limbs: [upper_arm, forearm, hand], held: None, head })
     }
 
     /// The same with whichever of these parts is nearest to the hand in it, if it is nearer than `within` m. Each part: index
@@ -56,9 +86,8 @@ impl PersonCapsules {
         let [.., hand] = self.limbs;
         let [wrist, _] = hand.velocities;
         let parts = seen.map(|(index, part)| {
-            let then = MovingCapsule { now: part, velocities: [wrist; 2] };
-            let now = then.after(ago.min(self.extrapolated));
-            (index, MovingCapsule { now, ..then })
+            let then = BodyPart { now: part, velocities: [wrist; 2], ..hand };
+            (index, BodyPart { now: then.after(ago), ..then })
         });
         let gaps = parts.map(|(index, part)| (hand.now.distance(&part.now), (index, part)));
         let nearest = gaps.filter(|(gap, _)| *gap < within).min_by(|one, other| one.0.total_cmp(&other.0));
@@ -73,15 +102,88 @@ impl PersonCapsules {
 
     /// Upper arm, forearm, hand and what it holds `ahead` s from now.
     pub fn after(&self, ahead: f64) -> impl Iterator<Item = Capsule> + use<> {
-        let time = ahead.min(self.extrapolated);
         let held = self.held.map(|(_, part)| part);
-        self.limbs.into_iter().chain(held).map(move |capsule| capsule.after(time))
+        self.limbs.into_iter().chain(held).map(move |part| part.after(ahead))
+    }
+
+    /// All that is known of her body.
+    pub fn parts(&self) -> impl Iterator<Item = &BodyPart> {
+        self.limbs.iter().chain(self.held.as_ref().map(|(_, part)| part)).chain([&self.head])
     }
 }
 
-impl MovingCapsule {
-    fn after(&self, time: f64) -> Capsule {
+impl BodyPart {
+    /// The line between two joints.
+    fn between(from: &TrackedPoint, to: &TrackedPoint, limits: &PersonLimits, stale: &StaleLimits) -> Self {
+        let age = from.age.max(to.age);
+        let is_seen = age <= cycles(stale.hand_after);
+        let velocities =
+            [from, to].map(|point| if is_seen { Vector3::from(point.velocity) } else { Vector3::zeros() });
+        let known = velocities.iter().map(Vector3::norm).fold(0.0, f64::max);
+        let speed = if is_seen { known } else { limits.hand_speed };
+        Self {
+            now: Capsule { start: Point3::from(from.position), end: Point3::from(to.position), radius: 0.0 },
+            velocities,
+            extrapolated: limits.extrapolated.as_secs_f64(),
+            age: seconds(age),
+            is_seen,
+            speed,
+            acceleration: limits.acceleration(speed),
+            most_speed: limits.hand_speed.max(speed),
+            bound: None,
+            hands_over: false,
+        }
+    }
+
+    /// Where it is `ahead` s from now, if it goes on as it moves.
+    pub fn after(&self, ahead: f64) -> Capsule {
+        let time = ahead.min(self.extrapolated);
         let [start, end] = self.velocities;
         Capsule { start: self.now.start + start * time, end: self.now.end + end * time, ..self.now }
+    }
+
+    /// How far it may be from where it is now in so many seconds, m.
+    pub fn reach(&self, ahead: f64) -> f64 {
+        self.growth(ahead) + self.speed * ahead
+    }
+
+    /// How far it may be from there, m: by what it has accelerated since it was seen, at its greatest speed at most.
+    pub fn growth(&self, ahead: f64) -> f64 {
+        let time = self.age + ahead;
+        (0.5 * self.acceleration * time * time).min(self.most_speed * time)
+    }
+
+    /// Whether it cannot come nearer than `within` m to this capsule at all, because the arm is no longer.
+    pub fn is_bound_away_from(&self, capsule: &Capsule, within: f64, ahead: f64) -> bool {
+        self.bound.is_some_and(|bound| bound.distance(capsule, ahead) > within)
+    }
+}
+
+/// Where forearm and hand are bound to be: not farther from the shoulder than the arm is long.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct ArmBound {
+    shoulder: Capsule,
+    age: f64,
+    acceleration: f64,
+    most_speed: f64,
+}
+
+impl ArmBound {
+    fn of(shoulder: &TrackedPoint, limb: &BodyPart, limits: &PersonLimits) -> Self {
+        let (at, speed) = (Point3::from(shoulder.position), Vector3::from(shoulder.velocity).norm());
+        let reached = (limb.now.start - at).norm().max((limb.now.end - at).norm());
+        Self {
+            shoulder: Capsule { start: at, end: at, radius: limits.reach.max(reached) + limb.now.radius },
+            age: seconds(shoulder.age),
+            acceleration: limits.acceleration(speed),
+            most_speed: limits.walking_speed.max(speed),
+        }
+    }
+
+    /// Least distance of the arm from a capsule `ahead` s from now, m.
+    fn distance(&self, capsule: &Capsule, ahead: f64) -> f64 {
+        let time = self.age + ahead;
+        let moved = (0.5 * self.acceleration * time * time).min(self.most_speed * time);
+        self.shoulder.distance(capsule) - moved
     }
 }

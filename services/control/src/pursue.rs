@@ -79,7 +79,8 @@ impl Control {
         let shape = self.model.on_the_way(skill.skill, skill.kind.get(), self.held_in());
         let wanted = self.model.finger_angles(shape);
         let arm = &self.state.arm;
-        let may_move = !self.state.planning.query.is_bound() && arm.elapsed >= arm.trajectory.fingers_begin;
+        let may_move =
+            !self.state.planning.query.is_bound() && arm.progress.elapsed >= arm.trajectory.fingers_begin;
         if may_move && self.state.fingers.target != wanted {
             self.servo.launch_fingers(&mut self.state.fingers, wanted);
         }
@@ -88,7 +89,7 @@ impl Control {
     /// Where the part lies that is reached for, if that is elsewhere than it was and the hand does not approach it yet.
     fn moved_target(&self, inputs: &Inputs) -> Option<Isometry3<f64>> {
         let (arm, skill) = (&self.state.arm, &self.state.skill);
-        if skill.skill != Skill::Pick || arm.elapsed >= arm.trajectory.approach_begins {
+        if skill.skill != Skill::Pick || arm.progress.elapsed >= arm.trajectory.approach_begins {
             return None;
         }
         let place = self.place(inputs)?;

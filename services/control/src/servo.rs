@@ -1,21 +1,14 @@
-use crate::state::{ArmState, FINGER_JOINTS, FingerState, split};
+use crate::state::{ArmState, FINGER_JOINTS, FingerState, PathProgress, split};
 use coact_messages::{ARM_JOINTS, Command, JOINTS};
 use coact_period::PERIOD_S;
 use coact_robot::{JointLimits, Limiter, MotionState, PointToPoint, Posture};
 use coact_stage_state::Flag;
 
-/// How fast the speed override changes at most, 1/s. This and the next two are chosen by hand, between an arm that stops in time
-/// for the guard and one whose joints need more acceleration and jerk for that than they have; where they do, the limiters
-/// refuse, and less is tried.
-const MOST_RATE: f64 = 4.0;
-/// How fast that rate changes at most, 1/s².
-const MOST_RATE_CHANGE: f64 = 40.0;
-/// Rate at which the override goes to the wanted one, per unit of their difference, 1/s.
-const GAIN: f64 = 12.0;
-/// An override this near to the wanted one has arrived: the step that is left is a ten-thousandth of the planned speed.
-const ARRIVED: f64 = 1e-4;
-/// Fractions of a change of the override that are tried when the whole of it would break a limit of a joint.
-const TRIED: [f64; 4] = [1.0, 0.5, 0.0, -0.5];
+/// Fractions of what the joints can bear with which a change of the speed override is tried, when a limiter refuses more: it
+/// looks ahead to the joint's stop, which the trajectory's present state does not tell. Chosen by hand.
+const EFFORTS: [f64; 4] = [1.0, 0.6, 0.3, 0.0];
+/// The same for an override that rises: nothing is urgent then, and a gentle start looks human.
+const GENTLE: [f64; 3] = [0.4, 0.2, 0.0];
 
 /// Turns trajectories and finger movements into setpoints, one cycle after the other, through the limiters.
 #[derive(Debug)]
@@ -23,6 +16,13 @@ pub(crate) struct Servo {
     /// The setpoints.
     pub joints: [Limiter; JOINTS],
     limits: [JointLimits; JOINTS],
+}
+
+/// One step of the arm along its trajectory.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ArmStep {
+    pub progress: PathProgress,
+    joints: [Limiter; JOINTS],
 }
 
 impl Servo {
@@ -73,24 +73,46 @@ impl Servo {
         }
     }
 
-    /// One cycle: the arm goes on along its trajectory at the wanted speed override, the fingers in their movement.
-    pub fn advance(&mut self, arm: &mut ArmState, fingers: &mut FingerState, wanted_override: f64) {
-        self.advance_arm(arm, wanted_override);
+    /// One cycle: the arm takes this step, or brakes; the fingers go on in their movement.
+    pub fn advance(&mut self, arm: &mut ArmState, fingers: &mut FingerState, step: Option<ArmStep>) {
+        match step {
+            Some(step) => self.take(arm, &step),
+            None => self.brake_arm(arm),
+        }
         self.advance_fingers(fingers);
     }
 
-    /// One cycle of braking: all joints come to a stand within their limits.
+    /// One cycle of braking: the arm along its trajectory, the fingers where they are.
     pub fn brake(&mut self, arm: &mut ArmState, fingers: &mut FingerState) {
-        (arm.braking, fingers.braking) = (Flag::Set, Flag::Set);
-        self.brake_joints(0..JOINTS);
+        fingers.braking = Flag::Set;
+        self.brake_arm(arm);
+        self.brake_joints(ARM_JOINTS..JOINTS);
     }
 
-    /// Brakes when the trajectory cannot be followed.
-    fn advance_arm(&mut self, arm: &mut ArmState, wanted_override: f64) {
-        if arm.braking.is_set() || !self.follow_trajectory(arm, wanted_override) {
+    /// One cycle of braking along the trajectory; an arm that the limiters keep from that brakes joint by joint.
+    fn brake_arm(&mut self, arm: &mut ArmState) {
+        if let Some(step) = self.step_towards(arm, 0.0) {
+            self.take(arm, &step);
+        } else {
             arm.braking = Flag::Set;
             self.brake_joints(0..ARM_JOINTS);
         }
+    }
+
+    /// The arm's next step along the trajectory, if the override goes towards `wanted`; none when the limiters refuse all:
+    /// the arm cannot go on along it.
+    pub fn step_towards(&self, arm: &ArmState, wanted: f64) -> Option<ArmStep> {
+        let efforts = if wanted < arm.progress.speed_override { &EFFORTS[..] } else { &GENTLE[..] };
+        efforts.iter().find_map(|effort| {
+            let limits = self.arm_limits();
+            let progress = arm.progress.towards(wanted, &arm.trajectory, limits, *effort, PERIOD_S);
+            let joints = self.accept(0, &arm.trajectory.at(progress.elapsed))?;
+            Some(ArmStep { progress, joints })
+        })
+    }
+
+    fn take(&mut self, arm: &mut ArmState, step: &ArmStep) {
+        (self.joints, arm.progress) = (step.joints, step.progress);
     }
 
     /// Brakes when the movement cannot be followed; when the fingers stand after braking, it starts anew.
@@ -107,65 +129,32 @@ impl Servo {
         }
     }
 
-    /// Takes the next point of the trajectory, as near to the wanted speed override as the limiters allow; `false`, and
-    /// nothing changed, when they refuse all.
-    fn follow_trajectory(&mut self, arm: &mut ArmState, wanted: f64) -> bool {
-        if arm.speed_override == wanted && arm.override_rate == 0.0 {
-            return self.take_point(arm, arm.speed_override, 0.0);
-        }
-        let rate = (GAIN * (wanted - arm.speed_override)).clamp(-MOST_RATE, MOST_RATE);
-        let most_change = MOST_RATE_CHANGE * PERIOD_S;
-        let change = (rate - arm.override_rate).clamp(-most_change, most_change);
-        TRIED.iter().any(|fraction| {
-            let rate = arm.override_rate + fraction * change;
-            let speed_override = arm.speed_override + PERIOD_S * rate;
-            if (speed_override - wanted).abs() < ARRIVED {
-                self.take_point(arm, wanted, 0.0)
-            } else if (0.0..=1.0).contains(&speed_override) {
-                self.take_point(arm, speed_override, rate)
-            } else {
-                self.take_point(arm, speed_override.clamp(0.0, 1.0), 0.0)
-            }
-        })
-    }
-
-    /// Takes the point of the trajectory to which it comes at this speed override; `false`, and nothing changed, when a
-    /// limiter refuses it.
-    fn take_point(&mut self, arm: &mut ArmState, speed_override: f64, override_rate: f64) -> bool {
-        let elapsed = arm.elapsed + PERIOD_S * speed_override;
-        let accepted = self.take(0, &arm.trajectory.at(elapsed));
-        if accepted {
-            (arm.elapsed, arm.speed_override, arm.override_rate) = (elapsed, speed_override, override_rate);
-        }
-        accepted
-    }
-
     fn follow_fingers(&mut self, fingers: &mut FingerState) -> bool {
-        let accepted = self.take(ARM_JOINTS, &fingers.next());
-        if accepted {
-            fingers.advance();
-        }
-        accepted
+        let Some(joints) = self.accept(ARM_JOINTS, &fingers.next()) else { return false };
+        self.joints = joints;
+        fingers.advance();
+        true
     }
 
-    /// Takes these setpoints for the joints from `first` on; `false`, and nothing changed, when a limiter refuses one.
-    fn take(&mut self, first: usize, next: &[MotionState]) -> bool {
+    /// All joints after those from `first` on have gone to these setpoints; none when a limiter refuses one.
+    fn accept(&self, first: usize, next: &[MotionState]) -> Option<[Limiter; JOINTS]> {
         let mut joints = self.joints;
         for (offset, wish) in next.iter().enumerate() {
             let joint = first + offset;
-            match joints[joint].accept(wish.position, &self.limits[joint], PERIOD_S) {
-                Some(accepted) => joints[joint] = accepted,
-                None => return false,
-            }
+            joints[joint] = joints[joint].accept(wish.position, &self.limits[joint], PERIOD_S)?;
         }
-        self.joints = joints;
-        true
+        Some(joints)
     }
 
     fn brake_joints(&mut self, joints: std::ops::Range<usize>) {
         for joint in joints {
             self.joints[joint] = self.joints[joint].brake(&self.limits[joint], PERIOD_S);
         }
+    }
+
+    /// Limits of the arm's joints.
+    pub fn arm_limits(&self) -> &[JointLimits; ARM_JOINTS] {
+        self.limits.first_chunk().unwrap_or_else(|| unreachable!("an arm has fewer joints than a robot"))
     }
 
     fn finger_limits(&self) -> [JointLimits; FINGER_JOINTS] {

@@ -71,6 +71,7 @@ impl Control {
             in_palm.translation.vector = Vector3::from(skill.progress.seen) / skill.progress.sightings as f64;
         }
         self.state.hand = HandState {
+            hands_over: self.state.hand.hands_over,
             held: skill.kind,
             in_palm: StoredPose::from(in_palm),
             grip: self.state.hand.grip,

@@ -7,8 +7,10 @@ use coact_joint_task::ActionType;
 use coact_messages::{ARM_JOINTS, Command, MotionPhase, ROBOT};
 use coact_motion::{Capsule, Mechanism};
 use coact_period::{CYCLES_PER_SECOND, PERIOD_S};
+use coact_robot::Limiter;
 use kinematic_world::{Holder, KinematicWorld};
 use nalgebra::{Point3, Vector3};
+use proptest::prelude::*;
 
 const NUT: &str = "nut on the robot's side";
 const WHEEL: &str = "wheel on the robot's side";
@@ -31,15 +33,16 @@ fn nut(world: &KinematicWorld) -> usize {
     world.parts.iter().rposition(|part| part.kind == kind && part.workspace == ROBOT).unwrap()
 }
 
-/// Distance of arm and hand from a ball around the person's wrist, m, in a posture of all joints.
+/// Distance of arm and hand from the person's hand, m, in a posture of all joints.
 fn distance(world: &KinematicWorld, mechanism: &Mechanism, position: &[f64]) -> f64 {
     let fingers = std::array::from_fn(|joint| position[ARM_JOINTS + joint]);
     let model = mechanism.with_fingers(&world.robot.hand, &fingers).unwrap();
-    let wrist = Point3::from(world.percept.arm.wrist.position);
     let capsules = model.bounding_capsules(mechanism, &std::array::from_fn(|joint| position[joint]));
     let moving = model.links().iter().zip(&capsules).filter(|(link, _)| link.carriers > 0);
-    let ball = Capsule { start: wrist, end: wrist, radius: 0.045 };
-    moving.map(|(_, capsule)| capsule.distance(&ball)).fold(f64::INFINITY, f64::min)
+    let [start, end] =
+        [world.percept.arm.wrist, world.percept.arm.fingertip].map(|point| Point3::from(point.position));
+    let hand = Capsule { start, end, radius: 0.045 };
+    moving.map(|(_, capsule)| capsule.distance(&hand)).fold(f64::INFINITY, f64::min)
 }
 
 #[test]
@@ -79,7 +82,7 @@ fn the_arm_keeps_away_from_a_person_who_is_in_the_way_and_goes_on_when_the_way_i
     let part = nut(&world);
     let mechanism = Mechanism::of(&world.robot).unwrap();
     let [x, y, z]: [f64; 3] = world.parts[part].frame.translation.vector.into();
-    world.hand_at([x, y, z + 0.06]);
+    world.fingers_at([x, y, z + 0.06]);
     let mut nearest = f64::INFINITY;
     for _ in 0..40 {
         world.run(0.1);
@@ -104,7 +107,7 @@ fn a_hand_that_comes_in_from_the_side_slows_the_arm_without_touching_it() {
     let steps = (line.norm() / 0.5 * CYCLES_PER_SECOND as f64) as u32;
     for step in 0..steps {
         let at = rest + velocity * (f64::from(step) * PERIOD_S);
-        world.hand_moves(at.coords.into(), velocity.into());
+        world.fingers_move(at.coords.into(), velocity.into());
         let before = world.command.position;
         world.step();
         let [before, now] = [before, world.command.position].map(|at| distance(&world, &mechanism, &at));
@@ -128,11 +131,12 @@ fn the_hand_keeps_clear_of_the_one_that_brings_a_part_until_it_takes_the_part() 
     world.parts[part].holder = Holder::Person;
     world.parts[part].frame.translation.vector = [x, y, z].into();
     // The hand beside it, in the middle of the way from where the robot holds its own out to where it waits.
-    world.hand_at([x + 0.10, y + 0.05, z + 0.10]);
+    world.fingers_at([x + 0.07, y + 0.05, z + 0.07]);
     world.decide(Some(world.action(ActionType::Receive, WHEEL)));
     let mut nearest = f64::INFINITY;
     world.until(6.0, "ready", |world| {
         nearest = nearest.min(distance(world, &mechanism, &world.command.position));
+
         world.phase() == MotionPhase::Dwell
             && world.command.action == world.action(ActionType::Receive, WHEEL)
     });
@@ -148,7 +152,7 @@ fn the_arm_gets_away_from_a_hand_that_has_come_too_near_while_it_stood() {
     // Somebody's hand beside the palm.
     let (palm, aside) = (world.palm().translation.vector, world.palm().rotation * Vector3::y());
     let gap = (0..300).map(|step| 0.3 - 1e-3 * f64::from(step)).find_map(|beside| {
-        world.hand_at((palm + beside * aside).into());
+        world.fingers_at((palm + beside * aside).into());
         Some(distance(&world, &mechanism, &world.command.position)).filter(|gap| *gap < 0.03)
     });
     let gap = gap.unwrap();
@@ -168,4 +172,138 @@ fn a_part_that_is_seen_a_little_below_the_table_is_taken_from_it() {
     world.parts[part].frame.translation.vector.z -= 0.003;
     world.decide(Some(world.action(ActionType::Insert, NUT)));
     world.until(5.0, "taken", |world| world.held().is_some());
+}
+
+/// Cycles in which each joint of the arm alone could be stopped from where it is, the slowest of them.
+fn stopping_time(world: &KinematicWorld) -> u64 {
+    let limits = world.robot.limits();
+    let joints = (0..ARM_JOINTS).map(|joint| {
+        let Command { position, velocity, acceleration, .. } = &*world.command;
+        let mut state = Limiter {
+            position: position[joint],
+            velocity: velocity[joint],
+            acceleration: acceleration[joint],
+        };
+        let mut cycles = 0;
+        while !state.is_at_rest() {
+            state = state.brake(&limits[joint], PERIOD_S);
+            cycles += 1;
+        }
+        cycles
+    });
+    joints.max().unwrap()
+}
+
+#[test]
+fn without_perception_the_arm_stands_within_little_more_than_its_joints_need_and_goes_on_after() {
+    let (mut own, mut along_path, mut stops) = (0, 0, 0);
+    for start in [0.3, 0.5, 0.7, 0.9, 1.1, 1.3, 1.5, 1.8] {
+        let mut world = KinematicWorld::new();
+        world.decide(Some(world.action(ActionType::Insert, NUT)));
+        world.run(start);
+        let stale = world.percept.clone();
+        // The percept grows old; sample and frame do not.
+        let age = |world: &KinematicWorld| world.tick - stale.header.cycle;
+        while age(&world) <= 50 {
+            world.sense();
+            let (sample, frame) = (world.sample.clone(), world.frame.clone());
+            world.step_with(Some(&sample), Some(&stale), Some(&frame));
+        }
+        if speed(&world.command) < 0.3 {
+            continue;
+        }
+        let (needed, begin) = (stopping_time(&world), world.tick);
+        while speed(&world.command) > 0.0 {
+            world.sense();
+            let (sample, frame) = (world.sample.clone(), world.frame.clone());
+            world.step_with(Some(&sample), Some(&stale), Some(&frame));
+        }
+        (own, along_path, stops) = (own + needed, along_path + world.tick - begin, stops + 1);
+        world.until(8.0, "goes on", |world| world.held().is_some());
+    }
+    assert!(stops >= 4, "{stops}");
+    let ratio = along_path as f64 / own as f64;
+    println!("{stops} stops: joints alone {} ms, along the path {} ms", own / stops, along_path / stops);
+    assert!(ratio < 1.5, "along the path it takes {ratio} times as long as the joints alone");
+}
+
+#[test]
+fn a_person_who_was_never_seen_may_be_anywhere_and_the_arm_stands() {
+    let mut world = KinematicWorld::new();
+    world.percept.arm.age = u64::MAX;
+    let before = world.command.position;
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
+    world.run(2.0);
+    assert_eq!(world.command.position, before);
+    world.percept.arm.age = 0;
+    world.until(8.0, "taken", |world| world.held().is_some());
+}
+
+#[test]
+fn somebody_who_is_not_seen_any_more_is_where_she_can_have_gone() {
+    let mut world = reaching();
+    // Near the way to the nut, then out of sight.
+    let goal = world.parts[nut(&world)].frame.translation.vector;
+    world.fingers_at([goal.x - 0.35, goal.y, goal.z + 0.15]);
+    for age in 0..3000u64 {
+        let arm = &mut world.percept.arm;
+        (arm.age, arm.tracked) = (age, u32::from(age <= 150));
+        for point in [&mut arm.shoulder, &mut arm.elbow, &mut arm.wrist, &mut arm.fingertip] {
+            point.age = age;
+        }
+        world.step();
+    }
+    assert_eq!(speed(&world.command), 0.0, "nobody knows where she is now");
+    assert!(world.held().is_none());
+    world.hand_at(world.task.scene.person_rest);
+    (world.percept.arm.age, world.percept.arm.tracked) = (0, 1);
+    world.until(8.0, "taken", |world| world.held().is_some());
+}
+
+#[test]
+fn a_hidden_hand_is_not_farther_from_a_shoulder_that_is_seen_than_the_arm_is_long() {
+    let mut world = reaching();
+    world.task.scene.person_shoulder[0] -= 0.4;
+    world.hand_at(world.task.scene.person_rest);
+    let arm = &mut world.percept.arm;
+    (arm.age, arm.tracked) = (5000, 0);
+    for point in [&mut arm.elbow, &mut arm.wrist, &mut arm.fingertip] {
+        point.age = 5000;
+    }
+    world.until(8.0, "the nut lies beyond her reach", |world| world.held().is_some());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
+
+    // A hand that wanders about the way to the nut, with the speeds and accelerations that hands have.
+    #[test]
+    fn the_arm_never_closes_what_is_nearer_than_the_protective_separation(
+        targets in prop::collection::vec((-0.25..0.25f64, -0.25..0.25f64, 0.02..0.3f64), 8),
+        most in 0.1..1.0f64,
+    ) {
+        let mut world = reaching();
+        let mechanism = Mechanism::of(&world.robot).unwrap();
+        let goal = world.parts[nut(&world)].frame.translation.vector;
+        let (mut at, mut velocity) = (Vector3::from(world.task.scene.person_rest), Vector3::zeros());
+        for (x, y, z) in targets {
+            let target = goal + Vector3::new(x, y, z);
+            for _ in 0..400 {
+                let wanted = 4.0 * (target - at);
+                let wanted = wanted.cap_magnitude(most);
+                velocity += (wanted - velocity).cap_magnitude(10.0 * PERIOD_S);
+                at += velocity * PERIOD_S;
+                world.fingers_move(at.into(), velocity.into());
+                let before = world.command.position;
+                world.step();
+                let [before, now] = [before, world.command.position].map(|joints| distance(&world, &mechanism, &joints));
+                // Where the hand has run into the arm already, each way out leads past a part of it. The guard knows the
+                // fingers in 13 shapes, to 2 mm.
+                prop_assert!(
+                    now >= 0.038 || now < 0.0 || now > before - 1e-5,
+                    "it moves {} mm towards a hand {now} m away", 1e3 * (before - now)
+                );
+            }
+        }
+    }
 }

@@ -39,6 +39,8 @@ pub struct TrackedPoint {
     /// Standard deviation of the position, m: the tracker's scatter, and what the joint may have moved since it was seen.
     /// Infinite while it was never seen.
     pub deviation: f64,
+    /// Cycles since a frame showed it; `u64::MAX` while it was never seen.
+    pub age: u64,
 }
 
 impl PersonArm {

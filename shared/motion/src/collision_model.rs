@@ -12,6 +12,8 @@ pub struct CollisionModel {
     pub(crate) pairs: Vec<(usize, usize)>,
     /// A sphere around all links of the hand, in the frame of the arm's last joint.
     pub(crate) hand: Option<Capsule>,
+    /// Of each link that the arm's joints move: whether it belongs to the hand.
+    moving_hands: Vec<bool>,
 }
 
 /// Difference of the numbers of joints that carry two links from which on their distance is watched. Chosen by hand: the
@@ -42,7 +44,9 @@ impl CollisionModel {
             };
             Capsule { start: centre, end: centre, radius: of_hand().map(reach).fold(0.0, f64::max) }
         });
-        let (mut collision_model, mut touching) = (Self { links, pairs, hand }, Vec::new());
+        let moving = links.iter().filter(|link| link.carriers > 0);
+        let moving_hands = moving.map(|link| link.hand).collect();
+        let (mut collision_model, mut touching) = (Self { links, pairs, hand, moving_hands }, Vec::new());
         let scene = Scene::default();
         let mut near = Vec::new();
         for segment in SegmentKind::ALL {
@@ -76,46 +80,18 @@ impl CollisionModel {
         Self::new(mechanism, self.links)
     }
 
-    /// Bounding capsules of all links that the arm's joints move, in the world, for a posture of the arm.
-    pub fn moving_bounding_capsules(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Capsule> {
-        let bounding_capsules = self.links.iter().zip(self.bounding_capsules(mechanism, posture));
-        bounding_capsules
-            .filter(|(link, _)| link.carriers > 0)
-            .map(|(_, bounding_capsule)| bounding_capsule)
-            .collect()
+    /// Of each link that the arm's joints move: whether it belongs to the hand.
+    pub fn moving_hands(&self) -> &[bool] {
+        &self.moving_hands
     }
 
-    /// Distance of what the arm's joints move, with or without the hand and what it holds, from the nearest of `others`
-    /// (world), for a posture of the arm, m, measured between bounding capsules; `most` when it is more. Nothing is allocated.
-    pub fn distance(
-        &self,
-        mechanism: &Mechanism,
-        posture: &Posture,
-        others: &[Capsule],
-        with_hand: bool,
-        most: f64,
-    ) -> f64 {
+    /// Bounding capsules of all links that the arm's joints move, in the world, for a posture of the arm, into `out`.
+    /// Nothing is allocated where there is room for them.
+    pub fn moving_bounding_capsules(&self, mechanism: &Mechanism, posture: &Posture, out: &mut Vec<Capsule>) {
         let frames = Frames::of(mechanism, posture);
-        let nearer = |nearest: f64, link: &Link| {
-            let bounding_capsule = link.bounding_capsule.within(&frames.carrier(link));
-            others.iter().fold(nearest, |nearest, other| {
-                // Most pairs are certainly farther apart than the nearest one so far.
-                if bounding_capsule.least_distance(other) < nearest {
-                    nearest.min(bounding_capsule.distance(other))
-                } else {
-                    nearest
-                }
-            })
-        };
         let moving = self.links.iter().filter(|link| link.carriers > 0);
-        let nearest = moving.clone().filter(|link| !link.hand).fold(most, nearer);
-        // What is far from a sphere around the hand is far from all of its many links.
-        let sphere = self.hand.map(|sphere| sphere.within(&frames.pose[mechanism.joints() - 1]));
-        let far = |sphere: &Capsule| others.iter().all(|other| other.least_distance(sphere) >= nearest);
-        if !with_hand || sphere.is_some_and(|sphere| far(&sphere)) {
-            return nearest;
-        }
-        moving.filter(|link| link.hand).fold(nearest, nearer)
+        out.clear();
+        out.extend(moving.map(|link| link.bounding_capsule.within(&frames.carrier(link))));
     }
 
     /// Bounding capsules of all links in the world, for a posture of the arm.

@@ -113,7 +113,7 @@ pub use link::Link;
 pub use mechanism::{MAX_JOINTS, Mechanism, Meshes};
 pub use min_clearance::MinClearance;
 pub use obstacle::Obstacle;
-pub use plan::{Knot, Plan, state_at};
+pub use plan::{Knot, Plan, jerk_at, state_at};
 pub use problem::Problem;
 pub use proximity::{Counterpart, Proximity};
 pub use refusal::Refusal;

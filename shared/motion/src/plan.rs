@@ -107,6 +107,15 @@ pub fn state_at(knots: &[Knot], t: f64) -> [MotionState; 7] {
     }
 }
 
+/// Jerk of all joints of a movement through these knots, `t` s after its start, rad/s³; outside it 0.
+pub fn jerk_at(knots: &[Knot], t: f64) -> Posture {
+    let next = knots.partition_point(|knot| knot.t <= t);
+    match (next.checked_sub(1).map(|last| &knots[last]), knots.get(next)) {
+        (Some(from), Some(to)) => pieces(from, to).map(|piece| piece.jerk(t - from.t)),
+        _ => [0.0; 7],
+    }
+}
+
 /// The first joint that breaks a limit in these states and jerks.
 pub(crate) fn broken(
     mut samples: impl Iterator<Item = ([MotionState; 7], Posture)>,

@@ -18,10 +18,14 @@ pub(crate) struct Config {
 #[serde(deny_unknown_fields)]
 pub(crate) struct ArmConfig {
     pub joints: [String; 7],
-    /// rad/s².
+    /// Of planned movements, rad/s².
     pub acceleration: [f64; 7],
-    /// rad/s³.
+    /// Of planned movements, rad/s³.
     pub jerk: [f64; 7],
+    /// What the joints can bear at most, rad/s².
+    pub most_acceleration: [f64; 7],
+    /// Likewise, rad/s³.
+    pub most_jerk: [f64; 7],
     /// rad.
     pub park: Posture,
 }
@@ -66,6 +70,15 @@ impl Config {
         }
         if !positive(&self.arm.jerk) || !positive(&[self.hand.jerk]) {
             return Err(Self::fault(path, "jerk", "expected limits above zero, rad/s³"));
+        }
+        let beyond = |most: &[f64; 7], planned: &[f64; 7]| {
+            most.iter().zip(planned).all(|(most, own)| most >= own && most.is_finite())
+        };
+        if !beyond(&self.arm.most_acceleration, &self.arm.acceleration) {
+            return Err(Self::fault(path, "most_acceleration", "expected no less than acceleration, rad/s²"));
+        }
+        if !beyond(&self.arm.most_jerk, &self.arm.jerk) {
+            return Err(Self::fault(path, "most_jerk", "expected no less than jerk, rad/s³"));
         }
         if !positive(&[self.hand.grasp_distance]) {
             return Err(Self::fault(path, "grasp_distance", "expected a length above zero, m"));

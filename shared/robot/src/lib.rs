@@ -83,7 +83,7 @@ pub use grips::Grips;
 pub use hand::{Finger, Grasp, HAND_JOINTS, Hand};
 pub use hand_goal::HandGoal;
 pub use joint::{Joint, JointLimits};
-pub use limiter::Limiter;
+pub use limiter::{Limiter, towards_zero};
 pub use next_use::NextUse;
 pub use point_to_point::PointToPoint;
 pub use quintic::{MotionState, Quintic};

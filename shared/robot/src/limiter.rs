@@ -57,18 +57,16 @@ impl Limiter {
         allowed.then_some(next)
     }
 
-    /// The state after one cycle of braking: towards velocity and acceleration zero by discrete time-optimal feedback (fhan,
-    /// J. Han, IEEE Trans. Ind. Electron. 56, 2009), with the acceleration limited.
+    /// The state after one cycle of braking, in the fewest cycles that the limits of acceleration and jerk allow.
     pub fn brake(&self, limits: &JointLimits, dt: f64) -> Self {
-        let jerk =
-            time_optimal(self.velocity - dt * self.acceleration, self.acceleration, USED * limits.jerk, dt);
-        let bound = USED * limits.acceleration;
-        let acceleration = (self.acceleration + dt * jerk).clamp(-bound, bound);
-        let velocity = self.velocity + dt * acceleration;
+        let Self { position, velocity, acceleration } = self;
+        let acceleration =
+            towards_zero(*velocity, *acceleration, USED * limits.acceleration, USED * limits.jerk, dt);
+        let (position, velocity) = (*position, velocity + dt * acceleration);
         if velocity.abs() < STILL_VELOCITY && acceleration.abs() < STILL_ACCELERATION {
-            return Self::at_rest(self.position);
+            return Self::at_rest(position);
         }
-        Self { position: self.position + dt * velocity, velocity, acceleration }
+        Self { position: position + dt * velocity, velocity, acceleration }
     }
 
     /// Whether this state keeps the limits and braking from here does, until rest. A bound on the braking distance decides
@@ -124,6 +122,14 @@ impl Limiter {
             && self.velocity.abs() <= limits.velocity
             && self.acceleration.abs() <= limits.acceleration
     }
+}
+
+/// The rate, after a cycle of `dt` s, of a `value` that goes to zero in the fewest cycles and arrives there with rate zero:
+/// discrete time-optimal feedback (fhan, J. Han, IEEE Trans. Ind. Electron. 56, 2009) with the rate bounded by `most`, and
+/// its change by `most_change` a second.
+pub fn towards_zero(value: f64, rate: f64, most: f64, most_change: f64, dt: f64) -> f64 {
+    let change = time_optimal(value - dt * rate, rate, most_change, dt);
+    (rate + dt * change).clamp(-most, most)
 }
 
 /// Han's discrete time-optimal feedback (fhan): the input u, |u| <= r, that takes x1' = x2, x2' = u to the origin in the

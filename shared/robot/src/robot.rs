@@ -19,6 +19,8 @@ pub struct Robot {
     pub park: Posture,
     /// The URDF that all this was read from: masses and shapes of the links are found there.
     pub urdf: Urdf,
+    /// Acceleration, rad/s², and jerk, rad/s³, that the arm's joints can bear.
+    most: [(f64, f64); 7],
 }
 
 impl Robot {
@@ -39,7 +41,9 @@ impl Robot {
                 "lies outside the joint limits of the URDF; choose it within",
             ));
         }
-        Ok(Self { name: urdf.name().to_owned(), kinematics, hand, park: config.arm.park, urdf })
+        let most =
+            std::array::from_fn(|joint| (config.arm.most_acceleration[joint], config.arm.most_jerk[joint]));
+        Ok(Self { name: urdf.name().to_owned(), kinematics, hand, park: config.arm.park, urdf, most })
     }
 
     /// The arm.
@@ -57,8 +61,17 @@ impl Robot {
         self.palm(angles) * self.hand.grasp_point()
     }
 
-    /// Limits of all joints in message order.
+    /// What all joints can bear, in message order: whoever drives them keeps within it, and brakes with it.
     pub fn limits(&self) -> [JointLimits; ROBOT_JOINTS] {
+        let mut limits = self.planned_limits();
+        for (limits, most) in limits.iter_mut().zip(self.most) {
+            (limits.acceleration, limits.jerk) = most;
+        }
+        limits
+    }
+
+    /// Limits of planned movements, of all joints in message order.
+    pub fn planned_limits(&self) -> [JointLimits; ROBOT_JOINTS] {
         std::array::from_fn(|index| match index.checked_sub(7) {
             None => self.arm().joints[index].limits,
             Some(index) => self.hand.joints[index].limits,

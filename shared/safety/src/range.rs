@@ -32,17 +32,3 @@ pub(crate) fn within<T: PartialOrd + Copy + std::fmt::Display>(
     let problem = format!("{key} = {number}; expected {} to {}", range.start(), range.end());
     Err(Fault { at: value.span().start, problem })
 }
-
-/// The value of `key`, if it is less than the one of `other`.
-pub(crate) fn below<T: PartialOrd + Copy + std::fmt::Display>(
-    key: &str,
-    value: &Spanned<T>,
-    other: &str,
-    bound: T,
-) -> Result<(), Fault> {
-    if *value.get_ref() < bound {
-        return Ok(());
-    }
-    let problem = format!("{key} = {}; expected less than {other} = {bound}", value.get_ref());
-    Err(Fault { at: value.span().start, problem })
-}

@@ -1,6 +1,6 @@
 //! From the text of the file to [`SafetyLimits`], with the place of every mistake.
 
-use crate::range::{Fault, below, within};
+use crate::range::{Fault, within};
 use crate::{GuardLimits, PersonLimits, PlannerLimits, SafetyLimits, StaleLimits};
 use serde::Deserialize;
 use std::time::Duration;
@@ -22,20 +22,29 @@ struct PersonTable {
     forearm_radius_m: Spanned<f64>,
     hand_radius_m: Spanned<f64>,
     hand_length_m: Spanned<f64>,
+    reach_m: Spanned<f64>,
+    head_radius_m: Spanned<f64>,
+    head_height_m: Spanned<f64>,
     carried_within_m: Spanned<f64>,
     extrapolated_ms: Spanned<u64>,
+    hand_speed_mps: Spanned<f64>,
+    walking_speed_mps: Spanned<f64>,
+    rest_acceleration_mps2: Spanned<f64>,
+    slow_from_mps: Spanned<f64>,
+    slow_acceleration_mps2: Spanned<f64>,
+    moving_from_mps: Spanned<f64>,
+    moving_acceleration_mps2: Spanned<f64>,
+    fast_from_mps: Spanned<f64>,
+    fast_acceleration_mps2: Spanned<f64>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct GuardTable {
     protective_separation_m: Spanned<f64>,
-    horizon_ms: Spanned<u64>,
-    horizon_steps: Spanned<u32>,
-    stopped_within_ms: Spanned<u64>,
-    escape_override: Spanned<f64>,
-    escape_gain_m: Spanned<f64>,
-    escape_loss_m: Spanned<f64>,
+    contact_speed_mps: Spanned<f64>,
+    hysteresis_m: Spanned<f64>,
+    quickening_per_s: Spanned<f64>,
     blocked_override: Spanned<f64>,
     blocked_ms: Spanned<u64>,
 }
@@ -80,33 +89,42 @@ impl PersonTable {
                 within("hand_radius_m", &self.hand_radius_m, 0.01..=0.3)?,
             ],
             hand_length: within("hand_length_m", &self.hand_length_m, 0.05..=0.4)?,
+            reach: within("reach_m", &self.reach_m, 0.2..=1.5)?,
+            head_radius: within("head_radius_m", &self.head_radius_m, 0.05..=1.0)?,
+            head_height: within("head_height_m", &self.head_height_m, 0.0..=1.0)?,
             carried_within: within("carried_within_m", &self.carried_within_m, 0.0..=0.3)?,
             extrapolated: milliseconds("extrapolated_ms", &self.extrapolated_ms, 0..=2000)?,
+            hand_speed: within("hand_speed_mps", &self.hand_speed_mps, 0.1..=10.0)?,
+            walking_speed: within("walking_speed_mps", &self.walking_speed_mps, 0.1..=10.0)?,
+            accelerations: [
+                within("rest_acceleration_mps2", &self.rest_acceleration_mps2, 0.0..=100.0)?,
+                within("slow_acceleration_mps2", &self.slow_acceleration_mps2, 0.0..=100.0)?,
+                within("moving_acceleration_mps2", &self.moving_acceleration_mps2, 0.0..=100.0)?,
+                within("fast_acceleration_mps2", &self.fast_acceleration_mps2, 0.0..=100.0)?,
+            ],
+            speeds: [
+                within("slow_from_mps", &self.slow_from_mps, 0.0..=10.0)?,
+                within("moving_from_mps", &self.moving_from_mps, 0.0..=10.0)?,
+                within("fast_from_mps", &self.fast_from_mps, 0.0..=10.0)?,
+            ],
         })
     }
 }
 
 impl GuardTable {
     fn limits(&self) -> Result<GuardLimits, Fault> {
-        let limits = GuardLimits {
+        Ok(GuardLimits {
             protective_separation: within(
                 "protective_separation_m",
                 &self.protective_separation_m,
                 0.0..=1.0,
             )?,
-            horizon: milliseconds("horizon_ms", &self.horizon_ms, 10..=5000)?,
-            horizon_steps: within("horizon_steps", &self.horizon_steps, 1..=100)?,
-            stopped_within: milliseconds("stopped_within_ms", &self.stopped_within_ms, 1..=5000)?,
-            escape_override: within("escape_override", &self.escape_override, 0.0..=1.0)?,
-            escape_gain: within("escape_gain_m", &self.escape_gain_m, 0.0..=0.1)?,
-            escape_loss: within("escape_loss_m", &self.escape_loss_m, 0.0..=0.1)?,
+            contact_speed: within("contact_speed_mps", &self.contact_speed_mps, 0.0..=1.0)?,
+            hysteresis: within("hysteresis_m", &self.hysteresis_m, 0.0..=0.1)?,
+            quickening: within("quickening_per_s", &self.quickening_per_s, 0.1..=100.0)?,
             blocked_override: within("blocked_override", &self.blocked_override, 0.0..=1.0)?,
             blocked: milliseconds("blocked_ms", &self.blocked_ms, 1..=10_000)?,
-        };
-        below("stopped_within_ms", &self.stopped_within_ms, "horizon_ms", *self.horizon_ms.get_ref())?;
-        // An arm that leaves somebody is not in the way: it would look for another path all the time.
-        below("blocked_override", &self.blocked_override, "escape_override", limits.escape_override)?;
-        Ok(limits)
+        })
     }
 }
 

@@ -15,36 +15,52 @@ pub struct SafetyLimits {
     pub stale: StaleLimits,
 }
 
-/// How large the person's arm is taken to be, and for how long it goes on as it moves.
+/// How large the person's arm and head are taken to be, and how they may move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PersonLimits {
     /// Radii of the capsules of upper arm, forearm and hand, m.
     pub radii: [f64; 3],
     /// Length of a hand of which only the wrist is known, m.
     pub hand_length: f64,
+    /// Length of the arm from the shoulder to the finger tips, m.
+    pub reach: f64,
+    /// Radius of a capsule around the head, m, and how far it goes up from the shoulder, m.
+    pub head_radius: f64,
+    /// See `head_radius`.
+    pub head_height: f64,
     /// A part that the person holds is not farther from the hand than this, m.
     pub carried_within: f64,
     /// For how long the hand is taken to go on at its present velocity.
     pub extrapolated: Duration,
+    /// Speed of a hand, and of somebody who walks, that is not seen, m/s.
+    pub hand_speed: f64,
+    /// See `hand_speed`.
+    pub walking_speed: f64,
+    /// What a hand accelerates with, m/s², while it rests, is slow, moves, and is fast; the last three begin at these speeds,
+    /// m/s.
+    pub accelerations: [f64; 4],
+    /// See `accelerations`.
+    pub speeds: [f64; 3],
 }
 
-/// When the guard slows the arm down, and how it may leave.
+impl PersonLimits {
+    /// What a part of the body that moves so fast, m/s, may accelerate with, m/s².
+    pub fn acceleration(&self, speed: f64) -> f64 {
+        self.accelerations[self.speeds.iter().filter(|from| speed >= **from).count()]
+    }
+}
+
+/// When the guard slows the arm down.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GuardLimits {
-    /// Protective separation: kept between robot and person, m.
+    /// Protective separation: the robot never makes it less by its own motion, m.
     pub protective_separation: f64,
-    /// How far ahead the trajectory is looked at.
-    pub horizon: Duration,
-    /// In how many steps.
-    pub horizon_steps: u32,
-    /// With less time than this before the separation is violated, the arm may not move on.
-    pub stopped_within: Duration,
-    /// Speed override at which the arm may leave somebody who is too near, 0 to 1.
-    pub escape_override: f64,
-    /// How much more distance leaving must bring than standing still, m.
-    pub escape_gain: f64,
-    /// How much less distance it may bring on the way, m.
-    pub escape_loss: f64,
+    /// Most speed of what is nearer to the person than that, and of the hand in a handover, m/s.
+    pub contact_speed: f64,
+    /// How much more room an arm that was held back needs to become faster again, m.
+    pub hysteresis: f64,
+    /// How fast its speed override rises then, 1/s.
+    pub quickening: f64,
     /// An arm whose speed override is below this is in the person's way, 0 to 1.
     pub blocked_override: f64,
     /// After so long in the person's way, another path is looked for.
@@ -73,7 +89,8 @@ pub struct PlannerLimits {
 pub struct StaleLimits {
     /// Of a sensor sample, percept or field frame: beyond it, the arm brakes and stands.
     pub input_after: Duration,
-    /// Of the newest camera frame that shows the hand.
+    /// Of the newest camera frame that shows the hand: beyond it, the hand counts as not seen, and may be anywhere that it
+    /// can have reached since.
     pub hand_after: Duration,
 }
 

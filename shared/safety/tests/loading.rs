@@ -51,12 +51,6 @@ fn range_is_named() {
 }
 
 #[test]
-fn guard_that_stops_only_beyond_its_horizon_is_refused() {
-    let (text, _) = with("stopped_within_ms", "stopped_within_ms = 400");
-    assert!(refusal(&text).ends_with("stopped_within_ms = 400; expected less than horizon_ms = 400"));
-}
-
-#[test]
 fn missing_and_unknown_keys_are_refused() {
     let (missing, _) = with("hand_length_m", "");
     assert!(refusal(&missing).contains("hand_length_m"), "{}", refusal(&missing));

@@ -73,7 +73,8 @@ impl PlanningScene {
         person: &[Capsule],
     ) -> (f64, Vector3<f64>) {
         let posture = query.start.map(|state| state.position);
-        let links = model.moving_bounding_capsules(&self.mechanism, &posture);
+        let mut links = Vec::new();
+        model.moving_bounding_capsules(&self.mechanism, &posture, &mut links);
         let pairs = links.iter().flat_map(|link| person.iter().map(move |limb| (link, limb)));
         let gaps = pairs.map(|(link, limb)| (link.distance(limb), link.nearest(limb)));
         let nearest = gaps.min_by(|one, other| one.0.total_cmp(&other.0));

@@ -70,7 +70,7 @@ impl SkillPlanner {
         self.movement(query).unwrap_or_else(|| PlanningResult::refused(query.number))
     }
 
-    /// From a person who is near the hand withdraws first. Where the person leaves no path, the arm goes as far as the guard
+    /// From a person who is near the hand withdraws first, and then keeps its distance. Where the person leaves no path, the arm goes as far as the guard
     /// lets it, but not to where the person comes; where there is no room for the fingers to move with the arm, they move when
     /// it has arrived.
     fn movement(&self, query: &PlanningQuery) -> Option<PlanningResult> {
@@ -80,12 +80,13 @@ impl SkillPlanner {
         let (separation, away) = self.scene.separation(query, &still, &person);
         let alone = self.scene.without_person(query, &goals);
         let scene = alone.with(self.scene.inflated(&person, separation));
-        let from_person = Scene { allowed_leaving: vec![PERSON.to_owned()], ..scene.clone() };
+        let mut from_person = alone.with(self.scene.inflated(&person, f64::INFINITY));
+        from_person.allowed_leaving.push(PERSON.to_owned());
         let (moves, awaits, leave) = (query.is_in_motion(), query.awaits_person(), query.leave);
-        let is_near = separation < self.limits.withdraw_within && leave.is_none() && !moves;
-        let away = Some((away, self.limits.withdraw_distance));
+        let is_near = separation < self.limits.withdraw_within && !moves;
+        let out = leave.or(Some((away, self.limits.withdraw_distance)));
         let attempts = [
-            Attempt { applies: is_near, model: &moving, scene: &from_person, leave: away },
+            Attempt { applies: is_near, model: &moving, scene: &from_person, leave: out },
             Attempt { applies: true, model: &moving, scene: &scene, leave },
             Attempt { applies: !awaits, model: &moving, scene: &alone, leave },
             Attempt { applies: !moves, model: &still, scene: if awaits { &scene } else { &alone }, leave },

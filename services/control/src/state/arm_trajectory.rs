@@ -1,5 +1,5 @@
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
-use coact_motion::{Knot, Plan, SegmentKind, state_at};
+use coact_motion::{Knot, Plan, SegmentKind, jerk_at, state_at};
 use coact_robot::{MotionState, Posture};
 use coact_stage_state::{Flag, Implausible, bounded, ensure, finite};
 
@@ -58,6 +58,16 @@ impl ArmTrajectory {
         state_at(self.knots(), t)
     }
 
+    /// Whether the arm stands at its start.
+    pub fn begins_at_rest(&self) -> bool {
+        self.knots[0].states.iter().all(MotionState::is_at_rest)
+    }
+
+    /// Jerk of each joint `t` s after the start, rad/s³; 0 outside the movement.
+    pub fn jerk_at(&self, t: f64) -> Posture {
+        jerk_at(self.knots(), t)
+    }
+
     /// Posture `t` s after the start, rad.
     pub fn posture(&self, t: f64) -> Posture {
         self.at(t).map(|state| state.position)
@@ -77,6 +87,11 @@ impl ArmTrajectory {
         } else {
             0.0
         }
+    }
+
+    /// Whether the hand is on its way out of a narrow place `t` s after the start.
+    pub fn is_leaving(&self, t: f64) -> bool {
+        t < self.leave_ends
     }
 
     /// Whether the hand goes straight to its goal `t` s after the start, or is there.

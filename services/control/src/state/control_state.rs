@@ -1,11 +1,11 @@
 use super::{
     ArmState, DecisionState, FINGER_JOINTS, FingerState, HandState, MovementQuery, PlanningState, Skill,
-    SkillState,
+    SkillPhase, SkillState,
 };
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::{ARM_JOINTS, JOINTS};
 use coact_robot::Posture;
-use coact_stage_state::{Implausible, StageState};
+use coact_stage_state::{Flag, Implausible, StageState};
 
 /// All that control keeps from cycle to cycle, besides the setpoints.
 #[repr(C)]
@@ -50,13 +50,26 @@ impl ControlState {
         self.arm.is_at_end() && !self.planning.query.is_bound()
     }
 
-    /// Whether the robot's hand shall touch the person's `t` s after the start of the trajectory: where it receives what the
-    /// person gives, and where it brings a part to the person's hand. On the way there it keeps clear of it.
+    /// Whether a handover is declared for `t` s after the start of the trajectory, in which the robot's hand may touch the
+    /// person's: where it receives what the person gives, where it brings a part to the person's hand, and while it leaves
+    /// that hand. On the way there it keeps clear of it.
     pub fn may_touch_person(&self, t: f64) -> bool {
-        match self.skill.skill {
-            Skill::Receive => !self.skill.stops_before.is_set(),
-            Skill::Give => self.arm.trajectory.is_approach(t),
-            _ => false,
+        let leaves = self.hand.hands_over.is_set() && self.arm.trajectory.is_leaving(t);
+        leaves
+            || match self.skill.skill {
+                Skill::Receive => !self.skill.stops_before.is_set(),
+                Skill::Give => self.arm.trajectory.is_approach(t),
+                _ => false,
+            }
+    }
+
+    /// A handover lasts from when the hand is at the person's until the next movement has left it.
+    pub fn note_handover(&mut self) {
+        let now = self.arm.progress.elapsed;
+        if matches!(self.skill.skill, Skill::Receive | Skill::Give) && self.may_touch_person(now) {
+            self.hand.hands_over = Flag::Set;
+        } else if self.skill.phase() == SkillPhase::Move && !self.arm.trajectory.is_leaving(now) {
+            self.hand.hands_over = Flag::Unset;
         }
     }
 

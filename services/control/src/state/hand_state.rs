@@ -12,6 +12,8 @@ pub(crate) struct HandState {
     pub in_palm: StoredPose,
     /// The grip in which the hand holds, or is about to pick, a part: index into the [grip table](crate::robot::GripTable).
     pub grip: Slot,
+    /// Whether a handover is under way, in which it may touch the person's hand.
+    pub hands_over: Flag,
     /// Whether the held part was picked from the table, at `picked_at`.
     pub from_table: Flag,
     /// Where the held part was when the fingers closed on it, m.

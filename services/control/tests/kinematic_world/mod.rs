@@ -16,6 +16,9 @@ use std::path::{Path, PathBuf};
 /// How near the palm's axis must be to a part's, and a part to its socket, m.
 const NEAR: f64 = 0.03;
 
+/// From the person's wrist to the fingertips that hold something, m.
+const HAND: f64 = 0.12;
+
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
@@ -123,16 +126,32 @@ impl KinematicWorld {
         self.hand_moves(place, [0.0; 3]);
     }
 
-    /// The person's hand is there, and moves so fast, m/s; of the arm no more than that is known.
+    /// The person's wrist is there, and moves so fast, m/s; the arm is stretched out to it, and the hand beyond.
     pub fn hand_moves(&mut self, place: [f64; 3], velocity: [f64; 3]) {
+        let shoulder = Vector3::from(self.task.scene.person_shoulder);
+        let arm = Vector3::from(place) - shoulder;
+        let hand = 1.0 + HAND / arm.norm().max(HAND);
         let point = |follows: f64| TrackedPoint {
-            position: place,
-            velocity: velocity.map(|speed| follows * speed),
-            deviation: f64::INFINITY,
+            position: (shoulder + follows * arm).into(),
+            velocity: velocity.map(|speed| follows.min(1.0) * speed),
+            deviation: 0.0,
+            age: 0,
         };
-        let wrist = TrackedPoint { deviation: 0.0, ..point(1.0) };
-        let arm = &mut self.percept.arm;
-        (arm.shoulder, arm.elbow, arm.wrist, arm.fingertip) = (point(0.0), point(0.5), wrist, point(1.0));
+        let person = &mut self.percept.arm;
+        (person.shoulder, person.elbow) = (point(0.0), point(0.5));
+        (person.wrist, person.fingertip) = (point(1.0), point(hand));
+    }
+
+    /// Puts the person's finger tips somewhere, still.
+    pub fn fingers_at(&mut self, place: [f64; 3]) {
+        self.fingers_move(place, [0.0; 3]);
+    }
+
+    /// The person's finger tips are there, and the hand moves so fast, m/s.
+    pub fn fingers_move(&mut self, place: [f64; 3], velocity: [f64; 3]) {
+        let arm = Vector3::from(place) - Vector3::from(self.task.scene.person_shoulder);
+        let wrist = Vector3::from(place) - HAND * arm.normalize();
+        self.hand_moves(wrist.into(), velocity);
     }
 
     /// Somebody pulls at the hand and what it holds, N.

@@ -34,6 +34,7 @@ impl TrackedHand {
             position: position.into(),
             velocity: velocity.into(),
             deviation: self.deviation(name, velocity.norm(), tick),
+            age: self.age_of(name, tick).unwrap_or(u64::MAX),
         };
         PersonArm {
             shoulder: point(KeypointName::Shoulder, shoulder, Vector3::zeros()),

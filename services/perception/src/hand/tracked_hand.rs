@@ -58,6 +58,20 @@ const WHOLE_HAND: [KeypointName; 5] = [
     KeypointName::LittleKnuckle,
 ];
 
+/// What a hand that is hidden leaves in sight, and binds it: how far the hand may be away is known from the shoulder.
+const UPPER_ARM: [KeypointName; 2] = [KeypointName::Shoulder, KeypointName::Elbow];
+const ALL: [KeypointName; KEYPOINTS] = [
+    KeypointName::Shoulder,
+    KeypointName::Elbow,
+    KeypointName::Wrist,
+    KeypointName::PalmBase,
+    KeypointName::ThumbTip,
+    KeypointName::IndexKnuckle,
+    KeypointName::IndexTip,
+    KeypointName::MiddleTip,
+    KeypointName::LittleKnuckle,
+];
+
 /// The tracked hand.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, CheckedBitPattern, NoUninit, Zeroable)]
@@ -93,12 +107,16 @@ impl TrackedHand {
     /// of sight tells neither its grip nor its pitch.
     pub fn observe(&mut self, tick: u64, view: &HandView, hide: bool) -> Option<bool> {
         let found = |name: &KeypointName| view.keypoints[*name as usize].confidence > BELIEVED;
-        if hide && !WHOLE_HAND.iter().all(found) {
-            return None;
-        }
         let known = self.seen == view.frame.wrapping_add(1);
         let late = self.seen > 0 && view.captured_cycle <= self.captured;
-        if known || late || view.captured_cycle > tick || !self.merge(view) {
+        if known || late || view.captured_cycle > tick {
+            return None;
+        }
+        if hide && !WHOLE_HAND.iter().all(found) {
+            self.merge(view, &UPPER_ARM);
+            return None;
+        }
+        if !self.merge(view, &ALL) {
             return None;
         }
         let gap = view.captured_cycle.saturating_sub(self.captured);
@@ -120,11 +138,12 @@ impl TrackedHand {
         Some(self.movement.advance(wrist, self.steady_speed(), self.captured))
     }
 
-    /// Puts every keypoint that the frame has found in its place. False before wrist and finger tips are all known,
-    /// or when the frame holds none.
-    fn merge(&mut self, view: &HandView) -> bool {
+    /// Puts each of these keypoints that the frame has found in its place. False before wrist and finger tips are all known,
+    /// or when the frame holds none of them.
+    fn merge(&mut self, view: &HandView, names: &[KeypointName]) -> bool {
         let mut any = false;
-        for (index, point) in view.keypoints.iter().enumerate() {
+        for index in names.iter().map(|name| *name as usize) {
+            let point = &view.keypoints[index];
             let plausible = point.position.iter().all(|value| value.abs() < FARTHEST);
             if plausible && point.confidence > BELIEVED {
                 self.keypoint[index] = point.position;

@@ -99,7 +99,7 @@ impl Manipulator {
         let world = World::new(&task, &robot, settings(&scenario)).unwrap();
         let mut at = [0.0; ROBOT_JOINTS];
         at[..ARM_JOINTS].copy_from_slice(&robot.park);
-        let limits = robot.limits();
+        let limits = robot.planned_limits();
         Self { world, out: Out::new(), scenario, robot, limits, at, tick: 0, grip: ABOVE, deviation: 0.0 }
     }
 
