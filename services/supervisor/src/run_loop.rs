@@ -127,6 +127,7 @@ impl<'a> RunLoop<'a> {
         if self.start.is_some() || !self.set.may_begin() {
             return Ok(());
         }
+        self.topics.reserve_memory()?;
         let start = monotonic_time() + START_DELAY;
         self.run.start(start.as_nanos() as u64)?;
         self.set.expect_pulses(start);

@@ -1,5 +1,5 @@
 use crate::Checkpoints;
-use coact_pipeline::{Pipeline, Run};
+use coact_pipeline::{MemoryReserve, Pipeline, Run, RunError};
 use coact_realtime::{Bus, CheckpointStore, PortError, Reservation, TopicAnchors, monotonic_time};
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
@@ -15,6 +15,8 @@ pub(crate) struct RunTopics {
     reservations: BTreeMap<String, Reservation>,
     /// The living processes for which nothing is reserved.
     unreserved: BTreeSet<String>,
+    /// Shared memory for replacements; `None` before the run begins.
+    reserve: Option<MemoryReserve>,
     bus: Bus,
     /// When the remains of the dead are removed.
     clean_at: Option<Duration>,
@@ -43,6 +45,7 @@ impl RunTopics {
             pipeline: pipeline.clone(),
             reservations: BTreeMap::new(),
             unreserved: pipeline.processes.iter().map(|entry| entry.name.clone()).collect(),
+            reserve: None,
             bus,
             clean_at: None,
             failed: false,
@@ -73,6 +76,28 @@ impl RunTopics {
         outcome
     }
 
+    /// Every process has opened its ports: allocates all of the run's memory, and as much again for replacements.
+    ///
+    /// # Errors
+    /// There is not so much.
+    pub(crate) fn reserve_memory(&mut self) -> Result<(), RunError> {
+        self.reserve = Some(MemoryReserve::take(&self.run)?);
+        Ok(())
+    }
+
+    /// After a recovery: for the next one.
+    fn renew_reserves(&mut self) {
+        if let Some(Err(error)) = self.reserve.as_ref().map(|reserve| reserve.renew(&self.run)) {
+            tracing::warn!("a replacement may find no room: {error}");
+            // To make ports now would touch memory that may not be there.
+            return;
+        }
+        // Refused, it is tried again after the next death; the viewers that are there keep their places till then.
+        if let Err(error) = self.reserve() {
+            tracing::warn!("a replacement may find no place: {error}");
+        }
+    }
+
     /// For the supervisor's own ports.
     pub(crate) fn bus(&self) -> &Bus {
         &self.bus
@@ -86,10 +111,7 @@ impl RunTopics {
             self.clean_at = None;
             let cleaned = self.bus.clean_dead();
             tracing::debug!("removed what {cleaned} dead processes left in shared memory");
-            // Refused, it is tried again after the next death; the viewers that are there keep their places till then.
-            if let Err(error) = self.reserve() {
-                tracing::warn!("a replacement may find no place: {error}");
-            }
+            self.renew_reserves();
         }
     }
 
@@ -109,6 +131,9 @@ impl Checkpoints for RunTopics {
             self.bus.clean_dead();
         }
         self.clean_at = Some(monotonic_time() + Self::CLEANUP_WITHOUT_RECOVERY);
+        if let Some(Err(error)) = self.reserve.as_ref().map(MemoryReserve::release) {
+            tracing::warn!("a replacement may find no room: {error}");
+        }
         self.reservations.remove(process);
         self.unreserved.remove(process);
         let outcome = self.store.publish(process).map(drop);

@@ -30,6 +30,7 @@
 //! # Ok::<(), coact_pipeline::PipelineError>(())
 //! ```
 
+mod memory_reserve;
 mod pipeline;
 mod pipeline_error;
 mod pipeline_file;
@@ -43,6 +44,7 @@ mod run_settings;
 mod shared_memory;
 mod trust;
 
+pub use memory_reserve::MemoryReserve;
 pub use pipeline::Pipeline;
 pub use pipeline_error::PipelineError;
 pub use process_entry::{ProcessEntry, Trigger};

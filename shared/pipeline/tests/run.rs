@@ -1,9 +1,9 @@
 //! Run directories: found again, apart from each other, and gone when removed.
 #![allow(clippy::unwrap_used)]
 
-use coact_pipeline::{Ready, Run, RunError, RunSettings, WorldMode};
+use coact_pipeline::{MemoryReserve, Ready, Run, RunError, RunSettings, WorldMode};
 use std::fs::Permissions;
-use std::os::unix::fs::PermissionsExt;
+use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::path::PathBuf;
 
 fn ready(process: &str) -> Ready {
@@ -165,4 +165,23 @@ fn malformed_run_file_is_named() {
     let error = Run::load(run.directory()).unwrap_err().to_string();
     assert!(error.contains("run.json: missing field `id`"), "{error}");
     run.remove().unwrap();
+}
+
+#[test]
+fn all_memory_of_a_run_is_allocated_and_as_much_again_is_reserved_for_replacements() {
+    const SIZE: u64 = 3 << 20;
+    let run = Run::create(RunSettings::default()).unwrap();
+    let memory = |name: &str| PathBuf::from(format!("/dev/shm/{}{name}", run.prefix()));
+    let allocated = |name: &str| memory(name).metadata().unwrap().blocks() * 512;
+    std::fs::File::create(memory("segment")).unwrap().set_len(SIZE).unwrap();
+    assert_eq!(allocated("segment"), 0, "a page is looked for when it is touched first");
+    let reserve = MemoryReserve::take(&run).unwrap();
+    assert_eq!((allocated("segment"), allocated("reserve")), (SIZE, SIZE));
+    reserve.release().unwrap();
+    assert_eq!(allocated("reserve"), 0);
+    std::fs::File::create(memory("of-replacement")).unwrap().set_len(SIZE / 3).unwrap();
+    reserve.renew(&run).unwrap();
+    assert_eq!((allocated("of-replacement"), allocated("reserve")), (SIZE / 3, SIZE));
+    run.remove().unwrap();
+    assert!(!memory("reserve").exists());
 }
