@@ -3,16 +3,17 @@ use crate::guard::{Guard, Moving};
 use crate::inputs::Inputs;
 use crate::person_capsules::PersonCapsules;
 use crate::planning::{HandGoals, PlannerLink, PlanningThread, SkillPlanner};
+use crate::resynchronise::{holds, report_of};
 use crate::robot::{CollisionModels, RobotModel};
 use crate::servo::{ArmStep, Servo};
 use crate::state::{ControlState, PathProgress, SkillPhase};
 use crate::{ControlError, reachability};
 use coact_joint_task::{Action, Task};
-use coact_messages::{Command, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
+use coact_messages::{Command, DriveReport, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
 use coact_period::PERIOD_S;
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
-use coact_stage_state::StageState;
+use coact_stage_state::{Flag, StageState};
 
 /// What is left in each cycle of the speed that the guard does not admit. Chosen by hand: a hundredth of what braking takes
 /// away, so that the arm holds a speed a little below the admitted one.
@@ -98,7 +99,8 @@ impl Control {
     /// setpoints are the measured joint positions (the park posture when nothing was measured yet).
     ///
     /// The skill under way is pursued before a decision may begin another one: a phase that ends in this cycle ends with its
-    /// skill. Whatever the messages hold, setpoints keep the limits of position, velocity, acceleration and jerk.
+    /// skill. Where the drive has not followed what was sent, control goes on from where the drive is; while the drive holds the
+    /// joints, nothing is pursued. Whatever the messages hold, setpoints keep the limits of position, velocity, acceleration and jerk.
     pub fn step(
         &mut self,
         tick: u64,
@@ -108,29 +110,46 @@ impl Control {
         previous: Option<&Command>,
         out: &mut Command,
     ) {
-        self.begin(sample, previous);
+        let drive = report_of(tick, sample);
+        self.begin(sample, drive, previous);
+        if let Some(drive) = drive {
+            self.resynchronise(drive);
+        }
+        let halted = drive.is_some_and(holds);
         let before = self.servo.position();
         let inputs = Inputs::new(&self.limits.stale, tick, sample, percept, frame);
-        if !inputs.blind() {
+        if !inputs.blind() && !halted {
             self.pursue(&inputs);
             self.decide(&inputs);
         }
-        self.serve(&inputs);
-        self.report(&inputs, out);
+        if !halted {
+            self.serve(&inputs);
+        }
+        self.report(inputs.blind() || halted, out);
         let measured = sample.map(|sample| sample.joints.position);
         out.tracking_error = std::array::from_fn(|joint| tracking_error(measured, before, joint));
     }
 
-    /// Goes on from the previous command, or from where the joints are.
-    fn begin(&mut self, sample: Option<&SensorSample>, previous: Option<&Command>) {
+    /// Goes on from the previous command, or from where the drive or the joints are.
+    fn begin(
+        &mut self,
+        sample: Option<&SensorSample>,
+        drive: Option<&DriveReport>,
+        previous: Option<&Command>,
+    ) {
         let resumed = previous.is_some_and(|previous| self.take_over(previous));
         if resumed || self.started {
             return;
         }
-        let position =
-            sample.map_or_else(|| self.model.park(), |s| self.model.start_from(&s.joints.position));
+        let measured = drive.map(|drive| &drive.position).or(sample.map(|sample| &sample.joints.position));
+        let position = measured.map_or_else(|| self.model.park(), |angles| self.model.start_from(angles));
         self.servo = Servo::new(self.model.limits(), position);
         self.state = ControlState::at_rest(position);
+        if let Some(drive) = drive {
+            self.servo.resume(&drive.position, &drive.velocity, &drive.acceleration);
+        }
+        // A drive that moves brakes: movements begin from where it stands.
+        self.state.arm.braking = Flag::from(!self.servo.arm_stands());
         self.started = true;
     }
 
@@ -140,7 +159,8 @@ impl Control {
             (self.actions.len(), self.model.part_capsules.len(), self.model.grips.all().len());
         let state = ControlState::load(&command.state).ok();
         let state = state.filter(|state| state.is_of_task(actions, kinds, grips));
-        let sound = state.is_some() && self.servo.resume(command);
+        let sound =
+            state.is_some() && self.servo.resume(&command.position, &command.velocity, &command.acceleration);
         if let Some(state) = state.filter(|_| sound) {
             self.state = state;
             self.started = true;
@@ -221,15 +241,19 @@ impl Control {
         hand.held().map(|kind| self.model.grips.known(hand.grip.get(), kind))
     }
 
-    fn report(&self, inputs: &Inputs, out: &mut Command) {
+    fn report(&self, brakes: bool, out: &mut Command) {
         for (joint, setpoint) in self.servo.joints.iter().enumerate() {
             out.position[joint] = setpoint.position;
             out.velocity[joint] = setpoint.velocity;
             out.acceleration[joint] = setpoint.acceleration;
         }
-        let ControlState { skill, decisions, .. } = &self.state;
+        let ControlState { arm, skill, decisions, .. } = &self.state;
+        arm.trajectory.write(&mut out.path);
+        (out.path.elapsed, out.path.speed_override, out.path.override_rate) =
+            (arm.progress.elapsed, arm.progress.speed_override, arm.progress.override_rate);
+        out.path.followed = u64::from(!arm.braking.is_set());
         out.action = if skill.is_parking() { NONE } else { skill.action.or(NONE) };
-        out.phase = if inputs.blind() { MotionPhase::Brake } else { self.motion_phase() } as u32;
+        out.phase = if brakes { MotionPhase::Brake } else { self.motion_phase() } as u32;
         out.begun = decisions.begun as u32;
         out.reaction = u32::try_from(decisions.reaction).unwrap_or(u32::MAX);
         self.state.store(&mut out.state);

@@ -48,6 +48,7 @@ mod person_capsules;
 mod planning;
 mod pursue;
 mod reachability;
+mod resynchronise;
 mod robot;
 mod servo;
 mod sighting_frame;

@@ -1,5 +1,5 @@
 use crate::state::{ArmState, FINGER_JOINTS, FingerState, PathProgress, split};
-use coact_messages::{ARM_JOINTS, Command, JOINTS};
+use coact_messages::{ARM_JOINTS, JOINTS};
 use coact_period::PERIOD_S;
 use coact_robot::{JointLimits, Limiter, MotionState, PointToPoint, Posture};
 use coact_stage_state::Flag;
@@ -30,12 +30,17 @@ impl Servo {
         Self { joints: position.map(Limiter::at_rest), limits }
     }
 
-    /// Continues from the setpoints of `command`; `false` when they are not within the limits.
-    pub fn resume(&mut self, command: &Command) -> bool {
+    /// Continues from these setpoints; `false`, and nothing changed, when they are not within the limits.
+    pub fn resume(
+        &mut self,
+        position: &[f64; JOINTS],
+        velocity: &[f64; JOINTS],
+        acceleration: &[f64; JOINTS],
+    ) -> bool {
         let joints: [Limiter; JOINTS] = std::array::from_fn(|joint| Limiter {
-            position: command.position[joint],
-            velocity: command.velocity[joint],
-            acceleration: command.acceleration[joint],
+            position: position[joint],
+            velocity: velocity[joint],
+            acceleration: acceleration[joint],
         });
         let sound = joints.iter().zip(&self.limits).all(|(joint, limits)| {
             limits.contain(joint.position, 0.0)

@@ -244,11 +244,10 @@ fn a_stopped_process_that_stays_silent_for_too_long_is_killed_as_hung_and_replac
 }
 
 /// Reports that it has real-time scheduling, as services do that were granted it.
-const REALTIME_READY_AND_RUN: &str = r#"cat > "$READY.unfinished" <<END
+const REALTIME_READY_AND_RUN: &str = r#"cat > "$READY" <<END
 {"process": "a", "generation": 0, "pid": 1, "scheduler": "SCHED_FIFO", "priority": 80, "core": null,
  "memory_locked": false, "why_not": [], "resumed": false}
 END
-mv "$READY.unfinished" "$READY"
 exec sleep 600"#;
 
 #[test]

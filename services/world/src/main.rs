@@ -4,11 +4,12 @@ mod speech_input;
 
 use anyhow::Context;
 use coact_joint_task::Task;
-use coact_messages::{Command, Header, SensorSample, Truth, WorldState, topic};
+use coact_messages::{Command, Header, HoldReason, SensorSample, Truth, WorldState, topic};
 use coact_pipeline::RunSettings;
 use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick, now};
 use coact_recordings::{Order, read_folder};
 use coact_robot::Robot;
+use coact_safety::SafetyLimits;
 use coact_world::{Partner, Replay, Settings, World, has_part_for};
 use speech_input::SpeechInput;
 use std::path::Path;
@@ -33,6 +34,11 @@ impl Cycle for Hardware {
 
     fn trigger(&mut self) -> &mut Input<Command> {
         &mut self.command
+    }
+
+    fn may_end(&mut self) -> bool {
+        self.world.hold(HoldReason::Ending);
+        self.world.stands()
     }
 
     fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
@@ -110,6 +116,7 @@ fn play(process: Process, recording: &str) -> anyhow::Result<()> {
 }
 
 fn simulate(mut process: Process) -> anyhow::Result<()> {
+    process.outlive_supervisor()?;
     let mut world = world(process.run().settings())?;
     let command = process.bus().input(topic::COMMAND)?;
     let mut sample: Output<SensorSample> = process.bus().output(topic::SENSORS)?;
@@ -130,7 +137,8 @@ fn simulate(mut process: Process) -> anyhow::Result<()> {
 fn world(run: &RunSettings) -> anyhow::Result<World> {
     let task = Task::load(&run.task)?;
     let robot = Robot::load(&run.robot)?;
-    let settings =
-        Settings { seed: run.seed, partner: Partner::load(&run.partner, &task, run.seed)?, mode: run.world };
+    let partner = Partner::load(&run.partner, &task, run.seed)?;
+    let drive = SafetyLimits::load(&run.safety)?.drive;
+    let settings = Settings { seed: run.seed, partner, mode: run.world, drive };
     Ok(World::new(&task, &robot, settings)?)
 }

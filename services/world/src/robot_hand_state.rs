@@ -34,7 +34,7 @@ pub(crate) struct RobotHandState {
     pub slipped: Slot,
     /// The part in the person's hand that is between the open fingers.
     pub receiving: Slot,
-    /// Finger closure that the servo was last commanded, rad.
+    /// Finger closure that the drive's setpoints have, rad.
     pub commanded_closure: f64,
     /// The largest one commanded since the fingers have held a part, rad.
     pub tightest: f64,

@@ -2,6 +2,7 @@ use crate::{Scenario, WorldError};
 use coact_joint_task::Task;
 use coact_person::{RandomBehaviour, RecordedReaches};
 use coact_pipeline::WorldMode;
+use coact_safety::DriveLimits;
 use std::path::Path;
 
 /// What a world is made with, beside task and robot.
@@ -13,6 +14,8 @@ pub struct Settings {
     pub partner: Partner,
     /// How the robot and loose parts behave.
     pub mode: WorldMode,
+    /// When the drive brakes by itself.
+    pub drive: DriveLimits,
 }
 
 /// The person who builds with the robot.

@@ -1,6 +1,7 @@
 use crate::robot_hand_state::RobotHandState;
 use crate::sensors::TrackerState;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+use coact_drive::DriveState;
 use coact_messages::{Heard, MAX_PARTS, SceneView};
 use coact_person::PersonState;
 use coact_stage_state::{Flag, Implausible, StageState, ensure};
@@ -23,6 +24,7 @@ pub(crate) struct SimulationState {
     pub stray: [u64; MAX_PARTS],
     pub person: PersonState,
     pub robot: RobotHandState,
+    pub drive: DriveState,
     pub tracker: TrackerState,
     /// The recogniser's newest frame.
     pub scene: SceneView,
@@ -34,7 +36,7 @@ pub(crate) struct SimulationState {
 
 impl StageState for SimulationState {
     const STAGE: &'static str = "world";
-    const LAYOUT: u32 = 1;
+    const LAYOUT: u32 = 2;
 
     fn check(&self) -> Result<(), Implausible> {
         let counts = [self.assemblies, self.scene.frame, self.heard.sentences, self.tick >> 16];
@@ -45,6 +47,7 @@ impl StageState for SimulationState {
         let sightings = self.scene.sightings as usize <= self.scene.sighting.len()
             && self.scene.occluders as usize <= self.scene.occluder.len();
         ensure(sightings, "scene", "as many sightings and occluders as there is room for")?;
+        self.drive.check()?;
         self.tracker.check()
     }
 }

@@ -8,8 +8,9 @@ use crate::scenario::Staging;
 use crate::simulation_state::SimulationState;
 use crate::{Partner, ResumeError, Settings, WorldError};
 use bytemuck::Zeroable;
+use coact_drive::{Drive, joint_limits};
 use coact_joint_task::{Fit, Task};
-use coact_messages::{ARM_JOINTS, Command, JOINTS, SensorSample, Truth, WorldState};
+use coact_messages::{ARM_JOINTS, Command, HoldReason, JOINTS, SensorSample, Truth, WorldState};
 use coact_period::{CYCLES_PER_SECOND, cycles};
 use coact_person::{Holder, Manipulation, Person, Policy, Surroundings};
 use coact_pipeline::WorldMode;
@@ -35,6 +36,10 @@ pub struct World {
     random: RandomStreams,
     hand: RobotHand,
     person: Person,
+    /// Between the commands and the joints.
+    drive: Drive,
+    /// Why the joints may not move now.
+    hold: HoldReason,
     robot: SimulatedRobot,
     joints: Joints,
     parts: Parts,
@@ -68,6 +73,8 @@ impl World {
             random,
             hand: RobotHand::new(robot, &task),
             person: Person::new(&task.scene, policy, random, recorded),
+            drive: Drive::new(joint_limits(robot), settings.drive),
+            hold: HoldReason::None,
             robot: SimulatedRobot::new(settings.mode, &task, robot, &joints, &parts)?,
             joints,
             parts,
@@ -77,7 +84,7 @@ impl World {
         })
     }
 
-    /// Advances the world to `tick`. Without a command the joints stay where they are.
+    /// Advances the world to `tick`. The joints follow the drive, which follows `command` if it is good.
     pub fn step(
         &mut self,
         tick: u64,
@@ -86,12 +93,14 @@ impl World {
         truth: &mut Truth,
         checkpoint: &mut WorldState,
     ) {
-        if let Some(command) = command {
-            self.simulation.robot.commanded_closure = coact_messages::finger_closure(&command.position);
+        self.drive.step(tick, command, self.hold, &self.joints.position);
+        if let Some(setpoints) = self.drive.setpoints() {
+            let position = setpoints.map(|joint| joint.position);
+            self.simulation.robot.commanded_closure = coact_messages::finger_closure(&position);
         }
         let influence = Influence {
             elapsed: self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, CYCLES_PER_SECOND)),
-            command,
+            setpoints: self.drive.setpoints(),
             task: &self.task,
             stop: FingerStop { hand: self.hand.stop(&self.simulation.robot, &self.parts) },
             person: self.simulation.person.hand.wrist(),
@@ -103,10 +112,22 @@ impl World {
         let palm = self.hand.palm(&self.joints.position);
         self.live(tick, &palm);
         self.sense(tick, out);
+        self.drive.start(tick, &out.joints.position);
+        out.drive = self.drive.report();
         self.simulation.tick = tick;
         self.simulation.started = Flag::Set;
         self.tell(truth);
         self.write(checkpoint);
+    }
+
+    /// Says why the joints may not move from now on, if there is a reason: they brake and stand.
+    pub fn hold(&mut self, reason: HoldReason) {
+        self.hold = reason;
+    }
+
+    /// Whether the joints' setpoints stand still.
+    pub fn stands(&self) -> bool {
+        self.drive.stands()
     }
 
     /// The person has said something: the next sample tells it.
@@ -138,7 +159,10 @@ impl World {
         self.person.check(&simulation.person, &self.task, simulation.tick)?;
         simulation.robot.check(self.task.parts.len(), simulation.tick)?;
         finite("joints", &[last.position, last.velocity].concat())?;
+        let mut drive = self.drive.clone();
+        drive.resume(&simulation.drive)?;
         self.parts.restore(&last.part, &self.task)?;
+        self.drive = drive;
         self.joints = Joints { position: last.position, velocity: last.velocity };
         self.simulation = simulation;
         self.robot.resume(&self.joints, &self.parts);
@@ -202,12 +226,13 @@ impl World {
         }
     }
 
-    fn write(&self, checkpoint: &mut WorldState) {
+    fn write(&mut self, checkpoint: &mut WorldState) {
         checkpoint.task = self.task.fingerprint;
         checkpoint.position = self.joints.position;
         checkpoint.velocity = self.joints.velocity;
         checkpoint.parts = self.parts.all().len() as u64;
         checkpoint.part = *self.parts.row();
+        self.simulation.drive = *self.drive.state();
         self.simulation.store(&mut checkpoint.state);
     }
 }

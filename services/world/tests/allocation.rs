@@ -4,10 +4,11 @@
 use allocation_counter::measure;
 use bytemuck::zeroed_box;
 use coact_joint_task::Task;
-use coact_messages::{Command, SensorSample, Truth, WorldState};
+use coact_messages::{Command, LAYOUT, SensorSample, Truth, WorldState};
 use coact_period::{CYCLES_PER_SECOND, seconds};
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
+use coact_safety::SafetyLimits;
 use coact_world::{Partner, Settings, World};
 use std::path::Path;
 
@@ -16,18 +17,22 @@ fn steps_of_a_minute_allocate_nothing() {
     let config = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
     let task = Task::load(&config.join("tasks/toy-vehicle.toml")).unwrap();
     let robot = Robot::load(&config.join("robots/aros.toml")).unwrap();
+    let drive = SafetyLimits::load(&config.join("safety.toml")).unwrap().drive;
     let scenario = format!("script:{}", config.join("scenarios/proactive.toml").display());
     for partner in ["synthetic", "random:goal=0.4,hidden=0.2,words=0.2,dropouts=1", &scenario] {
         let partner = Partner::load(partner, &task, 0).unwrap();
-        let settings = Settings { seed: 1, partner, mode: WorldMode::Kinematic };
+        let settings = Settings { seed: 1, partner, mode: WorldMode::Kinematic, drive };
         let mut world = World::new(&task, &robot, settings).unwrap();
         let (mut sample, mut truth, mut state): (Box<SensorSample>, Box<Truth>, Box<WorldState>) =
             (zeroed_box(), zeroed_box(), zeroed_box());
         let mut command: Box<Command> = zeroed_box();
-        command.position[..7].copy_from_slice(&robot.park);
+        command.header.layout = LAYOUT;
         let allocations = measure(|| {
             for tick in 1..=60 * CYCLES_PER_SECOND {
-                command.position[8..11].fill(0.5 + 0.5 * seconds(tick).sin());
+                // Setpoints that the drive follows, and some that it refuses.
+                command.position = sample.drive.position;
+                command.position[8..11].fill(0.5 - 0.5 * (seconds(tick) / 4.0).cos());
+                (command.header.cycle, command.header.sequence) = (tick - 1, tick);
                 world.step(tick, Some(&command), &mut sample, &mut truth, &mut state);
             }
         });

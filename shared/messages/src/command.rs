@@ -1,5 +1,5 @@
 use crate::plausible::{bounded, index, optional};
-use crate::{Flaw, Header, JOINTS, MAX_POPULATIONS, Plausible};
+use crate::{ArmPath, Flaw, Header, JOINTS, MAX_POPULATIONS, Plausible};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -20,6 +20,8 @@ pub struct Command {
     pub acceleration: [f64; JOINTS],
     /// Measured minus commanded joint position of the last tick, rad.
     pub tracking_error: [f64; JOINTS],
+    /// The path that the arm follows: what its drive brakes along when commands stop.
+    pub path: ArmPath,
     /// Action under way: index into `Task::actions`, or [`NONE`](crate::NONE).
     pub action: u32,
     /// [`MotionPhase`] of that action.

@@ -41,7 +41,9 @@
 //! assert_eq!(received.decision.action, 1);
 //! ```
 
+mod arm_path;
 mod command;
+mod drive_report;
 mod field_frame;
 mod header;
 mod heard;
@@ -59,7 +61,9 @@ mod topic_entry;
 mod truth;
 mod world_state;
 
+pub use arm_path::{ArmPath, PathKnot};
 pub use command::{Command, MotionPhase};
+pub use drive_report::{CommandRefusal, DriveMode, DriveReport, HoldReason};
 pub use field_frame::{Decision, FieldFrame, LayerKind, LayerTable};
 pub use header::{Header, LAYOUT};
 pub use heard::Heard;

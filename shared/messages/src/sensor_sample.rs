@@ -1,5 +1,5 @@
 use crate::plausible::{bounded, ensure, fractions, kind, not_after, orientations, places};
-use crate::{Flaw, Header, Heard, JOINTS, MAX_PARTS, Plausible};
+use crate::{DriveReport, Flaw, Header, Heard, JOINTS, MAX_PARTS, Plausible};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -14,6 +14,8 @@ pub struct SensorSample {
     pub header: Header,
     /// Joint encoders of arm and hand, every tick.
     pub joints: JointReading,
+    /// What the side that drives the joints does with the commands, every tick.
+    pub drive: DriveReport,
     /// The hand tracker's newest frame.
     pub hand: HandView,
     /// The object recogniser's newest frame.

@@ -21,8 +21,8 @@ pub struct WorldState {
     pub parts: u64,
     /// Every part of the scene.
     pub part: [PartState; MAX_PARTS],
-    /// The simulation state in opaque words: partner, robot's hand, sensors; `services/world` says what each holds.
-    pub state: [f64; 768],
+    /// The simulation state in opaque words: partner, robot's hand and drive, sensors; `services/world` says what each holds.
+    pub state: [f64; 1536],
 }
 
 /// Where one part is and who has it.

@@ -12,7 +12,7 @@
 //!
 //! Only [`Problem`], [`Target`] and [`Plan`] are public. [`Problem::plan`] makes *attempts*, each through given waypoints,
 //! and returns the smoothest plan that is clear and within the limits, or the [`Refusal`] that says which constraint
-//! binds. Whoever carries a plan out keeps its [`Knot`]s and asks for [`state_at`] an instant. A [`Scene`] holds the
+//! binds. Whoever carries a plan out keeps its knots ([`coact_robot::Knot`]) and asks for [`coact_robot::state_at`] an instant. A [`Scene`] holds the
 //! obstacles, a [`CollisionModel`] the forms of the robot, and [`Clearance`] the distances between them.
 //!
 //! Lengths in m, angles in rad, times in s, world frame with z up. Planning allocates and takes milliseconds: it runs
@@ -113,7 +113,7 @@ pub use link::Link;
 pub use mechanism::{MAX_JOINTS, Mechanism, Meshes};
 pub use min_clearance::MinClearance;
 pub use obstacle::Obstacle;
-pub use plan::{Knot, Plan, jerk_at, state_at};
+pub use plan::Plan;
 pub use problem::Problem;
 pub use proximity::{Counterpart, Proximity};
 pub use refusal::Refusal;

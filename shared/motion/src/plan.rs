@@ -1,6 +1,5 @@
 use crate::{SegmentKind, Target};
-use bytemuck::{Pod, Zeroable};
-use coact_robot::{JointLimits, MotionState, Posture, Quintic};
+use coact_robot::{JointLimits, Knot, MotionState, Posture, state_at};
 
 /// A planned trajectory: states of all joints at instants (knots), joined by polynomials of fifth degree, so that velocity
 /// and acceleration are continuous.
@@ -14,16 +13,6 @@ pub struct Plan {
     pub bounces: bool,
     /// The posture at the goal of the hand that was chosen; none when the goal was a posture.
     pub target: Option<Target>,
-}
-
-/// State of the arm at an instant of a plan.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct Knot {
-    /// Time since the start, s.
-    pub t: f64,
-    /// States of the joints then.
-    pub states: [MotionState; 7],
 }
 
 /// Steps between two knots at whose ends limits are checked. Chosen by hand: peaks between them lie within what
@@ -87,32 +76,12 @@ impl Plan {
     /// States and jerks of all joints.
     fn samples(&self) -> impl Iterator<Item = ([MotionState; 7], Posture)> {
         self.knots.windows(2).flat_map(|pair| {
-            let (pieces, duration) = (pieces(&pair[0], &pair[1]), pair[1].t - pair[0].t);
+            let (pieces, duration) = (pair[0].movement_to(&pair[1]), pair[1].t - pair[0].t);
             (0..=CHECKED).map(move |step| {
                 let t = duration * f64::from(step) / f64::from(CHECKED);
                 (pieces.map(|piece| piece.at(t)), pieces.map(|piece| piece.jerk(t)))
             })
         })
-    }
-}
-
-/// State of all joints of a movement through these knots, `t` s after its start; outside it the nearer end.
-pub fn state_at(knots: &[Knot], t: f64) -> [MotionState; 7] {
-    let next = knots.partition_point(|knot| knot.t <= t);
-    match (next.checked_sub(1).map(|last| &knots[last]), knots.get(next)) {
-        (Some(from), Some(to)) => pieces(from, to).map(|piece| piece.at(t - from.t)),
-        (None, Some(first)) => first.states,
-        (Some(last), None) => last.states,
-        (None, None) => [MotionState::default(); 7],
-    }
-}
-
-/// Jerk of all joints of a movement through these knots, `t` s after its start, rad/s³; outside it 0.
-pub fn jerk_at(knots: &[Knot], t: f64) -> Posture {
-    let next = knots.partition_point(|knot| knot.t <= t);
-    match (next.checked_sub(1).map(|last| &knots[last]), knots.get(next)) {
-        (Some(from), Some(to)) => pieces(from, to).map(|piece| piece.jerk(t - from.t)),
-        _ => [0.0; 7],
     }
 }
 
@@ -139,8 +108,4 @@ pub(crate) fn load(
         }
     }
     velocity.max(acceleration.sqrt()).max(jerk.cbrt())
-}
-
-fn pieces(from: &Knot, to: &Knot) -> [Quintic; 7] {
-    std::array::from_fn(|joint| Quintic::new(from.states[joint], to.states[joint], to.t - from.t))
 }

@@ -1,8 +1,8 @@
 use crate::measured_path::{MEASURED, MeasuredPath};
 use crate::roughness::Roughness;
 use crate::segment::{self, Segment};
-use crate::{Knot, Mechanism, Plan};
-use coact_robot::{JointLimits, MotionState, Posture, Quintic};
+use crate::{Mechanism, Plan};
+use coact_robot::{JointLimits, Knot, MotionState, Posture, Quintic};
 
 /// A time scaling of a path (Lynch, Park, *Modern Robotics*, ch. 9): the length that is covered grows with time as in a
 /// minimum-jerk movement (Flash, Hogan, J. Neurosci. 5, 1985), so that the speed rises and falls once.

@@ -16,4 +16,10 @@ pub trait Cycle {
     /// # Errors
     /// A port that fails ends the process; the supervisor starts another.
     fn step(&mut self, tick: Tick) -> Result<Header, PortError>;
+
+    /// Asked before each cycle once the process is told to stop: whether it may end now. A stage that drives joints brakes
+    /// first, and may end when they stand; for a second it gets its cycles.
+    fn may_end(&mut self) -> bool {
+        true
+    }
 }

@@ -15,6 +15,9 @@ const SLOWED_CYCLES: u32 = 50;
 /// Each of them takes so much longer: two periods, so that every one misses its deadline and skips a cycle.
 const SLOWDOWN: Duration = coact_period::PERIOD.saturating_mul(2);
 
+/// A stage that may not end yet goes on for so many cycles at most: arms stop within half a second.
+const LONGEST_END: u64 = coact_period::CYCLES_PER_SECOND;
+
 /// Runs a [`Cycle`] once in each period: wait, step, count, publish the pulse.
 pub(crate) struct Executor {
     schedule: Schedule,
@@ -55,13 +58,19 @@ impl Executor {
         }
     }
 
-    /// Runs until a signal stops it.
+    /// Runs until a signal stops it and the stage may end.
     pub(crate) fn run(&mut self, work: &mut impl Cycle, signals: &Signals) -> Result<(), PortError> {
         let mut cycle = self.schedule.next_after(now());
+        let mut last = None;
         loop {
-            let scheduled_ns = self.wait(cycle, work, signals)?;
+            let mut scheduled_ns = self.wait(cycle, work, signals)?;
             if signals.stop() {
-                return Ok(());
+                let last = *last.get_or_insert(cycle + LONGEST_END);
+                if work.may_end() || cycle >= last {
+                    return Ok(());
+                }
+                // The request has ended the wait early.
+                scheduled_ns = self.wait(cycle, work, signals)?;
             }
             if signals.take_slow() {
                 self.slowed_cycles = SLOWED_CYCLES;
@@ -77,7 +86,8 @@ impl Executor {
         let trigger = work.trigger();
         let Some(latest_start) = self.latest_start_ns else {
             let sleep = || clock_nanosleep_absolute(ClockId::Monotonic, &timespec(release));
-            while sleep().is_err() && !signals.stop() {}
+            let was_told = signals.stop();
+            while sleep().is_err() && signals.stop() == was_told {}
             trigger.refresh()?;
             return Ok(release);
         };

@@ -7,6 +7,8 @@ use crate::{
 use clap::Parser;
 use coact_messages::{Refusal, topic};
 use coact_pipeline::{GENERATION_VARIABLE, Pipeline, ProcessEntry, Ready, Run};
+use rustix::process::Signal;
+use std::io;
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
 use std::time::Duration;
@@ -116,6 +118,20 @@ impl Process {
             self.resumed = true;
         }
         Ok(checkpoint)
+    }
+
+    /// Lets the process end in order when the supervisor dies: it is told to stop then (SIGTERM), where others are killed.
+    ///
+    /// # Errors
+    /// [`ProcessError::Signals`] when the system refuses.
+    pub fn outlive_supervisor(&self) -> Result<(), ProcessError> {
+        let given = rustix::process::parent_process_death_signal().map_err(io::Error::from);
+        // Started by hand, a process has none, and needs none.
+        match given.map_err(ProcessError::Signals)? {
+            Some(_) => rustix::process::set_parent_process_death_signal(Some(Signal::TERM))
+                .map_err(|error| ProcessError::Signals(error.into())),
+            None => Ok(()),
+        }
     }
 
     /// Starts a thread for work that takes longer than a cycle. It is an ordinary thread, off the real-time cores where

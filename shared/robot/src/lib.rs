@@ -23,6 +23,7 @@
 //!
 //! # Movements
 //! [`Quintic`] is the minimum-jerk movement of one joint, [`PointToPoint`] that of several, which start and stop together.
+//! A trajectory of the arm is a row of [`Knot`]s joined by quintics; [`state_at`] an instant it has a state.
 //! The [`Limiter`] stands before the servo: whatever setpoints it is given, it keeps a joint's limits. Movements around
 //! obstacles are planned by the crate `coact-motion`.
 //!
@@ -61,6 +62,7 @@ mod grips;
 mod hand;
 mod hand_goal;
 mod joint;
+mod knot;
 mod limiter;
 mod mounting;
 mod next_use;
@@ -83,6 +85,7 @@ pub use grips::Grips;
 pub use hand::{Finger, Grasp, HAND_JOINTS, Hand};
 pub use hand_goal::HandGoal;
 pub use joint::{Joint, JointLimits};
+pub use knot::{Knot, jerk_at, state_at};
 pub use limiter::{Limiter, towards_zero};
 pub use next_use::NextUse;
 pub use point_to_point::PointToPoint;

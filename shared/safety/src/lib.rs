@@ -19,4 +19,4 @@ mod safety_file;
 mod safety_limits;
 
 pub use safety_error::SafetyError;
-pub use safety_limits::{GuardLimits, PersonLimits, PlannerLimits, SafetyLimits, StaleLimits};
+pub use safety_limits::{DriveLimits, GuardLimits, PersonLimits, PlannerLimits, SafetyLimits, StaleLimits};

@@ -1,7 +1,7 @@
 //! From the text of the file to [`SafetyLimits`], with the place of every mistake.
 
 use crate::range::{Fault, within};
-use crate::{GuardLimits, PersonLimits, PlannerLimits, SafetyLimits, StaleLimits};
+use crate::{DriveLimits, GuardLimits, PersonLimits, PlannerLimits, SafetyLimits, StaleLimits};
 use serde::Deserialize;
 use std::time::Duration;
 use toml::Spanned;
@@ -13,6 +13,7 @@ struct SafetyFile {
     guard: GuardTable,
     planner: PlannerTable,
     stale: StaleTable,
+    drive: DriveTable,
 }
 
 #[derive(Deserialize)]
@@ -67,6 +68,14 @@ struct StaleTable {
     hand_after_ms: Spanned<u64>,
 }
 
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DriveTable {
+    command_after_ms: Spanned<u64>,
+    tracking_error_rad: Spanned<f64>,
+    tracking_error_after_ms: Spanned<u64>,
+}
+
 pub(crate) fn parse(text: &str) -> Result<SafetyLimits, Fault> {
     let file: SafetyFile = toml::from_str(text).map_err(|error| Fault {
         at: error.span().map_or(0, |span| span.start),
@@ -77,6 +86,7 @@ pub(crate) fn parse(text: &str) -> Result<SafetyLimits, Fault> {
         guard: file.guard.limits()?,
         planner: file.planner.limits()?,
         stale: file.stale.limits()?,
+        drive: file.drive.limits()?,
     })
 }
 
@@ -146,6 +156,20 @@ impl StaleTable {
         Ok(StaleLimits {
             input_after: milliseconds("input_after_ms", &self.input_after_ms, 1..=1000)?,
             hand_after: milliseconds("hand_after_ms", &self.hand_after_ms, 1..=150)?,
+        })
+    }
+}
+
+impl DriveTable {
+    fn limits(&self) -> Result<DriveLimits, Fault> {
+        Ok(DriveLimits {
+            command_after: milliseconds("command_after_ms", &self.command_after_ms, 1..=4)?,
+            tracking_error: within("tracking_error_rad", &self.tracking_error_rad, 0.01..=1.0)?,
+            tracking_error_after: milliseconds(
+                "tracking_error_after_ms",
+                &self.tracking_error_after_ms,
+                1..=1000,
+            )?,
         })
     }
 }

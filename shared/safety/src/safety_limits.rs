@@ -13,6 +13,8 @@ pub struct SafetyLimits {
     pub planner: PlannerLimits,
     /// How old what is used may be.
     pub stale: StaleLimits,
+    /// When the side that drives the joints brakes by itself.
+    pub drive: DriveLimits,
 }
 
 /// How large the person's arm and head are taken to be, and how they may move.
@@ -92,6 +94,17 @@ pub struct StaleLimits {
     /// Of the newest camera frame that shows the hand: beyond it, the hand counts as not seen, and may be anywhere that it
     /// can have reached since.
     pub hand_after: Duration,
+}
+
+/// When the side that drives the joints brakes by itself, whatever is commanded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DriveLimits {
+    /// Without a good command for so long, the joints brake.
+    pub command_after: Duration,
+    /// A joint of the arm may be so far from its setpoint, rad ...
+    pub tracking_error: f64,
+    /// ... and farther only for so long.
+    pub tracking_error_after: Duration,
 }
 
 impl SafetyLimits {

@@ -80,8 +80,9 @@ impl Lockstep {
         let plan = change(plan);
         let robot = Robot::load(&settings.robot)?;
         let partner = Partner::load(&settings.partner, &task, settings.seed)?;
-        let world =
-            World::new(&task, &robot, Settings { seed: settings.seed, partner, mode: settings.world })?;
+        let safety = SafetyLimits::load(&settings.safety)?;
+        let own = Settings { seed: settings.seed, partner, mode: settings.world, drive: safety.drive };
+        let world = World::new(&task, &robot, own)?;
         let model = coact_perception::PreshapeModel::load(&settings.model)?;
         let network = Network::new(plan, task.fingerprint, settings.seed)?;
         let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
@@ -89,7 +90,7 @@ impl Lockstep {
         Ok(Self {
             world,
             perception: Perception::new(&task, &model)?.with_robot(robot.clone()),
-            control: Control::new(robot, &task, &SafetyLimits::load(&settings.safety)?)?,
+            control: Control::new(robot, &task, &safety)?,
             network,
             task,
             tick: 0,

@@ -43,10 +43,7 @@ impl RobotModel {
 
     /// Limits in message order; the reserved joint stays at zero.
     pub fn limits(&self) -> [JointLimits; JOINTS] {
-        let reserved =
-            JointLimits { lower: -1.0, upper: 1.0, velocity: 1.0, effort: 1.0, acceleration: 1.0, jerk: 1.0 };
-        let own = self.robot.limits();
-        std::array::from_fn(|joint| own.get(joint).copied().unwrap_or(reserved))
+        coact_drive::joint_limits(&self.robot)
     }
 
     /// Angles of the hand's joints (message order) for what the fingers do, rad.

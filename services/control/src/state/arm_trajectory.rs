@@ -1,6 +1,7 @@
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
-use coact_motion::{Knot, Plan, SegmentKind, jerk_at, state_at};
-use coact_robot::{MotionState, Posture};
+use coact_messages::ArmPath;
+use coact_motion::{Plan, SegmentKind};
+use coact_robot::{Knot, MotionState, Posture, jerk_at, state_at};
 use coact_stage_state::{Flag, Implausible, bounded, ensure, finite};
 
 /// A planned trajectory of the arm, of fixed size, so that it is part of the state: a restarted control goes on with it.
@@ -97,6 +98,13 @@ impl ArmTrajectory {
     /// Whether the hand goes straight to its goal `t` s after the start, or is there.
     pub fn is_approach(&self, t: f64) -> bool {
         t > self.approach_begins && self.approach_begins < self.duration()
+    }
+
+    /// Writes the knots into the path of a command.
+    pub fn write(&self, path: &mut ArmPath) {
+        let knots = self.knots();
+        path.count = knots.len() as u64;
+        path.knots[..knots.len()].copy_from_slice(bytemuck::cast_slice(knots));
     }
 
     fn knots(&self) -> &[Knot] {

@@ -1,6 +1,7 @@
 use super::driven_joint::DrivenJoint;
 use super::joints::Joints;
-use coact_messages::{ARM_JOINTS, Command};
+use coact_messages::{ARM_JOINTS, JOINTS};
+use coact_robot::MotionState;
 use rapier3d::prelude::*;
 
 /// The robot's arm and hand as a multibody: a position motor in each joint, within the joint's effort; a joint that
@@ -18,7 +19,7 @@ impl Articulation {
         world.multibody_joints.get_mut(first.handle).map(|(body, _)| body)
     }
 
-    /// Puts the joints where they are said to be; the motors hold them there until there is a command.
+    /// Puts the joints where they are said to be; the motors hold them there until the drive has started.
     pub fn place(&self, world: &mut PhysicsWorld, joints: &Joints) {
         let PhysicsWorld { multibody_joints, bodies, .. } = world;
         for driven in &self.joints {
@@ -41,12 +42,13 @@ impl Articulation {
     }
 
     /// Gives every motor its setpoint.
-    pub fn command(&self, world: &mut PhysicsWorld, command: &Command) {
+    pub fn command(&self, world: &mut PhysicsWorld, setpoints: &[MotionState; JOINTS]) {
         for driven in self.driven() {
             let Some((body, id)) = world.multibody_joints.get_mut(driven.handle) else { continue };
             let Some(link) = body.link_mut(id) else { continue };
             let gains = driven.gains();
-            let motor = (command.position[driven.source] as f32, command.velocity[driven.source] as f32);
+            let setpoint = &setpoints[driven.source];
+            let motor = (setpoint.position as f32, setpoint.velocity as f32);
             link.joint.data.set_motor(JointAxis::AngX, motor.0, motor.1, gains.0, gains.1);
         }
     }

@@ -1,6 +1,7 @@
 use super::finger_stop::FingerStop;
 use coact_joint_task::Task;
-use coact_messages::Command;
+use coact_messages::JOINTS;
+use coact_robot::MotionState;
 use glam::DVec3;
 
 /// What robot and parts are moved by in one step.
@@ -8,7 +9,8 @@ use glam::DVec3;
 pub(crate) struct Influence<'a> {
     /// Ticks since the step before.
     pub elapsed: u64,
-    pub command: Option<&'a Command>,
+    /// What the joints follow; none before the drive has started.
+    pub setpoints: Option<&'a [MotionState; JOINTS]>,
     pub stop: FingerStop,
     pub task: &'a Task,
     /// The person's hand, m.

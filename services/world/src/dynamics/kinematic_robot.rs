@@ -21,12 +21,12 @@ impl KinematicRobot {
     }
 
     pub fn advance(&self, influence: &Influence, joints: &mut Joints, parts: &mut Parts) {
-        let Influence { elapsed, command, stop, .. } = *influence;
+        let Influence { elapsed, setpoints, stop, .. } = *influence;
         let before = joints.position;
-        if let Some(command) = command {
+        if let Some(setpoints) = setpoints {
             let gain = if elapsed == 1 { self.gain } else { 1.0 - (1.0 - self.gain).powi(elapsed as i32) };
-            for joint in 0..ROBOT_JOINTS {
-                let goal = command.position[joint].min(stop.limit(joint));
+            for (joint, setpoint) in setpoints[..ROBOT_JOINTS].iter().enumerate() {
+                let goal = setpoint.position.min(stop.limit(joint));
                 joints.position[joint] += gain * (goal - joints.position[joint]);
             }
         }

@@ -94,8 +94,8 @@ impl PhysicsSimulation {
 
     /// One step of 1 ms.
     pub fn advance(&mut self, influence: &Influence, joints: &mut Joints, parts: &mut Parts) {
-        if let Some(command) = influence.command {
-            self.articulation.command(&mut self.world, command);
+        if let Some(setpoints) = influence.setpoints {
+            self.articulation.command(&mut self.world, setpoints);
         }
         self.articulation.carry_own_weight(&mut self.world);
         parts.settle(influence.task);

@@ -94,6 +94,7 @@ impl Replay {
     /// What the sensors say at cycle `tick`, and the truth about it.
     pub fn step(&self, tick: u64, sample: &mut SensorSample, truth: &mut Truth) {
         sample.joints = bytemuck::Zeroable::zeroed();
+        sample.drive = bytemuck::Zeroable::zeroed();
         sample.joints.position = self.joints;
         sample.hand = self.hand(tick);
         sample.scene = bytemuck::Zeroable::zeroed();

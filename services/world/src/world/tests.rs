@@ -20,10 +20,11 @@ use super::World;
 use crate::{Partner, Settings};
 use bytemuck::zeroed_box;
 use coact_joint_task::{Agent, Task};
-use coact_messages::{Command, SensorSample, Truth, WorldState};
+use coact_messages::{Command, DriveMode, Header, JOINTS, LAYOUT, SensorSample, Truth, WorldState};
 use coact_person::Holder;
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
+use coact_safety::SafetyLimits;
 use std::path::{Path, PathBuf};
 
 /// Messages of one step.
@@ -75,16 +76,38 @@ pub(super) fn robot() -> Robot {
 }
 
 pub(super) fn world(seed: u64) -> World {
-    let settings = Settings { seed, partner: Partner::Synthetic, mode: WorldMode::Kinematic };
+    let settings =
+        Settings { seed, partner: Partner::Synthetic, mode: WorldMode::Kinematic, drive: safety().drive };
     World::new(&task(), &robot(), settings).unwrap()
 }
 
-/// A command that holds the park posture and sways the wrist, so that joints move.
-pub(super) fn swaying(tick: u64, robot: &Robot) -> Box<Command> {
+/// The command that takes the joints on as `course`, where they are at each tick, goes on; none before they are driven.
+pub(super) fn onwards(
+    tick: u64,
+    sample: &SensorSample,
+    course: impl Fn(u64) -> [f64; JOINTS],
+) -> Option<Box<Command>> {
+    if sample.drive.mode == DriveMode::Absent as u32 {
+        return None;
+    }
+    let (before, now) = (course(tick - 1), course(tick));
     let mut command: Box<Command> = zeroed_box();
-    command.position[..7].copy_from_slice(&robot.park);
-    command.position[5] += 0.2 * (tick as f64 * 2e-3).sin();
-    command
+    command.header = Header { layout: LAYOUT, sequence: tick, cycle: tick - 1, ..Header::default() };
+    command.position = std::array::from_fn(|joint| sample.drive.position[joint] + now[joint] - before[joint]);
+    Some(command)
+}
+
+/// A command that sways the wrist, so that joints move.
+pub(super) fn swaying(tick: u64, sample: &SensorSample) -> Option<Box<Command>> {
+    onwards(tick, sample, |tick| {
+        let mut course = [0.0; JOINTS];
+        course[5] = 0.2 * (tick as f64 * 2e-3).sin().powi(3);
+        course
+    })
+}
+
+pub(super) fn safety() -> SafetyLimits {
+    SafetyLimits::load(&config("safety.toml")).unwrap()
 }
 
 /// The parts that someone has.

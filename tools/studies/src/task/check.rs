@@ -39,7 +39,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let limits = SafetyLimits::load(&configuration.join("safety.toml"))?;
     let (task, robot) = (Task::load(&args.file)?, Robot::load(&robot)?);
     let mut findings = check(&args.file)?;
-    findings.extend(scene(&args.file, &task, &robot)?);
+    findings.extend(scene(&args.file, &task, &robot, &limits)?);
     findings.extend(reach(&args.file, &task, robot, &limits)?);
     if args.json {
         println!("{}", serde_json::to_string_pretty(&findings)?);
@@ -55,9 +55,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 /// Whether the simulated world can begin with the scene.
-fn scene(file: &Path, task: &Task, robot: &Robot) -> Result<Option<Finding>> {
-    let settings =
-        Settings { seed: 1, partner: Partner::load("synthetic", task, 1)?, mode: WorldMode::Physics };
+fn scene(file: &Path, task: &Task, robot: &Robot, limits: &SafetyLimits) -> Result<Option<Finding>> {
+    let partner = Partner::load("synthetic", task, 1)?;
+    let settings = Settings { seed: 1, partner, mode: WorldMode::Physics, drive: limits.drive };
     match World::new(task, robot, settings) {
         Ok(_) => Ok(None),
         Err(error @ WorldError::Scene { .. }) => Ok(Some(Finding {

@@ -4,7 +4,7 @@ use crate::scenario::Staging;
 use crate::{Partner, Scenario, Settings, World};
 use bytemuck::zeroed_box;
 use coact_joint_task::{Agent, Part, Subgoal, Task};
-use coact_messages::{ARM_JOINTS, Command};
+use coact_messages::{ARM_JOINTS, Command, DriveMode, Header, LAYOUT};
 use coact_motion::{Goal, Mechanism, Problem, Scene};
 use coact_period::{CYCLES_PER_SECOND, seconds};
 use coact_pipeline::WorldMode;
@@ -100,7 +100,19 @@ impl Manipulator {
         let mut at = [0.0; ROBOT_JOINTS];
         at[..ARM_JOINTS].copy_from_slice(&robot.park);
         let limits = robot.planned_limits();
-        Self { world, out: Out::new(), scenario, robot, limits, at, tick: 0, grip: ABOVE, deviation: 0.0 }
+        let mut own = Self {
+            world,
+            out: Out::new(),
+            scenario,
+            robot,
+            limits,
+            at,
+            tick: 0,
+            grip: ABOVE,
+            deviation: 0.0,
+        };
+        own.world.drive.start(0, &own.world.joints.position);
+        own
     }
 
     /// One that has taken a part of `kind` and holds it above the table; it took the part for lying up to 3 mm beside.
@@ -194,8 +206,9 @@ impl Manipulator {
         let mut command: Box<Command> = zeroed_box();
         for (joint, state) in joints.iter().enumerate() {
             command.position[joint] = state.position;
-            command.velocity[joint] = state.velocity;
         }
+        command.header =
+            Header { layout: LAYOUT, sequence: self.tick, cycle: self.tick, ..Header::default() };
         self.tick += 1;
         let Out { sample, truth, state } = &mut self.out;
         self.world.step(self.tick, Some(&command), sample, truth, state);
@@ -203,6 +216,14 @@ impl Manipulator {
             let off = (self.world.joints.position[joint] - command.position[joint]).abs();
             self.deviation = self.deviation.max(off);
         }
+        // Commands are followed but where the arm is held away from its setpoints.
+        let drive = &self.out.sample.drive;
+        let follows = drive.mode == DriveMode::Following as u32;
+        assert!(
+            follows || self.deviation > super::safety().drive.tracking_error,
+            "tick {}: {drive:?}",
+            self.tick
+        );
     }
 
     /// Where the part is in the palm.
@@ -285,5 +306,10 @@ impl Manipulator {
 }
 
 fn settings(scenario: &Scenario) -> Settings {
-    Settings { seed: 1, partner: Partner::Script(scenario.clone()), mode: WorldMode::Physics }
+    Settings {
+        seed: 1,
+        partner: Partner::Script(scenario.clone()),
+        mode: WorldMode::Physics,
+        drive: super::safety().drive,
+    }
 }

@@ -13,7 +13,12 @@ use std::collections::BTreeMap;
 
 fn world(seed: u64, settings: &str) -> World {
     let partner = Partner::load(&format!("random:{settings}"), &task(), seed).unwrap();
-    World::new(&task(), &robot(), Settings { seed, partner, mode: WorldMode::Kinematic }).unwrap()
+    World::new(
+        &task(),
+        &robot(),
+        Settings { seed, partner, mode: WorldMode::Kinematic, drive: super::safety().drive },
+    )
+    .unwrap()
 }
 
 /// Runs with a helpful robot and calls `look` after each tick with the truth before and after.

@@ -1,36 +1,44 @@
-use super::{Out, config, held_by, robot};
+use super::{Out, config, held_by, onwards, robot};
 use crate::{Partner, Settings, World};
-use bytemuck::zeroed_box;
 use coact_joint_task::Task;
-use coact_messages::Command;
+use coact_messages::{ARM_JOINTS, Command, JOINTS};
 use coact_period::seconds;
 use coact_person::Holder;
 use coact_pipeline::WorldMode;
-use coact_robot::Robot;
-use std::sync::LazyLock;
+
+/// The coupling of finger tips and bases of the shipped hand.
+const COUPLING: f64 = 1.0 / 3.0;
 
 fn scene() -> Task {
     Task::load(&config("tasks/toy-vehicle.toml")).unwrap()
 }
 
 fn world(seed: u64) -> World {
-    let settings = Settings { seed, partner: Partner::Synthetic, mode: WorldMode::Physics };
+    let settings = Settings {
+        seed,
+        partner: Partner::Synthetic,
+        mode: WorldMode::Physics,
+        drive: super::safety().drive,
+    };
     World::new(&scene(), &robot(), settings).unwrap()
 }
 
-/// A smooth sway of every arm joint about the park posture; rad and rad/s.
-fn sway(tick: u64) -> Box<Command> {
-    static ROBOT: LazyLock<Robot> = LazyLock::new(robot);
-    let mut command: Box<Command> = zeroed_box();
-    let time = seconds(tick);
-    for (joint, park) in ROBOT.park.iter().enumerate() {
-        let rate = 1.0 + 0.1 * joint as f64;
-        command.position[joint] = park + 0.1 * (1.0 - (rate * time).cos());
-        command.velocity[joint] = 0.1 * rate * (rate * time).sin();
-    }
-    command.position[8..11].fill(0.5);
-    command.position[11..14].fill(0.5 * ROBOT.hand.coupling);
-    command
+/// A smooth sway of every arm joint about the park posture, with the fingers half closed.
+fn sway(tick: u64, out: &Out) -> Option<Box<Command>> {
+    onwards(tick, &out.sample, |tick| {
+        let time = seconds(tick);
+        // Whatever it begins with, it begins at rest.
+        let begun = (time / 2.0).min(1.0);
+        let begun = begun.powi(3) * (10.0 - 15.0 * begun + 6.0 * begun * begun);
+        let mut course = [0.0; JOINTS];
+        for (joint, angle) in course[..ARM_JOINTS].iter_mut().enumerate() {
+            let rate = 1.0 + 0.1 * joint as f64;
+            *angle = begun * 0.1 * (1.0 - (rate * time).cos());
+        }
+        course[8..11].fill(begun * 0.5);
+        course[11..14].fill(begun * 0.5 * COUPLING);
+        course
+    })
 }
 
 #[test]
@@ -38,8 +46,8 @@ fn parts_rest_where_they_lie_and_nothing_becomes_nan() {
     let (mut world, mut out) = (world(1), Out::new());
     let start = *world.parts.row();
     for tick in 1..=20_000 {
-        let command = sway(tick);
-        world.step(tick, Some(&command), &mut out.sample, &mut out.truth, &mut out.state);
+        let command = sway(tick, &out);
+        world.step(tick, command.as_deref(), &mut out.sample, &mut out.truth, &mut out.state);
         assert!(out.sample.joints.position.iter().all(|angle| angle.is_finite()), "tick {tick}");
     }
     let loose = held_by(&world, Holder::Nobody);
@@ -56,10 +64,10 @@ fn joints_follow_their_setpoints_closely() {
     let (mut world, mut out) = (world(1), Out::new());
     let mut worst: f64 = 0.0;
     for tick in 1..=5000 {
-        let command = sway(tick);
-        world.step(tick, Some(&command), &mut out.sample, &mut out.truth, &mut out.state);
+        let command = sway(tick, &out);
+        world.step(tick, command.as_deref(), &mut out.sample, &mut out.truth, &mut out.state);
         for joint in 0..7 {
-            worst = worst.max((out.sample.joints.position[joint] - command.position[joint]).abs());
+            worst = worst.max((out.sample.joints.position[joint] - out.sample.drive.position[joint]).abs());
         }
     }
     assert!(worst < 0.005, "tracking error {worst} rad");
@@ -71,8 +79,8 @@ fn same_seed_gives_the_same_bits() {
     let run = || {
         let (mut world, mut out) = (world(4), Out::new());
         for tick in 1..=8000 {
-            let command = sway(tick);
-            world.step(tick, Some(&command), &mut out.sample, &mut out.truth, &mut out.state);
+            let command = sway(tick, &out);
+            world.step(tick, command.as_deref(), &mut out.sample, &mut out.truth, &mut out.state);
         }
         bytemuck::bytes_of(&*out.state).to_vec()
     };
@@ -83,14 +91,14 @@ fn same_seed_gives_the_same_bits() {
 fn resumed_parts_and_joints_stay_where_they_were() {
     let (mut world, mut out) = (world(6), Out::new());
     for tick in 1..=9000 {
-        let command = sway(tick);
-        world.step(tick, Some(&command), &mut out.sample, &mut out.truth, &mut out.state);
+        let command = sway(tick, &out);
+        world.step(tick, command.as_deref(), &mut out.sample, &mut out.truth, &mut out.state);
     }
     let before = out.state.clone();
     let mut successor = self::world(6);
     successor.resume(&before).unwrap();
-    let command = sway(9001);
-    successor.step(9001, Some(&command), &mut out.sample, &mut out.truth, &mut out.state);
+    let command = sway(9001, &out);
+    successor.step(9001, command.as_deref(), &mut out.sample, &mut out.truth, &mut out.state);
     for part in 0..before.parts as usize {
         let (now, then) = (out.state.part[part], before.part[part]);
         assert!(glam::DVec3::from(now.position).distance(then.position.into()) < 0.005, "part {part}");
@@ -119,7 +127,12 @@ fn dropped_part_falls_onto_the_table() {
 fn overlapping_parts_are_refused() {
     let mut task = scene();
     task.parts[1].at = task.parts[0].at;
-    let settings = Settings { seed: 0, partner: Partner::Synthetic, mode: WorldMode::Physics };
+    let settings = Settings {
+        seed: 0,
+        partner: Partner::Synthetic,
+        mode: WorldMode::Physics,
+        drive: super::safety().drive,
+    };
     let message = World::new(&task, &robot(), settings).err().unwrap().to_string();
     assert!(message.contains("overlap"), "{message}");
 }

@@ -1,6 +1,6 @@
 use super::fake_robot::FakeRobot;
 use super::script::scenario;
-use super::{Out, robot, swaying, world};
+use super::{Out, swaying, world};
 use crate::ResumeError;
 use crate::simulation_state::SimulationState;
 use bytemuck::bytes_of;
@@ -11,13 +11,12 @@ use rand_pcg::Pcg64Mcg;
 
 #[test]
 fn same_seed_gives_the_same_bits_and_another_seed_does_not() {
-    let robot = robot();
     let run = |seed: u64| {
         let (mut world, mut out) = (world(seed), Out::new());
         let mut samples = Vec::new();
         for tick in 1..=20_000 {
-            let command = swaying(tick, &robot);
-            world.step(tick, Some(&command), &mut out.sample, &mut out.truth, &mut out.state);
+            let command = swaying(tick, &out.sample);
+            world.step(tick, command.as_deref(), &mut out.sample, &mut out.truth, &mut out.state);
             if tick % 500 == 0 {
                 samples.extend_from_slice(bytes_of(&*out.sample));
                 samples.extend_from_slice(bytes_of(&*out.truth));
@@ -33,20 +32,19 @@ fn same_seed_gives_the_same_bits_and_another_seed_does_not() {
 
 #[test]
 fn resumed_world_goes_on_as_if_it_had_not_died() {
-    let robot = robot();
     for killed_at in [1, 1700, 5003, 9999, 14_321] {
         let (mut world, mut out, mut other_out) = (world(3), Out::new(), Out::new());
         let mut other = super::world(3);
         for tick in 1..=killed_at + 4000 {
-            let command = swaying(tick, &robot);
-            world.step(tick, Some(&command), &mut out.sample, &mut out.truth, &mut out.state);
+            let command = swaying(tick, &out.sample);
+            world.step(tick, command.as_deref(), &mut out.sample, &mut out.truth, &mut out.state);
             if tick == killed_at {
                 other.resume(&out.state).unwrap();
             }
             if tick > killed_at {
                 other.step(
                     tick,
-                    Some(&command),
+                    command.as_deref(),
                     &mut other_out.sample,
                     &mut other_out.truth,
                     &mut other_out.state,

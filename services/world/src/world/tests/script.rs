@@ -55,7 +55,7 @@ fn unknown_partner_is_refused_with_the_known_ones() {
 
 /// Chain names, onset and grasp ticks of the first actions of a script.
 fn actions(partner: Partner, seconds: u64) -> Vec<(String, u64, u64)> {
-    let settings = Settings { seed: 1, partner, mode: WorldMode::Kinematic };
+    let settings = Settings { seed: 1, partner, mode: WorldMode::Kinematic, drive: super::safety().drive };
     let (mut world, mut out) = (World::new(&task(), &robot(), settings).unwrap(), Out::new());
     let mut begun = Vec::new();
     for tick in 1..=seconds * CYCLES_PER_SECOND {
@@ -87,7 +87,12 @@ pub(super) fn scenario(file: &str) -> World {
     let task = coact_joint_task::Task::load(&config("tasks/toy-vehicle.toml")).unwrap();
     let name = format!("script:{}", config("scenarios").join(file).display());
     let partner = Partner::load(&name, &task, 0).unwrap();
-    World::new(&task, &robot(), Settings { seed: 1, partner, mode: WorldMode::Kinematic }).unwrap()
+    World::new(
+        &task,
+        &robot(),
+        Settings { seed: 1, partner, mode: WorldMode::Kinematic, drive: super::safety().drive },
+    )
+    .unwrap()
 }
 
 /// Runs `seconds`; `look` sees the world and its messages after each tick.
@@ -219,8 +224,12 @@ fn an_action_without_a_part_is_left_out_and_told() {
     let mut file = tempfile::NamedTempFile::new().unwrap();
     file.write_all(text.as_bytes()).unwrap();
     let partner = Partner::Script(Scenario::load(file.path(), &task()).unwrap());
-    let mut world =
-        World::new(&task(), &robot(), Settings { seed: 1, partner, mode: WorldMode::Kinematic }).unwrap();
+    let mut world = World::new(
+        &task(),
+        &robot(),
+        Settings { seed: 1, partner, mode: WorldMode::Kinematic, drive: super::safety().drive },
+    )
+    .unwrap();
     run(&mut world, 19, |_, _, _| {});
     assert_eq!(world.skipped(), 0);
     run(&mut world, 3, |_, _, _| {});

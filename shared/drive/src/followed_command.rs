@@ -1,0 +1,38 @@
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+use coact_messages::Header;
+use coact_stage_state::Flag;
+
+/// Which command was followed last: what the next one must come after.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, CheckedBitPattern, NoUninit, Zeroable)]
+pub(crate) struct FollowedCommand {
+    pub cycle: u64,
+    sequence: u64,
+    generation: u64,
+    /// Whether there was one.
+    exists: Flag,
+}
+
+impl FollowedCommand {
+    pub fn of(header: &Header) -> Self {
+        Self {
+            cycle: header.cycle,
+            sequence: header.sequence,
+            generation: header.generation.into(),
+            exists: Flag::Set,
+        }
+    }
+
+    /// Whether a command comes after this one: of the same writer, with no more messages between than cycles; or of its
+    /// replacement, which there is only when the writer `is_silent`. A replacement may begin to count anew.
+    pub fn is_before(&self, header: &Header, is_silent: bool) -> bool {
+        if !self.exists.is_set() {
+            return true;
+        }
+        let cycles = header.cycle.saturating_sub(self.cycle);
+        let messages = header.sequence.saturating_sub(self.sequence);
+        let goes_on = self.generation == header.generation.into() && (1..=cycles).contains(&messages);
+        let replaces = self.generation < header.generation.into() && cycles > 0 && is_silent;
+        goes_on || replaces
+    }
+}

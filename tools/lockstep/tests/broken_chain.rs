@@ -1,0 +1,162 @@
+//! The chain breaks while the arm moves: measured at the joints, it keeps their limits, stands soon, and goes on afterwards.
+#![allow(clippy::unwrap_used)]
+
+use coact_lockstep::Lockstep;
+use coact_messages::{ARM_JOINTS, Command, DriveMode, JOINTS};
+use coact_period::PERIOD_S;
+use coact_pipeline::{RunSettings, WorldMode};
+use coact_robot::{JointLimits, Robot};
+use std::collections::VecDeque;
+use std::path::Path;
+
+/// How fast a joint must be when the chain breaks, as a fraction of its limit.
+const FAST: f64 = 0.5;
+/// How long the chain is broken, ticks: longer than any arm needs to stop.
+const BROKEN: u64 = 500;
+/// How long the joints are watched afterwards, ticks: the arm moves on, but its hand meets nothing yet that pushes it.
+const WATCHED: u64 = 1000;
+
+/// Accelerations are means of so many ticks, as the monitor's are: simulated motors overshoot for some milliseconds.
+const MEAN: usize = 10;
+
+/// What becomes of a command while the chain is broken.
+#[derive(Debug, Clone, Copy)]
+enum Break {
+    /// Control is dead, or hangs: its last command stays the newest.
+    Silent,
+    /// It sends numbers that are none.
+    NotFinite,
+    /// It has run 1500 cycles ahead.
+    Ahead,
+    /// Its setpoints jump.
+    Jumping,
+}
+
+struct Watched {
+    stages: Lockstep,
+    limits: [JointLimits; JOINTS],
+    /// Positions of the joints in the tick before, rad, and velocities in the last ones, rad/s.
+    position: [f64; JOINTS],
+    velocities: VecDeque<[f64; JOINTS]>,
+    /// Greatest fraction of the limits of speed and acceleration that the joints have used since the chain broke.
+    used: [f64; 2],
+}
+
+impl Watched {
+    fn new(world: WorldMode) -> Self {
+        let shipped = RunSettings::shipped(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config"));
+        let robot = Robot::load(&shipped.robot).unwrap();
+        let stages = Lockstep::new(&RunSettings { world, ..shipped }).unwrap();
+        Self {
+            stages,
+            limits: coact_drive::joint_limits(&robot),
+            position: [0.0; JOINTS],
+            velocities: VecDeque::new(),
+            used: [0.0; 2],
+        }
+    }
+
+    fn step(&mut self) {
+        self.stages.step();
+        let (position, velocity) = (self.stages.state.position, self.stages.state.velocity);
+        if self.velocities.len() == MEAN {
+            let before = self.velocities.pop_front().unwrap();
+            for (joint, limits) in self.limits[..ARM_JOINTS].iter().enumerate() {
+                let speed = (position[joint] - self.position[joint]) / PERIOD_S;
+                let acceleration = (velocity[joint] - before[joint]) / (MEAN as f64 * PERIOD_S);
+                self.used[0] = self.used[0].max(speed.abs() / limits.velocity);
+                self.used[1] = self.used[1].max(acceleration.abs() / limits.acceleration);
+            }
+        }
+        self.position = position;
+        self.velocities.push_back(velocity);
+    }
+
+    /// Runs until a joint of the arm is fast.
+    fn until_fast(&mut self) {
+        for _ in 0..30_000 {
+            self.step();
+            let drive = &self.stages.sample.drive;
+            let fast = |joint: usize| drive.velocity[joint].abs() > FAST * self.limits[joint].velocity;
+            if (0..ARM_JOINTS).any(fast) {
+                return;
+            }
+        }
+        panic!("the arm was never fast");
+    }
+
+    fn stands(&self) -> bool {
+        self.stages.sample.drive.mode == DriveMode::Standing as u32
+    }
+}
+
+/// Cycles that the joints need to stop from their setpoints.
+fn stopping(watched: &Watched) -> u64 {
+    let drive = &watched.stages.sample.drive;
+    let cycles = (0..JOINTS).filter_map(|joint| {
+        let mut state = coact_robot::Limiter {
+            position: drive.position[joint],
+            velocity: drive.velocity[joint],
+            acceleration: drive.acceleration[joint],
+        };
+        (0..10_000).find(|_| {
+            let rests = state.is_at_rest();
+            state = state.brake(&watched.limits[joint], PERIOD_S);
+            rests
+        })
+    });
+    cycles.max().unwrap()
+}
+
+fn spoil(command: &mut Command, good: &Command, how: Break) {
+    match how {
+        Break::Silent => *command = *good,
+        Break::NotFinite => command.position[2] = f64::NAN,
+        Break::Ahead => {
+            command.header.cycle += 1500;
+            command.header.sequence += 1500;
+        }
+        Break::Jumping => command.position[0] += 0.3,
+    }
+}
+
+/// The joints' motion while the chain breaks and afterwards: fractions of their limits of speed and acceleration.
+fn break_chain(world: WorldMode, how: Break) -> [f64; 2] {
+    let mut watched = Watched::new(world);
+    watched.until_fast();
+    watched.used = [0.0; 2];
+    let good = watched.stages.command.clone();
+    let most = stopping(&watched) + 5;
+    for cycle in 0..BROKEN {
+        spoil(&mut watched.stages.command, &good, how);
+        watched.step();
+        assert!(watched.stands() || cycle <= most, "{how:?}: moves after {cycle} cycles, {most} needed");
+    }
+    watched.stages.command = good;
+    let before = watched.stages.truth.achieved.count_ones();
+    (0..WATCHED).for_each(|_| watched.step());
+    let used = watched.used;
+    println!("{world:?} {how:?}: {used:?} of the limits");
+    for _ in 0..30_000 {
+        watched.step();
+        if watched.stages.truth.achieved.count_ones() > before {
+            return used;
+        }
+    }
+    panic!("{how:?}: nothing is achieved afterwards");
+}
+
+#[test]
+fn the_joints_keep_their_limits_when_control_dies_hangs_or_garbles() {
+    for how in [Break::Silent, Break::NotFinite, Break::Ahead, Break::Jumping] {
+        let [speed, acceleration] = break_chain(WorldMode::Kinematic, how);
+        assert!(speed <= 1.0 && acceleration <= 1.05, "{how:?}: {speed}, {acceleration} of the limits");
+    }
+}
+
+#[test]
+fn the_joints_keep_their_speed_limits_when_control_dies_in_the_physics_world() {
+    // Of the joints' acceleration this says nothing: the simulated motors follow setpoints of full jerk with an overshoot.
+    let [speed, _] = break_chain(WorldMode::Physics, Break::Silent);
+    assert!(speed <= 1.0, "{speed} of the limits");
+}
