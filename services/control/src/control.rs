@@ -256,6 +256,9 @@ impl Control {
         out.phase = if brakes { MotionPhase::Brake } else { self.motion_phase() } as u32;
         out.begun = decisions.begun as u32;
         out.reaction = u32::try_from(decisions.reaction).unwrap_or(u32::MAX);
+        out.speed_override =
+            if self.state.arm_has_arrived() { 1.0 } else { self.state.arm.progress.speed_override };
+        out.handover = u32::from(self.state.may_touch_person(self.state.arm.progress.elapsed));
         self.state.store(&mut out.state);
     }
 

@@ -5,7 +5,7 @@ use coact_messages::Refusal;
 use coact_period::PERIOD_NS;
 use coact_run_records::{
     AnticipationReport, Environment, Event, FaultReport, Judgement, MotionReport, OutageReport, Percentiles,
-    ProcessReport, ReactionReport, Summary, TaskReport, TrackingReport,
+    ProcessReport, ReactionReport, SeparationReport, Summary, TaskReport, TrackingReport,
 };
 use std::collections::BTreeMap;
 
@@ -24,6 +24,8 @@ pub struct Findings<'a> {
     pub stop_requested: &'a BTreeMap<String, u64>,
     /// How the arm moved.
     pub motion: MotionReport,
+    /// How near robot and person came.
+    pub separation: SeparationReport,
     /// For how long the monitor saw nothing, s.
     pub blind_s: f64,
     /// How well the arm followed its setpoints.
@@ -51,6 +53,7 @@ impl Findings<'_> {
             events,
             metrics,
             motion,
+            separation,
             blind_s,
             tracking,
             reaction,
@@ -66,6 +69,7 @@ impl Findings<'_> {
             end_to_end_ns: metrics.map(|own| percentiles_of(own, END_TO_END)).unwrap_or_default(),
             command_outage,
             motion,
+            separation,
             blind_s,
             tracking_error_rad: tracking,
             movement_reaction_ms: reaction,

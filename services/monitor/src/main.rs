@@ -8,6 +8,7 @@ use coact_realtime::{Bus, Input, LatencyProbe, PortError, Process, Schedule, now
 use coact_robot::Robot;
 use coact_run_records::Environment;
 use coact_safety::SafetyLimits;
+use coact_separation::SeparationMeter;
 use std::time::{Duration, Instant, SystemTime};
 
 /// How often the topics are drained: long before a reader's buffer is full, and seldom enough to cost little of a core.
@@ -53,13 +54,15 @@ fn watched(process: &Process) -> anyhow::Result<Watched> {
     let (task, plan) = NetworkPlan::load(&settings.task)?;
     let folder = settings.pipeline.parent().context("the process table stands in no folder")?;
     let robot = Robot::load(&settings.robot)?;
+    let limits = SafetyLimits::load(&settings.safety)?;
     Ok(Watched {
         report: settings.report.clone(),
         task,
         intentions: Intentions::from(&plan),
         nodes: PipelineNode::all(process.pipeline()),
         limits: robot.limits()[..ARM_JOINTS].to_vec(),
-        fresh: SafetyLimits::load(&settings.safety)?.stale.input_after,
+        separation: SeparationMeter::new(&robot, &limits)?,
+        fresh: limits.stale.input_after,
         rules: Rules::load(&folder.join(Rules::FILE))?,
         start_ns: 0,
         started: SystemTime::UNIX_EPOCH,

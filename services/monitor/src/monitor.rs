@@ -11,6 +11,7 @@ use coact_period::cycles;
 use coact_run_records::{
     Environment, Event, LogFollower, Record, RunLog, Snapshot, Summary, SupervisorEvent, SupervisorEventKind,
 };
+use coact_separation::SeparationMeter;
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -21,6 +22,8 @@ const OVERDUE: u64 = cycles(Duration::from_secs(1));
 
 /// Name of the file in which a restarted monitor finds how the arm has moved so far, beside the counters.
 const MOTION: &str = "latency/motion.json";
+/// The same for how near robot and person came.
+const SEPARATION: &str = "latency/separation.json";
 
 /// Makes the report of a run, in its directory, while the run goes on.
 ///
@@ -38,6 +41,8 @@ pub struct Monitor {
     faults: Faults,
     blindness: Blindness,
     motion: JointMotion,
+    separation: SeparationMeter,
+    newest_command: Option<Box<Command>>,
     /// Name of the process that commands the arm.
     commanding: Option<String>,
     /// When each process was requested to end, ns of `CLOCK_MONOTONIC`.
@@ -59,7 +64,18 @@ impl Monitor {
     /// # Errors
     /// A file of the report cannot be read or written.
     pub fn open(watched: Watched) -> Result<Self, MonitorError> {
-        let Watched { report, task, intentions, nodes, limits, fresh, rules, start_ns, started } = watched;
+        let Watched {
+            report,
+            task,
+            intentions,
+            nodes,
+            limits,
+            mut separation,
+            fresh,
+            rules,
+            start_ns,
+            started,
+        } = watched;
         let commanding = nodes.iter().find(|node| node.last).map(|node| node.process.clone());
         let pulsing = nodes.iter().map(|node| node.process.clone()).collect();
         let latencies = Latencies::open(&report.join("latency"), nodes, fresh, started)?;
@@ -77,6 +93,13 @@ impl Monitor {
                 |cause| MonitorError::File { path: report.join(MOTION), cause: std::io::Error::other(cause) };
             motion.resume(serde_json::from_slice(&found).map_err(error)?);
         }
+        if let Ok(found) = std::fs::read(report.join(SEPARATION)) {
+            let error = |cause| MonitorError::File {
+                path: report.join(SEPARATION),
+                cause: std::io::Error::other(cause),
+            };
+            separation.resume(serde_json::from_slice(&found).map_err(error)?);
+        }
         let (waiting, truth) = (VecDeque::new(), nothing_true_yet());
         Ok(Self {
             report,
@@ -90,6 +113,8 @@ impl Monitor {
             faults,
             blindness: Blindness::default(),
             motion,
+            separation,
+            newest_command: None,
             commanding,
             stop_requested: BTreeMap::new(),
             tracking: Tracking::new(),
@@ -138,6 +163,9 @@ impl Monitor {
     /// What really happens; it is judged once the fields' frame of the same cycle has come, or is overdue.
     pub fn truth(&mut self, truth: &Truth, events: &mut Vec<Event>) {
         self.snapshots.truth(truth);
+        if let Some(command) = &self.newest_command {
+            self.separation.tick(truth, command);
+        }
         self.waiting.push_back(*truth);
         self.catch_up(truth.header.cycle.saturating_sub(OVERDUE), events);
     }
@@ -164,6 +192,7 @@ impl Monitor {
 
     /// What the arm shall do.
     pub fn command(&mut self, command: &Command) {
+        self.newest_command = Some(Box::new(*command));
         self.snapshots.command(command);
         self.tracking.command(command);
         self.reaction.command(command);
@@ -215,7 +244,10 @@ impl Monitor {
     /// A file of the report cannot be written.
     pub fn write(&mut self) -> Result<(), MonitorError> {
         self.latencies.write()?;
-        replace(&self.report.join(MOTION), &self.motion.report()).map_err(|cause| self.error(MOTION, cause))
+        replace(&self.report.join(MOTION), &self.motion.report())
+            .map_err(|cause| self.error(MOTION, cause))?;
+        replace(&self.report.join(SEPARATION), self.separation.report())
+            .map_err(|cause| self.error(SEPARATION, cause))
     }
 
     /// Ends the run: writes logs, plots and `summary.json`.
@@ -239,6 +271,7 @@ impl Monitor {
             metrics: Some(self.latencies.metrics()),
             stop_requested: &self.stop_requested,
             motion: self.motion.report(),
+            separation: self.separation.report().clone(),
             blind_s: blind_s(self.events.records()),
             tracking: self.tracking.report(),
             reaction: self.reaction.report(),

@@ -20,6 +20,9 @@ pub struct Rules {
     pub joint_beyond_rad: f64,
     /// For how long the arm may move on after the data of the newest command became too old, ms.
     pub moved_on_stale_data_ms: u64,
+    /// For how long the robot may have come nearer, by its own motion, to a person who was nearer than the protective
+    /// separation, outside handovers, ms.
+    pub robot_closing_ms: u64,
     /// For how long the monitor may have seen nothing, s.
     pub blind_s: f64,
     /// Greatest fraction of cycles without timely output, of a process under SCHED_FIFO and of the command, beyond those at

@@ -1,7 +1,7 @@
 //! The rules of `verdict.toml`, applied to a summary.
 
 use crate::Rules;
-use coact_run_records::{Event, MotionReport, OutageReport, Summary};
+use coact_run_records::{Event, MotionReport, OutageReport, SeparationReport, Summary};
 
 /// What was done, one sentence for each rule that was broken: task, anticipation, safety, nothing lost.
 pub(crate) fn work(summary: &Summary, events: &[Event], run_s: f64, rules: &Rules) -> Vec<String> {
@@ -10,6 +10,7 @@ pub(crate) fn work(summary: &Summary, events: &[Event], run_s: f64, rules: &Rule
     anticipation(summary, events, rules, &mut reasons);
     faults(summary, rules, &mut reasons);
     motion(&summary.motion, rules, &mut reasons);
+    separation(&summary.separation, rules, &mut reasons);
     if summary.blind_s > rules.blind_s {
         reasons.push(format!(
             "the monitor saw nothing for {:.1} s, so that this report says nothing about them; at most {:.1} s may be unseen",
@@ -92,6 +93,19 @@ fn motion(motion: &MotionReport, rules: &Rules, reasons: &mut Vec<String>) {
         reasons.push(format!(
             "the arm still moved {} ms after its newest data had become too old; within {} ms it must stand",
             motion.on_stale_data_ms, rules.moved_on_stale_data_ms
+        ));
+    }
+}
+
+/// What came too near the person by the robot's own motion.
+fn separation(separation: &SeparationReport, rules: &Rules, reasons: &mut Vec<String>) {
+    if separation.robot_closing_ms > rules.robot_closing_ms {
+        reasons.push(format!(
+            "the robot came nearer to the person by its own motion for {} ms while it was nearer than the protective \
+             separation ({:.0} mm at the least); at most {} ms are allowed",
+            separation.robot_closing_ms,
+            1e3 * separation.nearest_m.unwrap_or_default(),
+            rules.robot_closing_ms
         ));
     }
 }

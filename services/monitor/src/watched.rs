@@ -1,11 +1,12 @@
 use crate::{Intentions, PipelineNode, Rules};
 use coact_joint_task::Task;
 use coact_robot::JointLimits;
+use coact_separation::SeparationMeter;
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
 /// What a monitor watches.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Watched {
     /// The report directory.
     pub report: PathBuf,
@@ -17,6 +18,8 @@ pub struct Watched {
     pub nodes: Vec<PipelineNode>,
     /// Limits of the arm's joints.
     pub limits: Vec<JointLimits>,
+    /// Measures the distance of robot and person.
+    pub separation: SeparationMeter,
     /// What descends from an older sensor sample is not used.
     pub fresh: Duration,
     /// What the run must reach.

@@ -26,7 +26,19 @@ fn watched(report: &Path) -> Watched {
     let started = SystemTime::now();
     let report = report.to_owned();
     let (limits, fresh) = (arm_limits(), Duration::from_millis(50));
-    Watched { report, task, intentions, nodes, limits, fresh, rules: rules(), start_ns: 0, started }
+    let separation = separation_meter();
+    Watched {
+        report,
+        task,
+        intentions,
+        nodes,
+        limits,
+        separation,
+        fresh,
+        rules: rules(),
+        start_ns: 0,
+        started,
+    }
 }
 
 fn open(report: &Path) -> Monitor {

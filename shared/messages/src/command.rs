@@ -30,6 +30,12 @@ pub struct Command {
     pub begun: u32,
     /// See `begun`.
     pub reaction: u32,
+    /// Fraction of its planned speed at which the arm goes on, 0 to 1: less than 1 while the guard holds it back.
+    pub speed_override: f64,
+    /// 1 while a handover is declared, in which the robot's hand may touch the person's. Else 0.
+    pub handover: u32,
+    /// Reserved, zero.
+    pub reserved: u32,
     /// Control's state, in the words of `coact-stage-state`: what a restarted control resumes from.
     pub state: [f64; 2048],
 }

@@ -1,5 +1,5 @@
 use crate::plausible::{index, not_after, optional, subgoal};
-use crate::{Flaw, Header, MAX_POPULATIONS, Plausible, WORKSPACES};
+use crate::{Flaw, Header, JOINTS, MAX_POPULATIONS, Plausible, WORKSPACES};
 use bytemuck::{CheckedBitPattern, NoUninit, Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -36,6 +36,10 @@ pub struct Truth {
     pub hidden: u32,
     /// Reserved, zero.
     pub reserved: u32,
+    /// Where the joints are, rad.
+    pub joints: [f64; JOINTS],
+    /// Where the person's shoulder, elbow, wrist and middle finger tip are, m; zeros: there is no person.
+    pub arm: [[f64; 3]; 4],
     /// Bit i set: part i of `Task::parts` is in the hand of [`ROBOT`](crate::ROBOT), of [`PERSON`](crate::PERSON).
     pub held: [u32; WORKSPACES],
 }

@@ -46,6 +46,7 @@ mod record_error;
 mod run_log;
 #[cfg(test)]
 mod schemas;
+mod separation_report;
 mod snapshot;
 mod summary;
 mod supervisor_event;
@@ -68,6 +69,7 @@ pub use reaction_report::ReactionReport;
 pub use record::Record;
 pub use record_error::RecordError;
 pub use run_log::RunLog;
+pub use separation_report::SeparationReport;
 pub use snapshot::{JOINTS, KEYPOINTS, SeenPart, Snapshot};
 pub use summary::Summary;
 pub use supervisor_event::{SupervisorEvent, SupervisorEventKind};

@@ -1,6 +1,6 @@
 use crate::{
     AnticipationReport, Environment, FaultReport, Judgement, MotionReport, OutageReport, Percentiles,
-    ProcessReport, ReactionReport, RecordError, TaskReport, TrackingReport,
+    ProcessReport, ReactionReport, RecordError, SeparationReport, TaskReport, TrackingReport,
 };
 use coact_input_file::LONGEST_LOG;
 use serde::{Deserialize, Serialize};
@@ -24,6 +24,9 @@ pub struct Summary {
     pub command_outage: OutageReport,
     /// How the arm moved, measured at its joints.
     pub motion: MotionReport,
+    /// How near robot and person came.
+    #[serde(default)]
+    pub separation: SeparationReport,
     /// For how long the monitor itself lost what it watches, s.
     pub blind_s: f64,
     /// How well the arm followed its setpoints.
@@ -59,6 +62,7 @@ impl Summary {
             end_to_end_ns: Percentiles::default(),
             command_outage: OutageReport::default(),
             motion: MotionReport::default(),
+            separation: SeparationReport::default(),
             blind_s: 0.0,
             tracking_error_rad: TrackingReport::default(),
             movement_reaction_ms: ReactionReport::default(),
@@ -122,6 +126,7 @@ mod tests {
             end_to_end_ns: Percentiles::default(),
             command_outage: OutageReport::default(),
             motion: MotionReport::default(),
+            separation: SeparationReport::default(),
             blind_s: 0.0,
             tracking_error_rad: TrackingReport::default(),
             movement_reaction_ms: ReactionReport::default(),

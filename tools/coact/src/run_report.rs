@@ -4,7 +4,7 @@ use crate::snapshots;
 use anyhow::{Context, Result};
 use coact_run_records::{
     AnticipationReport, Environment, FaultReport, Judgement, MachineReport, MotionReport, OutageReport,
-    Summary, TaskReport,
+    SeparationReport, Summary, TaskReport,
 };
 use owo_colors::{OwoColorize, Stream};
 use std::collections::BTreeMap;
@@ -50,6 +50,7 @@ fn render(summary: &Summary, report: &Path) -> String {
     lines.extend(order.map(|(index, name)| format!("  {:>2}. {name}", index + 1)));
     lines.push(anticipation(&summary.anticipation));
     lines.push(motion(&summary.motion));
+    lines.push(separation(&summary.separation));
     if !summary.processes.is_empty() {
         lines.push(latency(summary));
         lines.push(outage(summary));
@@ -77,6 +78,19 @@ fn judgement(name: &str, judgement: &Judgement) -> Vec<String> {
     };
     let reasons = judgement.reasons.iter().map(|reason| format!("  - {reason}"));
     std::iter::once(format!("{name:<14}{verdict}")).chain(reasons).collect()
+}
+
+fn separation(separation: &SeparationReport) -> String {
+    let SeparationReport { ticks, nearest_m, robot_closing_ms, person_closing_ms, held_back_ms, stopped_ms } =
+        separation;
+    let Some(nearest) = nearest_m else { return "person        nobody was there".into() };
+    format!(
+        "person        {:.0} mm away at the least; nearer than is kept: robot closing {robot_closing_ms} ms, person \
+         {person_closing_ms} ms; held back {:.1} % of the time, stopped {:.1} %",
+        1e3 * nearest,
+        100.0 * *held_back_ms as f64 / (*ticks).max(1) as f64,
+        100.0 * *stopped_ms as f64 / (*ticks).max(1) as f64,
+    )
 }
 
 fn motion(motion: &MotionReport) -> String {

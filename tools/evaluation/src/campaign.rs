@@ -56,7 +56,7 @@ fn assemble(campaign: &Campaign, seed: u64) -> Result<Trial, LockstepError> {
     let settings = RunSettings { seed, ..campaign.settings.clone() };
     let mut stages = Lockstep::with_plan(&settings, |plan| campaign.network.apply(plan))?;
     let (task, plan) = (stages.task().clone(), stages.plan().clone());
-    let mut recorder = TrialRecorder::new(&task, &plan, seed);
+    let mut recorder = TrialRecorder::new(&task, &plan, stages.separation_meter()?, seed);
     let (mut achieved, mut advanced) = (0, 0);
     while stages.ticks() < LONGEST && stages.ticks() < advanced + STALLED {
         stages.step();

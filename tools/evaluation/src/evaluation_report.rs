@@ -1,5 +1,6 @@
 use crate::statistics::{Estimate, Proportion, Spread};
 use crate::{Detection, ErrorKind, Inference, NetworkVariant, PartnerAction, Trial};
+use coact_run_records::SeparationReport;
 use serde::Serialize;
 
 /// What came of all assemblies. Actions count if their grasp was completed.
@@ -39,6 +40,17 @@ pub struct EvaluationReport {
     pub false_alarms: Proportion,
     /// Ticks with two peaks in one decision layer, in all assemblies.
     pub double_peaks: u64,
+    /// Smallest distance of robot and person outside handovers, m, and time in which the robot, nearer than the protective
+    /// separation, came nearer by its own motion, and the person by hers, ms; in all assemblies, by the truth.
+    pub nearest_m: Option<f64>,
+    /// See `nearest_m`.
+    pub robot_closing_ms: u64,
+    /// See `nearest_m`.
+    pub person_closing_ms: u64,
+    /// Time in which the arm was held back, and stopped, for the person's sake, as fractions of all time.
+    pub held_back: f64,
+    /// See `held_back`.
+    pub stopped: f64,
     /// Fractions of the task time, of completed assemblies: see [`Fluency`](crate::Fluency).
     pub human_idle: Option<Estimate>,
     /// R-IDLE.
@@ -86,6 +98,10 @@ impl EvaluationReport {
         let mean = |metric: &dyn Fn(&Trial) -> f64| {
             Estimate::mean(&completed.iter().map(|trial| metric(trial)).collect::<Vec<_>>())
         };
+        let of_separation = |metric: fn(&SeparationReport) -> u64| -> u64 {
+            trials.iter().map(|trial| metric(&trial.separation)).sum()
+        };
+        let ticks = of_separation(|separation| separation.ticks).max(1) as f64;
         Self {
             network: network.clone(),
             completed: of_trials(&|trial| trial.completed_ms.is_some()),
@@ -107,6 +123,11 @@ impl EvaluationReport {
                 valid.len() + hidden.len(),
             ),
             double_peaks: trials.iter().map(|trial| trial.double_peaks).sum(),
+            nearest_m: trials.iter().filter_map(|trial| trial.separation.nearest_m).min_by(f64::total_cmp),
+            robot_closing_ms: of_separation(|separation| separation.robot_closing_ms),
+            person_closing_ms: of_separation(|separation| separation.person_closing_ms),
+            held_back: of_separation(|separation| separation.held_back_ms) as f64 / ticks,
+            stopped: of_separation(|separation| separation.stopped_ms) as f64 / ticks,
             human_idle: mean(&|trial| trial.fluency.human_idle),
             robot_idle: mean(&|trial| trial.fluency.robot_idle),
             concurrent: mean(&|trial| trial.fluency.concurrent),

@@ -1,4 +1,5 @@
 use crate::Fluency;
+use coact_run_records::SeparationReport;
 use serde::Serialize;
 
 /// What one assembly was like. Times are ms from its start.
@@ -26,6 +27,8 @@ pub struct Trial {
     pub first_double: Option<DoublePeak>,
     /// Until completion, or the end.
     pub fluency: Fluency,
+    /// How near robot and person came.
+    pub separation: SeparationReport,
 }
 
 impl Trial {

@@ -5,7 +5,8 @@ use coact_joint_task::{Act, NetworkPlan, Population, Role, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
 use coact_monitor::{Anticipation, Intentions};
-use coact_run_records::Event;
+use coact_run_records::{Event, SeparationReport};
+use coact_separation::SeparationMeter;
 
 /// Layers in which at most one peak may stand.
 const DECISIONS: [LayerKind; 4] = [
@@ -27,6 +28,7 @@ pub(crate) struct TrialRecorder<'a> {
     plan: &'a NetworkPlan,
     anticipation: Anticipation,
     fluency: FluencyCounter,
+    separation: SeparationMeter,
     trial: Trial,
     open: Option<OpenAction>,
     /// Populations of EML whose peaks stand.
@@ -42,10 +44,11 @@ struct OpenAction {
 }
 
 impl<'a> TrialRecorder<'a> {
-    pub fn new(task: &'a Task, plan: &'a NetworkPlan, seed: u64) -> Self {
+    pub fn new(task: &'a Task, plan: &'a NetworkPlan, separation: SeparationMeter, seed: u64) -> Self {
         Self {
             anticipation: Anticipation::new(task, Intentions::from(plan)),
             fluency: FluencyCounter::default(),
+            separation,
             trial: Trial {
                 seed,
                 completed_ms: None,
@@ -58,6 +61,7 @@ impl<'a> TrialRecorder<'a> {
                 double_peaks: 0,
                 first_double: None,
                 fluency: crate::Fluency::default(),
+                separation: SeparationReport::default(),
             },
             open: None,
             alarmed: vec![false; plan.populations.len()],
@@ -70,6 +74,7 @@ impl<'a> TrialRecorder<'a> {
     pub fn tick(&mut self, stages: &Lockstep) {
         let (truth, frame) = (&*stages.truth, &*stages.frame);
         self.fluency.tick(ActiveAgents::now(self.task, truth, &stages.command));
+        self.separation.tick(truth, &stages.command);
         let mut events = Vec::new();
         self.anticipation.observe(truth, frame, &mut events);
         self.add_answers(&events);
@@ -98,6 +103,7 @@ impl<'a> TrialRecorder<'a> {
             last_fields,
             achieved,
             fluency: self.fluency.fluency(),
+            separation: self.separation.report().clone(),
             ..self.trial
         }
     }

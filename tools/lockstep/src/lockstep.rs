@@ -9,10 +9,13 @@ use coact_period::PERIOD_NS;
 use coact_pipeline::RunSettings;
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
+use coact_separation::SeparationMeter;
 use coact_world::{Partner, Settings, World};
 
 /// All stages, and the newest message of each topic.
 pub struct Lockstep {
+    robot: Robot,
+    limits: SafetyLimits,
     task: Task,
     world: World,
     perception: Perception,
@@ -67,6 +70,14 @@ impl Lockstep {
         Self::with_plan(settings, |plan| plan)
     }
 
+    /// Measures how near robot and person come, from the truth of each tick.
+    ///
+    /// # Errors
+    /// The robot's collision geometry cannot be used.
+    pub fn separation_meter(&self) -> Result<SeparationMeter, LockstepError> {
+        Ok(SeparationMeter::new(&self.robot, &self.limits)?)
+    }
+
     /// The same with another network than the task's files make: `change` is given theirs. So an ablation is compared
     /// with the whole network.
     ///
@@ -79,9 +90,9 @@ impl Lockstep {
         let (task, plan) = NetworkPlan::load(&settings.task)?;
         let plan = change(plan);
         let robot = Robot::load(&settings.robot)?;
+        let limits = SafetyLimits::load(&settings.safety)?;
         let partner = Partner::load(&settings.partner, &task, settings.seed)?;
-        let safety = SafetyLimits::load(&settings.safety)?;
-        let own = Settings { seed: settings.seed, partner, mode: settings.world, drive: safety.drive };
+        let own = Settings { seed: settings.seed, partner, mode: settings.world, drive: limits.drive };
         let world = World::new(&task, &robot, own)?;
         let model = coact_perception::PreshapeModel::load(&settings.model)?;
         let network = Network::new(plan, task.fingerprint, settings.seed)?;
@@ -90,7 +101,9 @@ impl Lockstep {
         Ok(Self {
             world,
             perception: Perception::new(&task, &model)?.with_robot(robot.clone()),
-            control: Control::new(robot, &task, &safety)?,
+            control: Control::new(robot.clone(), &task, &limits)?,
+            robot,
+            limits,
             network,
             task,
             tick: 0,

@@ -95,6 +95,7 @@ fn monitor(settings: &RunSettings, stages: &Lockstep) -> Result<Monitor, RunErro
         intentions: Intentions::from(stages.plan()),
         nodes: Vec::new(),
         limits: Robot::load(&settings.robot)?.limits()[..ARM_JOINTS].to_vec(),
+        separation: stages.separation_meter()?,
         fresh: SafetyLimits::load(&settings.safety)?.stale.input_after,
         rules: Rules::load(&folder.join(Rules::FILE))?,
         start_ns: 0,

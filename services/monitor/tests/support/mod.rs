@@ -167,3 +167,13 @@ pub fn pulse(cycle: u64, late_ns: u64) -> Pulse {
     pulse.input_received_ns = pulse.released_ns;
     pulse
 }
+
+/// Measures distances of the shipped robot.
+pub fn separation_meter() -> coact_separation::SeparationMeter {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config");
+    let robot =
+        coact_robot::Robot::load(std::path::Path::new(&format!("{folder}/robots/aros.toml"))).unwrap();
+    let limits =
+        coact_safety::SafetyLimits::load(std::path::Path::new(&format!("{folder}/safety.toml"))).unwrap();
+    coact_separation::SeparationMeter::new(&robot, &limits).unwrap()
+}

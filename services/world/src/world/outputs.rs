@@ -4,7 +4,7 @@ use super::World;
 use crate::scenario::Sense;
 use crate::sensors::{Capture, read_joints, recognise, track};
 use crate::simulation_state::SimulationState;
-use coact_messages::{NONE, PartnerPhase, SensorSample, Truth, is_blocked};
+use coact_messages::{KeypointName, NONE, PartnerPhase, SensorSample, Truth, is_blocked};
 use coact_person::Holder;
 use coact_stage_state::Slot;
 use glam::DVec3;
@@ -66,6 +66,19 @@ impl World {
         truth.assemblies = self.simulation.assemblies;
         truth.error = if phase == PartnerPhase::Idle { 0 } else { person.error as u32 };
         truth.waiting = u32::from(person.phase().waits_for_robot());
+        truth.joints = self.joints.position;
+        truth.arm = self.person_arm();
         truth.hidden = u32::from(phase != PartnerPhase::Idle && person.occluder().is_some());
+    }
+
+    /// Shoulder, elbow, wrist and middle finger tip, as they are.
+    fn person_arm(&self) -> [[f64; 3]; 4] {
+        let person = &self.simulation.person;
+        let points = match self.person.recorded_keypoints(person, self.simulation.tick) {
+            Some(recorded) => recorded.map(|point| point.position),
+            None => self.person.keypoints(person).map(|point| point.to_array()),
+        };
+        [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist, KeypointName::MiddleTip]
+            .map(|name| points[name as usize])
     }
 }

@@ -52,6 +52,16 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
         row("completed", proportion(&report.completed)),
         row("deadlocks", proportion(&report.deadlocks)),
         row("task time, s", interval(report.seconds, 1.0, 1, "")),
+        row(
+            "nearest to the person, mm",
+            report.nearest_m.map_or("-".into(), |nearest| format!("{:.0}", 1e3 * nearest)),
+        ),
+        row("  robot closing beyond the separation, ms", report.robot_closing_ms.to_string()),
+        row("  person closing, ms", report.person_closing_ms.to_string()),
+        row(
+            "arm held back, stopped",
+            format!("{:.1} %, {:.1} %", 100.0 * report.held_back, 100.0 * report.stopped),
+        ),
         row("goal inferred rightly at grasp", proportion(&report.right)),
         row("  wrongly", proportion(&report.wrong)),
         row("  not", proportion(&report.absent)),

@@ -1,0 +1,21 @@
+use serde::{Deserialize, Serialize};
+
+/// How near robot and person came, by what really happened. Handovers, in which hands touch, are left out of all but the
+/// first and the last two numbers.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct SeparationReport {
+    /// Ticks that were measured.
+    pub ticks: u64,
+    /// Smallest distance, m; none when nobody was there.
+    pub nearest_m: Option<f64>,
+    /// Time in which they were nearer than the protective separation and the robot came nearer by its own motion, ms. None is
+    /// allowed.
+    pub robot_closing_ms: u64,
+    /// The same by the person's own motion.
+    pub person_closing_ms: u64,
+    /// Time in which the arm was held back below its planned speed, and stopped, ms.
+    pub held_back_ms: u64,
+    /// See `held_back_ms`.
+    pub stopped_ms: u64,
+}
