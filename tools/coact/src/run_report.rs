@@ -220,6 +220,13 @@ mod tests {
             end_to_end_ns: Percentiles { count: 9, p50: 210_000, p99: 400_400, p999: 512_600, max: 900_000 },
             command_outage: OutageReport { due: 1100, without_output: 95, longest: 91, longest_from_ms: 7 },
             motion: MotionReport { speed: 0.5, acceleration: 0.875, ..MotionReport::default() },
+            separation: SeparationReport {
+                ticks: 60_000,
+                nearest_m: Some(0.0514),
+                person_closing_ms: 12,
+                held_back_ms: 6000,
+                ..SeparationReport::default()
+            },
             blind_s: 1.25,
             tracking_error_rad: TrackingReport::default(),
             movement_reaction_ms: ReactionReport::default(),
