@@ -1,9 +1,14 @@
+use crate::any_topic::{AnyTopic, Bytes, NoHeader, header_type, message_type};
+use crate::port::{Reader, Writer};
 use crate::run_view::RunView;
-use crate::{Headed, Input, Message, Output, PortError, Refusals, places};
+use crate::zero_copy_reader::ZeroCopyReader;
+use crate::zero_copy_writer::ZeroCopyWriter;
+use crate::{Input, Message, Output, PortError, Refusals, places};
 use coact_messages::{Header, LAYOUT, topic};
 use coact_pipeline::Run;
 use iceoryx2::prelude::*;
-use iceoryx2::service::port_factory::{event, publish_subscribe};
+use iceoryx2::service::port_factory::event;
+use iceoryx2::service::static_config::message_type_details::TypeDetail;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -84,7 +89,7 @@ impl Bus {
     /// # Errors
     /// [`PortError::Refused`].
     pub fn output<T: Message>(&self, topic: &str) -> Result<Output<T>, PortError> {
-        Ok(Output::new(topic, T::writer(self, topic)?, self.generation))
+        Ok(Output::new(topic, self.writer(topic, &message_type::<T>())?, self.generation))
     }
 
     /// A reader of `topic`.
@@ -112,12 +117,12 @@ impl Bus {
     /// [`PortError::Refused`].
     pub fn checkpoint<T: Message>(&self, topic: &str, within: Duration) -> Result<Option<Box<T>>, PortError> {
         let topic = topic::resume(topic);
-        let mut port = T::reader(self, &topic, false)?;
+        let mut port = self.port(&topic, &message_type::<T>(), false)?;
         let since = Instant::now();
         while since.elapsed() < within {
             port.receive(&mut |_, origin| self.run.is_supervisor(origin))?;
-            match port.newest() {
-                Some(message) => return Ok(self.usable(message)),
+            match port.newest().map(bytemuck::try_from_bytes) {
+                Some(message) => return Ok(message.ok().and_then(|message| self.usable(message))),
                 None => std::thread::sleep(CHECKPOINT_POLL),
             }
         }
@@ -154,8 +159,22 @@ impl Bus {
 
     fn reader<T: Message>(&self, topic: &str, waits: bool) -> Result<Input<T>, PortError> {
         self.may_read(topic)?;
-        let port = T::reader(self, topic, waits)?;
+        let port = self.port(topic, &message_type::<T>(), waits)?;
         Ok(Input::new(topic, port, self.run.clone(), self.refusals.clone()))
+    }
+
+    /// A reader of messages of `kind` on `topic`; one that `waits` hears the topic's event.
+    pub(crate) fn port(
+        &self,
+        topic: &str,
+        kind: &TypeDetail,
+        waits: bool,
+    ) -> Result<Box<dyn Reader>, PortError> {
+        Ok(Box::new(ZeroCopyReader::open(self, topic, kind, waits)?))
+    }
+
+    fn writer(&self, topic: &str, kind: &TypeDetail) -> Result<Box<dyn Writer>, PortError> {
+        Ok(Box::new(ZeroCopyWriter::open(self, topic, kind)?))
     }
 
     fn may_read(&self, topic: &str) -> Result<(), PortError> {
@@ -166,14 +185,17 @@ impl Bus {
     }
 
     /// The topic itself; every process asks for the same properties.
-    pub(crate) fn service<T: Headed>(
-        &self,
-        topic: &str,
-    ) -> Result<publish_subscribe::PortFactory<ipc::Service, T, ()>, PortError> {
-        self.node
-            .node()
-            .service_builder(&service_name(topic)?)
-            .publish_subscribe::<T>()
+    pub(crate) fn service(&self, topic: &str, kind: &TypeDetail) -> Result<AnyTopic, PortError> {
+        let builder = self.node.node().service_builder(&service_name(topic)?);
+        let builder = builder.publish_subscribe::<Bytes>().user_header::<NoHeader>();
+        // SAFETY: both details come from types of plain memory, and whoever opens the topic by other ones is refused; so what
+        // arrives has the size and alignment that are told here.
+        let builder = unsafe {
+            builder
+                .__internal_set_payload_type_details(kind)
+                .__internal_set_user_header_type_details(&header_type())
+        };
+        builder
             // A reader that hangs loses old messages; it never delays the writer.
             .enable_safe_overflow(true)
             .history_size(1)

@@ -4,6 +4,7 @@ use crate::refusals::topic_index;
 use crate::run_view::RunView;
 use crate::{Judge, Message, Origin, PortError, Refusals};
 use coact_messages::{Header, Refusal, topic};
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// Reader of one topic. It keeps the newest good message where its writer wrote it: nothing is copied.
@@ -13,9 +14,10 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Input<T: Message> {
     topic: String,
-    port: Box<dyn Reader<T>>,
+    port: Box<dyn Reader>,
     bench: Bench,
     received_ns: u64,
+    message: PhantomData<T>,
 }
 
 /// The judge of one topic, with what judgement needs.
@@ -31,7 +33,7 @@ struct Bench {
 impl<T: Message> Input<T> {
     pub(crate) fn new(
         topic: &str,
-        port: Box<dyn Reader<T>>,
+        port: Box<dyn Reader>,
         run: Arc<RunView>,
         refusals: Arc<Refusals>,
     ) -> Self {
@@ -42,7 +44,7 @@ impl<T: Message> Input<T> {
             writer: topic::writer(topic).map(str::to_owned),
             topic_index: topic_index(topic),
         };
-        Self { topic: topic.to_owned(), port, bench, received_ns: 0 }
+        Self { topic: topic.to_owned(), port, bench, received_ns: 0, message: PhantomData }
     }
 
     /// Takes in what has arrived, keeps the newest good message, and returns whether there was any.
@@ -60,7 +62,9 @@ impl<T: Message> Input<T> {
     pub fn each(&mut self, mut visit: impl FnMut(&T)) -> Result<usize, PortError> {
         let Self { port, bench, .. } = self;
         let mut count = 0;
-        let unreadable = port.receive(&mut |message, origin| {
+        let unreadable = port.receive(&mut |bytes, origin| {
+            // The topic was opened for this message: its size and alignment are right.
+            let Ok(message) = bytemuck::try_from_bytes(bytes) else { return false };
             let is_good = bench.is_good(message, origin);
             if is_good {
                 visit(message);
@@ -84,7 +88,7 @@ impl<T: Message> Input<T> {
 
     /// The newest good message taken in so far, however old it is.
     pub fn latest(&self) -> Option<&T> {
-        self.port.newest()
+        self.port.newest().and_then(|bytes| bytemuck::try_from_bytes(bytes).ok())
     }
 
     /// Its header.

@@ -40,6 +40,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod any_topic;
 mod arguments;
 mod bus;
 mod checkpoint;
@@ -48,7 +49,6 @@ mod cycle;
 mod cycle_accounting;
 mod each_topic;
 mod executor;
-mod headed;
 mod heartbeat;
 mod input;
 mod judge;
@@ -61,8 +61,7 @@ mod monotonic_clock;
 mod origin;
 mod output;
 mod places;
-#[doc(hidden)]
-pub mod port;
+mod port;
 mod port_error;
 mod process;
 mod process_error;
@@ -83,14 +82,13 @@ pub use arguments::Arguments;
 pub use bus::Bus;
 pub use checkpoint_store::CheckpointStore;
 pub use cycle::Cycle;
-pub use headed::Headed;
 pub use heartbeat::Heartbeat;
 pub use input::Input;
 pub use judge::Judge;
 pub use latency_probe::LatencyProbe;
 pub use loan::Loan;
 pub use log_style::LogStyle;
-pub use message::{Message, open_reader, open_writer};
+pub use message::Message;
 pub use monotonic_clock::{monotonic_time, now};
 pub use origin::Origin;
 pub use output::Output;

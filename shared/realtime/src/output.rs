@@ -1,6 +1,8 @@
 use crate::port::Writer;
 use crate::{Loan, Message, PortError};
 use coact_messages::Header;
+use std::marker::PhantomData;
+use std::ptr::NonNull;
 
 /// Writer of one topic.
 ///
@@ -8,14 +10,15 @@ use coact_messages::Header;
 #[derive(Debug)]
 pub struct Output<T: Message> {
     topic: String,
-    pub(crate) port: Box<dyn Writer<T>>,
+    pub(crate) port: Box<dyn Writer>,
     pub(crate) generation: u32,
     pub(crate) sequence: u64,
+    message: PhantomData<T>,
 }
 
 impl<T: Message> Output<T> {
-    pub(crate) fn new(topic: &str, port: Box<dyn Writer<T>>, generation: u32) -> Self {
-        Self { topic: topic.to_owned(), port, generation, sequence: 0 }
+    pub(crate) fn new(topic: &str, port: Box<dyn Writer>, generation: u32) -> Self {
+        Self { topic: topic.to_owned(), port, generation, sequence: 0, message: PhantomData }
     }
 
     /// Name of the topic.
@@ -33,7 +36,9 @@ impl<T: Message> Output<T> {
     /// # Errors
     /// [`PortError::Refused`] when readers hold all memory that there is.
     pub fn loan(&mut self) -> Result<Loan<'_, T>, PortError> {
-        let message = self.port.loan()?;
+        let message = bytemuck::try_from_bytes_mut(self.port.loan()?)
+            .map_err(|error| PortError::refused(&self.topic, "loaning a message", error))?;
+        let message = NonNull::from(message);
         Ok(Loan { output: self, message })
     }
 

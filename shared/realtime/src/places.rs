@@ -1,9 +1,9 @@
 //! Who may read a topic, and how many at once: the processes of the set, their replacements, and some viewers.
 
-use crate::{Headed, PortError};
+use crate::PortError;
+use crate::any_topic::AnyTopic;
 use coact_messages::{TopicEntry, topic};
-use iceoryx2::prelude::{CallbackProgression, PortFactory as _, ipc};
-use iceoryx2::service::port_factory::publish_subscribe::PortFactory;
+use iceoryx2::prelude::{CallbackProgression, PortFactory as _};
 
 /// Viewers of one topic: readers that are no process of the set. A trade-off, chosen by hand: each costs the memory of
 /// the messages that it may fall behind, 512 pulses for example.
@@ -30,11 +30,7 @@ fn belongs_to_set(entry: &TopicEntry, name: &str) -> bool {
 }
 
 /// Refuses a viewer that comes when as many read the topic as may.
-pub(crate) fn admit<T: Headed>(
-    topic: &str,
-    process: &str,
-    service: &PortFactory<ipc::Service, T, ()>,
-) -> Result<(), PortError> {
+pub(crate) fn admit(topic: &str, process: &str, service: &AnyTopic) -> Result<(), PortError> {
     let Some(entry) = topic::find(topic).filter(|entry| !belongs_to_set(entry, process)) else {
         return Ok(());
     };
@@ -44,7 +40,7 @@ pub(crate) fn admit<T: Headed>(
     }
 }
 
-fn viewers<T: Headed>(entry: &TopicEntry, service: &PortFactory<ipc::Service, T, ()>) -> usize {
+fn viewers(entry: &TopicEntry, service: &AnyTopic) -> usize {
     let mut viewers = 0;
     service.dynamic_config().list_subscribers(|reader| {
         viewers += usize::from(!belongs_to_set(entry, reader.subscriber_name.as_str()));
@@ -54,7 +50,7 @@ fn viewers<T: Headed>(entry: &TopicEntry, service: &PortFactory<ipc::Service, T,
 }
 
 /// In words, that no place is left on `topic`; `None` while there is one.
-pub(crate) fn crowd<T: Headed>(topic: &str, service: &PortFactory<ipc::Service, T, ()>) -> Option<String> {
+pub(crate) fn crowd(topic: &str, service: &AnyTopic) -> Option<String> {
     let entry = topic::find(topic)?;
     let (taken, places) = (service.dynamic_config().number_of_subscribers(), readers(topic));
     (taken >= places).then(|| {

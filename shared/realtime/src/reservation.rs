@@ -1,3 +1,4 @@
+use crate::any_topic::message_type;
 use crate::each_topic::{EachTopic, for_each_topic};
 use crate::{Bus, Message, PortError};
 use coact_messages::topic;
@@ -31,9 +32,9 @@ impl EachTopic for Reservation {
     fn topic<T: Message>(&mut self, topic: &str) -> Result<(), PortError> {
         // The reader is never read: what it does not take gives way to what is newer.
         if topic::reads(&self.process, topic) {
-            self.ports.push(Box::new(T::reader(&self.bus, topic, false)?));
+            self.ports.push(Box::new(self.bus.port(topic, &message_type::<T>(), false)?));
         } else if topic::writes(&self.process, topic) {
-            self.ports.push(Box::new(self.bus.service::<T>(topic)?));
+            self.ports.push(Box::new(self.bus.service(topic, &message_type::<T>())?));
         }
         Ok(())
     }

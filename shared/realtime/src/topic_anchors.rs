@@ -1,9 +1,10 @@
+use crate::any_topic::{AnyTopic, message_type};
 use crate::each_topic::{EachTopic, for_each_topic};
-use crate::{Bus, Headed, Message, PortError, places};
+use crate::{Bus, Message, PortError, places};
 use coact_messages::topic;
 use coact_pipeline::Pipeline;
 use iceoryx2::prelude::ipc;
-use iceoryx2::service::port_factory::{event, publish_subscribe};
+use iceoryx2::service::port_factory::event;
 
 /// Keeps all topics of a set open as long as it lives: whatever process dies, its replacement finds them.
 ///
@@ -11,19 +12,8 @@ use iceoryx2::service::port_factory::{event, publish_subscribe};
 /// before it starts the first process.
 #[derive(Default)]
 pub struct TopicAnchors {
-    topics: Vec<(String, Box<dyn Anchor>)>,
+    topics: Vec<(String, AnyTopic)>,
     events: Vec<event::PortFactory<ipc::Service>>,
-}
-
-/// An open topic, whatever its message.
-trait Anchor {
-    fn crowd(&self, topic: &str) -> Option<String>;
-}
-
-impl<T: Headed> Anchor for publish_subscribe::PortFactory<ipc::Service, T, ()> {
-    fn crowd(&self, topic: &str) -> Option<String> {
-        places::crowd(topic, self)
-    }
 }
 
 impl TopicAnchors {
@@ -45,7 +35,7 @@ impl TopicAnchors {
     /// In words, that a topic which `process` reads has no place left for it; `None` while all have.
     pub fn crowd(&self, process: &str) -> Option<String> {
         let read = self.topics.iter().filter(|(topic, _)| topic::reads(process, topic));
-        read.filter_map(|(topic, anchor)| anchor.crowd(topic)).next()
+        read.filter_map(|(topic, service)| places::crowd(topic, service)).next()
     }
 }
 
@@ -56,7 +46,7 @@ struct Creation<'a> {
 
 impl EachTopic for Creation<'_> {
     fn topic<T: Message>(&mut self, topic: &str) -> Result<(), PortError> {
-        self.anchors.topics.push((topic.to_owned(), Box::new(self.bus.service::<T>(topic)?)));
+        self.anchors.topics.push((topic.to_owned(), self.bus.service(topic, &message_type::<T>())?));
         if topic::announces(topic) {
             self.anchors.events.push(self.bus.event(topic)?);
         }

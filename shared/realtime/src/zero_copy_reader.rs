@@ -1,35 +1,37 @@
+use crate::any_topic::{Bytes, NoHeader};
 use crate::bus::MAX_WRITERS;
 use crate::monotonic_clock::timespec;
 use crate::port::Reader;
-use crate::{Bus, Headed, Origin, PortError, places};
+use crate::{Bus, Origin, PortError, places};
 use coact_messages::topic;
 use iceoryx2::port::{ReceiveError, listener::Listener, port_name::PortName, subscriber::Subscriber};
 use iceoryx2::prelude::{FileDescriptorBased, PayloadHeader, ipc};
 use iceoryx2::sample::Sample;
+use iceoryx2::service::static_config::message_type_details::TypeDetail;
 use rustix::event::{PollFd, PollFlags, poll};
 use std::os::fd::BorrowedFd;
 
 /// A reader over iceoryx2.
 #[derive(Debug)]
-pub(crate) struct ZeroCopyReader<T: Headed> {
+pub(crate) struct ZeroCopyReader {
     topic: String,
     // Declared before the subscriber: the message is given back before the port closes.
-    newest: Option<Sample<ipc::Service, T, ()>>,
-    subscriber: Subscriber<ipc::Service, T, ()>,
+    newest: Option<Sample<ipc::Service, Bytes, NoHeader>>,
+    subscriber: Subscriber<ipc::Service, Bytes, NoHeader>,
     listener: Option<Listener<ipc::Service>>,
     /// So many messages are taken in at one look: all that the queues of all writers hold, so that who sends without end keeps
     /// no reader from its cycle.
     most: usize,
 }
 
-impl<T: Headed> ZeroCopyReader<T> {
-    pub fn open(bus: &Bus, topic: &str, waits: bool) -> Result<Self, PortError> {
+impl ZeroCopyReader {
+    pub fn open(bus: &Bus, topic: &str, kind: &TypeDetail, waits: bool) -> Result<Self, PortError> {
         let listener = match waits {
             true => Some(bus.event(topic)?.listener_builder().create()),
             false => None,
         };
         let listener = listener.transpose().map_err(|error| PortError::refused(topic, "listening", error))?;
-        let service = bus.service::<T>(topic)?;
+        let service = bus.service(topic, kind)?;
         places::admit(topic, bus.process(), &service)?;
         // By its name a reader is known for one of the set, or for a viewer.
         let name = PortName::new(bus.process());
@@ -41,12 +43,13 @@ impl<T: Headed> ZeroCopyReader<T> {
     }
 }
 
-impl<T: Headed> Reader<T> for ZeroCopyReader<T> {
-    fn receive(&mut self, is_good: &mut dyn FnMut(&T, Origin) -> bool) -> Result<bool, PortError> {
+impl Reader for ZeroCopyReader {
+    fn receive(&mut self, is_good: &mut dyn FnMut(&[u8], Origin) -> bool) -> Result<bool, PortError> {
+        let mut unreadable = false;
         for _ in 0..self.most {
             let sample = match self.subscriber.receive() {
                 Ok(Some(sample)) => sample,
-                Ok(None) => return Ok(false),
+                Ok(None) => break,
                 // A sender whose memory is gone or cannot be mapped: the other senders can still be heard.
                 Err(ReceiveError::ConnectionFailure(_)) => return Ok(true),
                 Err(error) => return Err(PortError::refused(&self.topic, "receiving", error)),
@@ -55,15 +58,20 @@ impl<T: Headed> Reader<T> for ZeroCopyReader<T> {
                 publisher: sample.origin().value(),
                 pid: sample.header().node_id().pid::<ipc::Service>().map_or(0, |pid| pid.value() as u32),
             };
-            if is_good(&sample, origin) {
+            // Its sender says how many messages it holds: with another number than one it is none.
+            if sample.header().number_of_elements() != 1 {
+                unreadable = true;
+                continue;
+            }
+            if is_good(bytes(&sample), origin) {
                 self.newest = Some(sample);
             }
         }
-        Ok(false)
+        Ok(unreadable)
     }
 
-    fn newest(&self) -> Option<&T> {
-        self.newest.as_deref()
+    fn newest(&self) -> Option<&[u8]> {
+        self.newest.as_deref().map(bytes)
     }
 
     /// iceoryx2's own waits round up to whole milliseconds.
@@ -78,4 +86,9 @@ impl<T: Headed> Reader<T> for ZeroCopyReader<T> {
         listener.try_wait(|_| {}).map_err(|error| PortError::refused(&self.topic, "waiting", error))?;
         Ok(())
     }
+}
+
+fn bytes(payload: &Bytes) -> &[u8] {
+    // SAFETY: the marker is one byte, of any value.
+    unsafe { &*(std::ptr::from_ref(payload) as *const [u8]) }
 }

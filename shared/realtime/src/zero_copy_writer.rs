@@ -1,24 +1,25 @@
+use crate::any_topic::{Bytes, NoHeader};
 use crate::port::Writer;
-use crate::{Bus, Headed, PortError};
+use crate::{Bus, PortError};
 use coact_messages::topic;
 use iceoryx2::port::{notifier::Notifier, publisher::Publisher, update_connections::UpdateConnections};
 use iceoryx2::prelude::{BackpressureStrategy, ipc};
 use iceoryx2::sample_mut::SampleMut;
-use std::ptr::NonNull;
+use iceoryx2::service::static_config::message_type_details::TypeDetail;
 
 /// A writer over iceoryx2.
 #[derive(Debug)]
-pub(crate) struct ZeroCopyWriter<T: Headed> {
+pub(crate) struct ZeroCopyWriter {
     topic: String,
     // Declared before the publisher: the message is given back before the port closes.
-    loaned: Option<SampleMut<ipc::Service, T, ()>>,
-    publisher: Publisher<ipc::Service, T, ()>,
+    loaned: Option<SampleMut<ipc::Service, Bytes, NoHeader>>,
+    publisher: Publisher<ipc::Service, Bytes, NoHeader>,
     notifier: Option<Notifier<ipc::Service>>,
 }
 
-impl<T: Headed> ZeroCopyWriter<T> {
-    pub fn open(bus: &Bus, topic: &str) -> Result<Self, PortError> {
-        let service = bus.service::<T>(topic)?;
+impl ZeroCopyWriter {
+    pub fn open(bus: &Bus, topic: &str, kind: &TypeDetail) -> Result<Self, PortError> {
+        let service = bus.service(topic, kind)?;
         let notifier = match topic::announces(topic) {
             true => Some(bus.event(topic)?.notifier_builder().create()),
             false => None,
@@ -35,15 +36,18 @@ impl<T: Headed> ZeroCopyWriter<T> {
     }
 }
 
-impl<T: Headed> Writer<T> for ZeroCopyWriter<T> {
-    fn loan(&mut self) -> Result<NonNull<T>, PortError> {
+impl Writer for ZeroCopyWriter {
+    fn loan(&mut self) -> Result<&mut [u8], PortError> {
         self.loaned = None;
-        let sample = self.publisher.loan_uninit();
+        // SAFETY: one message at a time, of the size that the topic was opened with.
+        let sample = unsafe { self.publisher.loan_custom_payload(1) };
         let sample = sample.map_err(|error| PortError::refused(&self.topic, "loaning a message", error))?;
         // SAFETY: the payload lies in a shared-memory segment that the kernel filled with zeros and that only
-        // messages were written to since, so every byte is initialised; `T: Pod` accepts any bit pattern.
+        // messages without padding were written to since, so every byte is initialised.
         let sample = self.loaned.insert(unsafe { sample.assume_init() });
-        Ok(NonNull::from(sample.payload_mut()))
+        let bytes: *mut Bytes = sample.payload_mut();
+        // SAFETY: the marker is one byte, of any value, and the memory is borrowed as long as this writer.
+        Ok(unsafe { &mut *(bytes as *mut [u8]) })
     }
 
     fn send(&mut self) -> Result<(), PortError> {
