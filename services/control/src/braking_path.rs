@@ -1,5 +1,5 @@
-use crate::state::{ArmTrajectory, PathProgress};
-use coact_robot::{JointLimits, Posture};
+use crate::state::ArmTrajectory;
+use coact_robot::{JointLimits, PathProgress, Posture};
 
 /// Where the arm is until it stands, if it brakes along its trajectory as hard as the joints can.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +38,7 @@ impl BrakingPath {
         let point = |ahead: f64, at: f64| BrakingPoint { ahead, at, posture: trajectory.posture(at) };
         let mut path = Self { points: [point(0.0, progress.elapsed); Self::MOST], count: 1 };
         for step in 1..=KEPT * (Self::MOST - 1) {
-            progress = progress.towards(0.0, trajectory, limits, 1.0, STEP);
+            progress = progress.towards(0.0, trajectory.knots(), limits, 1.0, STEP);
             let stands = progress.stands();
             if stands || step.is_multiple_of(KEPT) {
                 path.points[path.count] = point(STEP * step as f64, progress.elapsed);

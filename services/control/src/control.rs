@@ -6,12 +6,12 @@ use crate::planning::{HandGoals, PlannerLink, PlanningThread, SkillPlanner};
 use crate::resynchronise::{holds, report_of};
 use crate::robot::{CollisionModels, RobotModel};
 use crate::servo::{ArmStep, Servo};
-use crate::state::{ControlState, PathProgress, SkillPhase};
+use crate::state::{ControlState, SkillPhase};
 use crate::{ControlError, reachability};
 use coact_joint_task::{Action, Task};
 use coact_messages::{Command, DriveReport, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
 use coact_period::PERIOD_S;
-use coact_robot::Robot;
+use coact_robot::{PathProgress, Robot};
 use coact_safety::SafetyLimits;
 use coact_stage_state::{Flag, StageState};
 

@@ -1,8 +1,8 @@
 //! Control goes on from where the drive is.
 
 use crate::Control;
-use crate::state::PathProgress;
 use coact_messages::{ARM_JOINTS, DriveMode, DriveReport, HoldReason, SensorSample};
+use coact_robot::PathProgress;
 use coact_stage_state::Flag;
 
 /// Setpoints that differ by less are the same, rad: rounding.

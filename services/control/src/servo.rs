@@ -1,13 +1,10 @@
-use crate::state::{ArmState, FINGER_JOINTS, FingerState, PathProgress, split};
+use crate::state::{ArmState, FINGER_JOINTS, FingerState, split};
 use coact_messages::{ARM_JOINTS, JOINTS};
 use coact_period::PERIOD_S;
-use coact_robot::{JointLimits, Limiter, MotionState, PointToPoint, Posture};
+use coact_robot::{JointLimits, Limiter, MotionState, PathProgress, PointToPoint, Posture};
 use coact_stage_state::Flag;
 
-/// Fractions of what the joints can bear with which a change of the speed override is tried, when a limiter refuses more: it
-/// looks ahead to the joint's stop, which the trajectory's present state does not tell. Chosen by hand.
-const EFFORTS: [f64; 4] = [1.0, 0.6, 0.3, 0.0];
-/// The same for an override that rises: nothing is urgent then, and a gentle start looks human.
+/// Fractions of what the joints can bear with which the override rises: nothing is urgent then, and a gentle start looks human.
 const GENTLE: [f64; 3] = [0.4, 0.2, 0.0];
 
 /// Turns trajectories and finger movements into setpoints, one cycle after the other, through the limiters.
@@ -107,10 +104,11 @@ impl Servo {
     /// The arm's next step along the trajectory, if the override goes towards `wanted`; none when the limiters refuse all:
     /// the arm cannot go on along it.
     pub fn step_towards(&self, arm: &ArmState, wanted: f64) -> Option<ArmStep> {
-        let efforts = if wanted < arm.progress.speed_override { &EFFORTS[..] } else { &GENTLE[..] };
+        let efforts =
+            if wanted < arm.progress.speed_override { &PathProgress::EFFORTS[..] } else { &GENTLE[..] };
         efforts.iter().find_map(|effort| {
             let limits = self.arm_limits();
-            let progress = arm.progress.towards(wanted, &arm.trajectory, limits, *effort, PERIOD_S);
+            let progress = arm.progress.towards(wanted, arm.trajectory.knots(), limits, *effort, PERIOD_S);
             let joints = self.accept(0, &arm.trajectory.at(progress.elapsed))?;
             Some(ArmStep { progress, joints })
         })

@@ -5,7 +5,7 @@ use coact_messages::{
     ARM_JOINTS, Command, CommandRefusal, DriveMode, DriveReport, HoldReason, JOINTS, LAYOUT,
 };
 use coact_period::{PERIOD_S, cycles};
-use coact_robot::{JointLimits, Limiter, MotionState};
+use coact_robot::{JointLimits, Limiter, MotionState, PathProgress};
 use coact_safety::DriveLimits;
 use coact_stage_state::{Flag, Implausible, ensure};
 
@@ -100,9 +100,9 @@ impl Drive {
             position: setpoints.map(|joint| joint.position),
             velocity: setpoints.map(|joint| joint.velocity),
             acceleration: setpoints.map(|joint| joint.acceleration),
-            elapsed: path.elapsed,
-            speed_override: path.speed_override,
-            override_rate: path.override_rate,
+            elapsed: path.progress.elapsed,
+            speed_override: path.progress.speed_override,
+            override_rate: path.progress.override_rate,
             on_path: u32::from(path.is_followed.is_set()),
             mode: *mode as u32,
             hold: *hold as u32,
@@ -163,15 +163,16 @@ impl Drive {
             self.bridge();
             self.state.mode = DriveMode::Bridging;
         } else {
-            self.brake(0..JOINTS);
+            self.brake_along_path();
+            self.brake(ARM_JOINTS..JOINTS);
             self.state.mode = if self.stands() { DriveMode::Standing } else { DriveMode::Braking };
         }
     }
 
     /// The arm goes on along its path, the fingers with the acceleration that they have; what cannot brakes.
     fn bridge(&mut self) {
-        if !self.go_on_along_path() {
-            self.brake(0..ARM_JOINTS);
+        if !self.take(self.state.path.next()) {
+            self.brake_along_path();
         }
         for joint in ARM_JOINTS..JOINTS {
             let MotionState { position, velocity, acceleration } = self.state.setpoints[joint];
@@ -183,18 +184,26 @@ impl Drive {
         }
     }
 
-    /// Whether the arm could go on along its path.
-    fn go_on_along_path(&mut self) -> bool {
+    /// One cycle of braking of the arm: along its path, as hard as its joints can; where that cannot be, each joint for itself.
+    fn brake_along_path(&mut self) {
+        let Some(limits) = self.limits.first_chunk::<ARM_JOINTS>().copied() else { return };
+        let braked = |drive: &mut Self, effort| drive.take(drive.state.path.braked(&limits, effort));
+        if !PathProgress::EFFORTS.into_iter().any(|effort| braked(self, effort)) {
+            self.brake(0..ARM_JOINTS);
+        }
+    }
+
+    /// Takes the arm there on its path; `false`, and nothing changed, when it is not on it, or when a limiter refuses.
+    fn take(&mut self, (arm, progress): ([MotionState; ARM_JOINTS], PathProgress)) -> bool {
         if !self.state.path.is_followed.is_set() {
             return false;
         }
-        let (arm, path) = self.state.path.next();
         let mut setpoints = self.state.setpoints;
         for (joint, wanted) in arm.iter().enumerate() {
             let Some(next) = self.accept(joint, wanted.position) else { return false };
             setpoints[joint] = next;
         }
-        (self.state.setpoints, self.state.path) = (setpoints, path);
+        (self.state.setpoints, self.state.path.progress) = (setpoints, progress);
         true
     }
 

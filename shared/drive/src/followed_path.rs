@@ -1,7 +1,7 @@
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::{ARM_JOINTS, ArmPath, Command};
 use coact_period::PERIOD_S;
-use coact_robot::{Knot, MotionState, state_at};
+use coact_robot::{JointLimits, Knot, MotionState, PathProgress, state_at};
 use coact_stage_state::{Flag, Implausible, ensure, finite};
 
 /// The path of the command that was followed last, and how far the arm has come on it.
@@ -10,12 +10,7 @@ use coact_stage_state::{Flag, Implausible, ensure, finite};
 pub(crate) struct FollowedPath {
     knots: [Knot; ArmPath::KNOTS],
     count: u64,
-    /// Time of the path, s.
-    pub elapsed: f64,
-    /// Fraction of the planned speed.
-    pub speed_override: f64,
-    /// Change of that, 1/s.
-    pub override_rate: f64,
+    pub progress: PathProgress,
     /// Whether the arm's setpoints lie on it.
     pub is_followed: Flag,
 }
@@ -36,20 +31,36 @@ impl FollowedPath {
         let count = path.count as usize;
         self.knots[..count].copy_from_slice(bytemuck::cast_slice(&path.knots[..count]));
         self.count = path.count;
-        (self.elapsed, self.speed_override, self.override_rate) =
-            (path.elapsed, path.speed_override, path.override_rate);
+        self.progress = PathProgress {
+            elapsed: path.elapsed,
+            speed_override: path.speed_override,
+            override_rate: path.override_rate,
+        };
         let lies_on_it = || {
-            let here = state_at(self.knots(), self.elapsed);
+            let here = state_at(self.knots(), self.progress.elapsed);
             here.iter().zip(&command.position).all(|(here, there)| (here.position - there).abs() <= EXACT)
         };
         self.is_followed = Flag::from(self.check().is_ok() && lies_on_it());
     }
 
-    /// State of the arm a cycle later if it goes on as it does, and the path with that progress.
-    pub fn next(&self) -> ([MotionState; ARM_JOINTS], Self) {
-        let speed_override = (self.speed_override + PERIOD_S * self.override_rate).clamp(0.0, 1.0);
-        let elapsed = self.elapsed + PERIOD_S * speed_override;
-        (state_at(self.knots(), elapsed), Self { elapsed, speed_override, ..*self })
+    /// State of the arm a cycle later if it goes on as it does, and the progress with that.
+    pub fn next(&self) -> ([MotionState; ARM_JOINTS], PathProgress) {
+        let PathProgress { elapsed, speed_override, override_rate } = self.progress;
+        let speed_override = (speed_override + PERIOD_S * override_rate).clamp(0.0, 1.0);
+        self.at(PathProgress { elapsed: elapsed + PERIOD_S * speed_override, speed_override, override_rate })
+    }
+
+    /// The same if it brakes with this fraction of what its joints can bear.
+    pub fn braked(
+        &self,
+        limits: &[JointLimits; ARM_JOINTS],
+        effort: f64,
+    ) -> ([MotionState; ARM_JOINTS], PathProgress) {
+        self.at(self.progress.towards(0.0, self.knots(), limits, effort, PERIOD_S))
+    }
+
+    fn at(&self, progress: PathProgress) -> ([MotionState; ARM_JOINTS], PathProgress) {
+        (state_at(self.knots(), progress.elapsed), progress)
     }
 
     fn knots(&self) -> &[Knot] {
@@ -61,9 +72,10 @@ impl FollowedPath {
         finite("drive.path", bytemuck::cast_slice(self.knots()))?;
         let ascends = self.knots().windows(2).all(|pair| pair[0].t < pair[1].t);
         ensure(ascends, "drive.path", "knots in the order of their times")?;
-        finite("drive.path.elapsed", &[self.elapsed])?;
-        let is_fraction = (0.0..=1.0).contains(&self.speed_override);
+        let PathProgress { elapsed, speed_override, override_rate } = self.progress;
+        finite("drive.path.elapsed", &[elapsed])?;
+        let is_fraction = (0.0..=1.0).contains(&speed_override);
         ensure(is_fraction, "drive.path.speed_override", "a fraction")?;
-        ensure(self.override_rate.abs() <= MOST_RATE, "drive.path.override_rate", "a rate that it can have")
+        ensure(override_rate.abs() <= MOST_RATE, "drive.path.override_rate", "a rate that it can have")
     }
 }

@@ -257,26 +257,52 @@ fn joints_reach_their_speed_limit_in_these_tests() {
     assert!(rig.used[0] > 0.95 && rig.used[1] > 0.95, "{:?}", rig.used);
 }
 
+/// A path of one second, of all joints of the arm alike.
+fn path(t: f64) -> f64 {
+    0.1 + 0.3 * t.powi(3) * (10.0 - 15.0 * t + 6.0 * t * t)
+}
+
+/// The command of a control that follows that path at its planned speed.
+fn command_on_path(rig: &mut Rig, cycle: u64) {
+    rig.tick = 100 + cycle;
+    rig.sequence = cycle;
+    rig.next_good(0.0);
+    let elapsed = PERIOD_S * cycle as f64;
+    let command = &mut rig.command;
+    (command.path.count, command.path.followed) = (2, 1);
+    (command.path.elapsed, command.path.speed_override) = (elapsed, 1.0);
+    command.path.knots[0].states = [[0.1, 0.0, 0.0]; ARM_JOINTS];
+    command.path.knots[1].states = [[0.4, 0.0, 0.0]; ARM_JOINTS];
+    command.path.knots[1].t = 1.0;
+    command.position[..ARM_JOINTS].fill(path(elapsed));
+}
+
+#[test]
+fn when_commands_stop_the_arm_brakes_along_its_path() {
+    let mut rig = Rig::new();
+    for cycle in 1..400 {
+        command_on_path(&mut rig, cycle);
+        rig.step(true, HoldReason::None);
+    }
+    let (alone, mut cycles) = (rig.stopping(), 0);
+    while !rig.stands() {
+        let report = rig.step(false, HoldReason::None);
+        assert_eq!(report.on_path, 1, "after {cycles} cycles");
+        for joint in 0..ARM_JOINTS {
+            assert!((report.position[joint] - path(report.elapsed)).abs() < 1e-9);
+        }
+        cycles += 1;
+    }
+    // Two cycles are bridged; and no joint brakes harder than the one that can least.
+    assert!(cycles <= 2 + alone + alone / 4 + 5, "{cycles} cycles; the joints alone need {alone}");
+    assert_eq!(rig.drive.report().mode, DriveMode::Standing as u32);
+}
+
 #[test]
 fn one_lost_command_is_bridged_along_the_path_and_the_next_one_is_followed() {
     let mut rig = Rig::new();
-    // A path of one second, and control that follows it.
-    let path = |t: f64| 0.1 + 0.3 * t.powi(3) * (10.0 - 15.0 * t + 6.0 * t * t);
-    let command_at = |rig: &mut Rig, cycle: u64| {
-        rig.tick = 100 + cycle;
-        rig.sequence = cycle;
-        rig.next_good(0.0);
-        let elapsed = PERIOD_S * cycle as f64;
-        let command = &mut rig.command;
-        (command.path.count, command.path.followed) = (2, 1);
-        (command.path.elapsed, command.path.speed_override) = (elapsed, 1.0);
-        command.path.knots[0].states = [[0.1, 0.0, 0.0]; ARM_JOINTS];
-        command.path.knots[1].states = [[0.4, 0.0, 0.0]; ARM_JOINTS];
-        command.path.knots[1].t = 1.0;
-        command.position[..ARM_JOINTS].fill(path(elapsed));
-    };
     for cycle in 1..300 {
-        command_at(&mut rig, cycle);
+        command_on_path(&mut rig, cycle);
         assert_eq!(rig.step(true, HoldReason::None).on_path, 1, "cycle {cycle}");
     }
     for lost in [1, 2] {
@@ -288,7 +314,7 @@ fn one_lost_command_is_bridged_along_the_path_and_the_next_one_is_followed() {
             assert!((report.position[3] - path(PERIOD_S * (cycle) as f64)).abs() < 1e-9);
         }
         for cycle in from + lost..from + lost + 20 {
-            command_at(&mut rig, cycle);
+            command_on_path(&mut rig, cycle);
             assert_eq!(rig.step(true, HoldReason::None).mode, DriveMode::Following as u32, "cycle {cycle}");
         }
     }

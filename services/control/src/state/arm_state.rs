@@ -1,6 +1,6 @@
-use super::{ArmTrajectory, PathProgress};
+use super::ArmTrajectory;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
-use coact_robot::{MotionState, Posture};
+use coact_robot::{MotionState, PathProgress, Posture};
 use coact_stage_state::{Flag, Implausible, ensure, finite};
 
 /// How the arm moves.
@@ -79,7 +79,10 @@ impl ArmState {
 
     pub fn check(&self) -> Result<(), Implausible> {
         self.trajectory.check("arm.trajectory")?;
-        self.progress.check()?;
+        let PathProgress { elapsed, speed_override, override_rate } = self.progress;
+        ensure(elapsed >= 0.0, "arm.progress.elapsed", "a time from 0 s on")?;
+        ensure((0.0..=1.0).contains(&speed_override), "arm.progress.speed_override", "a fraction")?;
+        finite("arm.progress.override_rate", &[override_rate])?;
         ensure((0.0..=1.0).contains(&self.fastest), "arm.fastest", "a fraction")?;
         finite("arm.enclosed", &[self.enclosed])
     }

@@ -1,7 +1,7 @@
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::ArmPath;
 use coact_motion::{Plan, SegmentKind};
-use coact_robot::{Knot, MotionState, Posture, jerk_at, state_at};
+use coact_robot::{Knot, MotionState, Posture, state_at};
 use coact_stage_state::{Flag, Implausible, bounded, ensure, finite};
 
 /// A planned trajectory of the arm, of fixed size, so that it is part of the state: a restarted control goes on with it.
@@ -64,11 +64,6 @@ impl ArmTrajectory {
         self.knots[0].states.iter().all(MotionState::is_at_rest)
     }
 
-    /// Jerk of each joint `t` s after the start, rad/s³; 0 outside the movement.
-    pub fn jerk_at(&self, t: f64) -> Posture {
-        jerk_at(self.knots(), t)
-    }
-
     /// Posture `t` s after the start, rad.
     pub fn posture(&self, t: f64) -> Posture {
         self.at(t).map(|state| state.position)
@@ -107,7 +102,8 @@ impl ArmTrajectory {
         path.knots[..knots.len()].copy_from_slice(bytemuck::cast_slice(knots));
     }
 
-    fn knots(&self) -> &[Knot] {
+    /// Its knots.
+    pub fn knots(&self) -> &[Knot] {
         &self.knots[..(self.count as usize).min(Plan::KNOTS)]
     }
 }

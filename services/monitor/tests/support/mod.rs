@@ -169,6 +169,7 @@ pub fn pulse(cycle: u64, late_ns: u64) -> Pulse {
 }
 
 /// Measures distances of the shipped robot.
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 pub fn separation_meter() -> coact_separation::SeparationMeter {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config");
     let robot =

@@ -1,12 +1,10 @@
-use super::ArmTrajectory;
+use crate::{JointLimits, Knot, jerk_at, state_at, towards_zero};
 use bytemuck::{Pod, Zeroable};
-use coact_robot::{JointLimits, towards_zero};
-use coact_stage_state::{Implausible, ensure, finite};
 
 /// How far the arm has come along its trajectory, and how fast it goes on there.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub(crate) struct PathProgress {
+pub struct PathProgress {
     /// Time of the trajectory, s.
     pub elapsed: f64,
     /// Speed override: fraction of its planned speed at which it goes on, 0 to 1.
@@ -28,6 +26,9 @@ struct OverrideLimits {
 /// Fraction of the joints' acceleration and jerk that a change of the override uses. Chosen by hand: the rest is for what
 /// the trajectory needs in the next cycles, which the present ones do not tell.
 const USED: f64 = 0.9;
+/// Fraction of that jerk with which the end of a change is foreseen. Chosen by hand: a joint that the trajectory makes faster
+/// meanwhile can bear less by then.
+const FORESEEN: f64 = 0.7;
 /// Where the trajectory stands almost still, the override may change at most so fast, 1/s, and so suddenly, 1/s². Chosen by
 /// hand: far more than a moving arm can bear.
 const MOST_RATE: f64 = 50.0;
@@ -38,6 +39,9 @@ const ARRIVED: (f64, f64) = (1e-4, 1e-2);
 const TINY: f64 = 1e-9;
 
 impl PathProgress {
+    /// Fractions of what the joints can bear with which braking is tried, when a [`Limiter`](crate::Limiter) refuses more: it looks
+    /// ahead to the joint's stop, which the trajectory's present state does not tell. Chosen by hand.
+    pub const EFFORTS: [f64; 4] = [1.0, 0.6, 0.3, 0.0];
     /// At the start of a trajectory, at its planned speed.
     pub const START: Self = Self { elapsed: 0.0, speed_override: 1.0, override_rate: 0.0 };
 
@@ -51,12 +55,12 @@ impl PathProgress {
         self.speed_override == 0.0 && self.override_rate == 0.0
     }
 
-    /// Progress after `dt` s in which the override goes to `wanted`, 0 to 1, as fast as the joints' limits allow, times
+    /// Progress on the trajectory through these knots after `dt` s in which the override goes to `wanted`, 0 to 1, as fast as the joints' limits allow, times
     /// `effort`.
     pub fn towards(
         &self,
         wanted: f64,
-        trajectory: &ArmTrajectory,
+        knots: &[Knot],
         limits: &[JointLimits; 7],
         effort: f64,
         dt: f64,
@@ -65,10 +69,16 @@ impl PathProgress {
         if away == 0.0 && self.override_rate == 0.0 {
             return Self { elapsed: self.elapsed + dt * wanted, ..*self };
         }
-        let OverrideLimits { falling, rising, change, usual_change } =
-            self.override_limits(trajectory, limits);
+        let OverrideLimits { falling, rising, change, usual_change } = self.override_limits(knots, limits);
         let most = effort * if away > 0.0 { falling } else { rising };
-        let rate = towards_zero(away, self.override_rate, most, effort * usual_change, dt);
+        let foreseen = effort * FORESEEN * usual_change;
+        let needed = self.override_rate.powi(2) / (2.0 * away.abs().max(TINY));
+        let rate = if away * self.override_rate < 0.0 && needed > foreseen {
+            // It has come nearer than was foreseen: the change ends harder.
+            self.override_rate + away.signum() * dt * needed.min(usual_change)
+        } else {
+            towards_zero(away, self.override_rate, most, foreseen, dt)
+        };
         let rate = rate.clamp(self.override_rate - dt * change.0, self.override_rate + dt * change.1);
         let speed_override = self.speed_override + dt * rate;
         let has_arrived = (speed_override - wanted).abs() < ARRIVED.0 && rate.abs() < ARRIVED.1;
@@ -83,7 +93,7 @@ impl PathProgress {
 
     /// With q the planned movement and s the override, a joint's acceleration is q'' s² + q' s' and its jerk
     /// q''' s³ + 3 q'' s s' + q' s''.
-    fn override_limits(&self, trajectory: &ArmTrajectory, limits: &[JointLimits; 7]) -> OverrideLimits {
+    fn override_limits(&self, knots: &[Knot], limits: &[JointLimits; 7]) -> OverrideLimits {
         let (s, rate) = (self.speed_override, self.override_rate);
         let mut bounds = OverrideLimits {
             falling: MOST_RATE,
@@ -91,7 +101,7 @@ impl PathProgress {
             change: (MOST_CHANGE, MOST_CHANGE),
             usual_change: MOST_CHANGE,
         };
-        let (states, jerks) = (trajectory.at(self.elapsed), trajectory.jerk_at(self.elapsed));
+        let (states, jerks) = (state_at(knots, self.elapsed), jerk_at(knots, self.elapsed));
         for ((state, planned_jerk), limit) in states.iter().zip(jerks).zip(limits) {
             let (most, most_jerk) = (USED * limit.acceleration, USED * limit.jerk);
             // What of a limit is left for a change of the override by `slope` per unit, in the direction `sign`.
@@ -111,11 +121,5 @@ impl PathProgress {
             bounds.change.1 = bounds.change.1.min(room(most_jerk, used, velocity, 1.0));
         }
         bounds
-    }
-
-    pub fn check(&self) -> Result<(), Implausible> {
-        ensure(self.elapsed >= 0.0, "arm.progress.elapsed", "a time from 0 s on")?;
-        ensure((0.0..=1.0).contains(&self.speed_override), "arm.progress.speed_override", "a fraction")?;
-        finite("arm.progress.override_rate", &[self.override_rate])
     }
 }
