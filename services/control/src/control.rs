@@ -9,7 +9,9 @@ use crate::servo::{ArmStep, Servo};
 use crate::state::{ControlState, SkillPhase};
 use crate::{ControlError, reachability};
 use coact_joint_task::{Action, Task};
-use coact_messages::{Command, DriveReport, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample};
+use coact_messages::{
+    ARM_JOINTS, Command, DriveReport, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample,
+};
 use coact_period::PERIOD_S;
 use coact_robot::{PathProgress, Robot};
 use coact_safety::SafetyLimits;
@@ -176,10 +178,23 @@ impl Control {
         match person.filter(|_| !inputs.blind()) {
             None => self.servo.brake(&mut self.state.arm, &mut self.state.fingers),
             Some(person) => {
-                let step = self.arm_step(&person);
-                self.servo.advance(&mut self.state.arm, &mut self.state.fingers, step);
+                let (step, fingers) = (self.arm_step(&person), self.fingers_may_move(&person));
+                let ControlState { arm, fingers: moved, .. } = &mut self.state;
+                self.servo.advance(arm, step, moved, fingers);
             }
         }
+    }
+
+    /// Whether the guard lets the fingers go on. Those that hold something stay around it, or let it go where it is.
+    fn fingers_may_move(&mut self, person: &PersonCapsules) -> bool {
+        let (grip, position) = (self.held_in(), self.servo.position());
+        if grip.is_some() || self.state.fingers.has_arrived() {
+            return true;
+        }
+        let mut goal = position;
+        goal[ARM_JOINTS..].copy_from_slice(&self.state.fingers.target);
+        let [closure, target] = [position, goal].map(|joints| coact_messages::finger_closure(&joints));
+        self.guard.admits_fingers(&Moving { state: &self.state, grip, closure }, target, person)
     }
 
     /// The arm's next step, as fast as the guard admits; none: it brakes.

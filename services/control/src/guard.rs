@@ -3,6 +3,7 @@ use crate::person_capsules::{BodyPart, PersonCapsules};
 use crate::robot::{CollisionModels, FingerShape, RobotModel};
 use crate::state::ControlState;
 use coact_motion::{Capsule, CollisionModel, Mechanism};
+use coact_period::PERIOD_S;
 use coact_robot::{JointLimits, RobotError};
 use coact_safety::GuardLimits;
 
@@ -109,6 +110,28 @@ impl Guard {
             let robot = Approach { start, before, links, hands, span: point.ahead - earlier.ahead };
             let touches = moving.state.may_touch_person(point.at);
             person.parts().all(|part| robot.is_clear_of(part, point.ahead, touches, kept, limits))
+        })
+    }
+}
+
+impl Guard {
+    /// Whether the fingers of an empty hand may go on towards `closure`, rad: with them it comes no nearer to the person than it
+    /// is while she moves, or keeps the protective separation.
+    pub fn admits_fingers(&mut self, moving: &Moving, closure: f64, person: &PersonCapsules) -> bool {
+        let Self { limits, mechanism, empty, bases, start, links, .. } = self;
+        let (progress, kept) = (moving.state.arm.progress, limits.protective_separation);
+        let posture = moving.state.arm.trajectory.posture(progress.elapsed);
+        let model = &empty[shape(bases, closure)];
+        empty[shape(bases, moving.closure)].moving_bounding_capsules(mechanism, &posture, start);
+        model.moving_bounding_capsules(mechanism, &posture, links);
+        let robot = Approach { start, before: start, links, hands: model.moving_hands(), span: PERIOD_S };
+        let touches = moving.state.may_touch_person(progress.elapsed);
+        // Beside a hand that waits they may take their shape: it would wait for them, and they for it.
+        let moving = person.parts().filter(|part| part.moves() && !(touches && part.hands_over));
+        moving.into_iter().all(|part| {
+            let here = part.after(0.0);
+            let nearest = robot.nearest(robot.links, true, &here, kept);
+            nearest >= kept || nearest >= robot.nearest(robot.start, true, &here, kept) - EXACT
         })
     }
 }

@@ -41,6 +41,9 @@ pub(crate) struct BodyPart {
 /// Shorter than this, a forearm has no direction, m.
 const SHORTEST: f64 = 1e-6;
 
+/// A hand that is slower rests, m/s: a tracker of 60 Hz does not tell it from one that stands.
+const RESTS: f64 = 0.05;
+
 impl PersonCapsules {
     /// Around the arm that perception has estimated, as it was seen last; none when it never was, or when its numbers are not
     /// finite. A hand whose end was never seen goes on along the forearm.
@@ -133,6 +136,11 @@ impl BodyPart {
             bound: None,
             hands_over: false,
         }
+    }
+
+    /// Whether it is known not to rest.
+    pub fn moves(&self) -> bool {
+        self.speed > RESTS
     }
 
     /// Where it is `ahead` s from now, if it goes on as it moves.

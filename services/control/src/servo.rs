@@ -75,13 +75,24 @@ impl Servo {
         }
     }
 
-    /// One cycle: the arm takes this step, or brakes; the fingers go on in their movement.
-    pub fn advance(&mut self, arm: &mut ArmState, fingers: &mut FingerState, step: Option<ArmStep>) {
+    /// One cycle: the arm takes this step, or brakes; the fingers go on in their movement, or brake.
+    pub fn advance(
+        &mut self,
+        arm: &mut ArmState,
+        step: Option<ArmStep>,
+        fingers: &mut FingerState,
+        fingers_move: bool,
+    ) {
         match step {
             Some(step) => self.take(arm, &step),
             None => self.brake_arm(arm),
         }
-        self.advance_fingers(fingers);
+        if fingers_move {
+            self.advance_fingers(fingers);
+        } else {
+            fingers.braking = Flag::Set;
+            self.brake_joints(ARM_JOINTS..JOINTS);
+        }
     }
 
     /// One cycle of braking: the arm along its trajectory, the fingers where they are.
