@@ -116,13 +116,13 @@ fn a_lost_part_that_only_the_person_has_is_asked_for() {
         "insert: wheel on the robot's side",
         "insert: nut on the robot's side",
     ];
-    check("lost-last-part", 32, &expected, &["report"]);
+    check("lost-last-part", 45, &expected, &["report"]);
 }
 
 #[test]
-fn without_any_observation_the_robot_goes_on_by_itself() {
-    let expected = ["insert: wheel on the robot's side", "insert: nut on the robot's side"];
-    check("absent", 14, &expected, &["error", "steady", "receive"]);
+fn without_any_observation_the_robot_decides_by_itself_but_stands_for_nobody_knows_where_the_person_is() {
+    let expected = ["insert: wheel on the robot's side"];
+    check("absent", 14, &expected, &["error", "steady", "receive", "insert: nut"]);
 }
 
 #[test]
