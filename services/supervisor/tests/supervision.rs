@@ -273,10 +273,8 @@ fn a_real_time_process_that_is_silent_while_another_goes_on_is_replaced_within_m
         trial.events.extend(trial.set.take_events());
     }
     let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
-    assert_eq!(
-        (died.process.as_str(), died.reason.as_deref()),
-        ("a", Some("hung: no pulse for more than 10 ms"))
-    );
+    // A machine that is late itself gets more time.
+    assert!(died.process == "a" && died.reason.as_deref().is_some_and(|reason| reason.starts_with("hung: ")));
     // A pulse counts from the look before it, which is 4 ms ago at most.
     let silent = last_pulse.elapsed();
     assert!(silent > limit - Duration::from_millis(4), "killed after {silent:?}");

@@ -18,7 +18,7 @@ const RESTART: RestartPolicy = RestartPolicy {
     window: Duration::from_secs(30),
     backoff_initial: Duration::from_millis(10),
     backoff_max: Duration::from_secs(2),
-    hung_after: Duration::from_millis(10),
+    hung_after: Duration::from_millis(100),
 };
 /// A shorter silence would take a process for hung that is a few cycles late: after a fault, a stall, or when peers join.
 /// Chosen by hand.
