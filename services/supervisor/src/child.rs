@@ -1,11 +1,11 @@
 use crate::{ProcessSpec, StderrTail};
 use coact_pipeline::GENERATION_VARIABLE;
-use coact_realtime::SchedulingClass;
+use coact_realtime::{RequestedFault, SchedulingClass};
 use rustix::process::{
     Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal, set_parent_process_death_signal,
 };
 use std::io;
-use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
+use std::os::fd::{AsFd, AsRawFd, BorrowedFd, OwnedFd};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
@@ -73,6 +73,19 @@ impl RunningChild {
             && error != rustix::io::Errno::SRCH
         {
             tracing::warn!("process {}: cannot send {signal:?}: {error}", self.pid());
+        }
+    }
+
+    /// Requests that it does a fault to itself. As with [`RunningChild::signal`], it may be dead already.
+    pub(crate) fn request(&self, fault: RequestedFault) {
+        // rustix sends no real-time signals, which belong to libc.
+        // SAFETY: a system call with a descriptor that is open, a number, and no pointer to anything.
+        let sent = unsafe {
+            libc::syscall(libc::SYS_pidfd_send_signal, self.pidfd.as_raw_fd(), fault.signal(), 0, 0)
+        };
+        let error = io::Error::last_os_error();
+        if sent != 0 && error.raw_os_error() != Some(libc::ESRCH) {
+            tracing::warn!("process {}: cannot request {fault:?}: {error}", self.pid());
         }
     }
 

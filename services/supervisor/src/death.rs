@@ -69,7 +69,6 @@ fn signal_name(signal: Signal) -> String {
         Signal::SEGV => "SIGSEGV (invalid memory access)",
         Signal::BUS => "SIGBUS (shared memory is full, or was removed)",
         Signal::ABORT => "SIGABRT",
-        Signal::USR1 => "SIGUSR1",
         other => return format!("signal {}", other.as_raw()),
     };
     name.into()

@@ -1,36 +1,133 @@
+use coact_realtime::RequestedFault;
+use rustix::process::Signal;
 use std::fmt;
 use std::str::FromStr;
+use std::time::Duration;
 
 /// A fault that can be injected into a process of a running set.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Fault {
     /// SIGKILL: the process ends at once, and cannot clean up.
     Kill,
-    /// SIGSTOP, then SIGCONT after [`Fault::PAUSE`]: the process hangs.
+    /// SIGSTOP, then SIGCONT after two seconds: longer than any watchdog allows.
     Stop,
-    /// SIGUSR1: the process's cycles overrun their period for a while.
+    /// SIGSTOP, then SIGCONT after 50 ms.
+    StopShort,
+    /// SIGSTOP, and no SIGCONT.
+    StopForGood,
+    /// SIGABRT: the process ends as by `abort`.
+    Abort,
+    /// Its main thread panics.
+    Panic,
+    /// It ends with exit status 0.
+    ExitSuccess,
+    /// It ends with exit status 1.
+    ExitFailure,
+    /// Its cycles take half a period longer for a while.
+    SlowByHalf,
+    /// Its cycles overrun their period for a while, by two periods.
     Slow,
+    /// The same by five.
+    SlowByFive,
     /// SIGKILL, and the next replacement is killed as well before it is ready.
     CrashOnStart,
+    /// SIGKILL, and every replacement is killed before it is ready.
+    CrashLoop,
+    /// SIGKILL, and the next replacement stands still before it is ready.
+    StuckOnStart,
+}
+
+/// By what a fault is injected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Means {
+    /// A signal that the process cannot resist.
+    Signal(Signal),
+    /// SIGSTOP, and SIGCONT after this time.
+    Pause(Duration),
+    /// The process does it to itself.
+    Request(RequestedFault),
 }
 
 impl Fault {
     /// Every fault, in the order in which messages name them.
-    pub const ALL: [Self; 4] = [Self::Kill, Self::Stop, Self::Slow, Self::CrashOnStart];
-
-    /// How long [`Fault::Stop`] stops a process. Chosen by hand: longer than the watchdog allows (500 ms), so that the
-    /// process is replaced.
-    pub const PAUSE: std::time::Duration = std::time::Duration::from_secs(2);
+    pub const ALL: [Self; 14] = [
+        Self::Kill,
+        Self::Stop,
+        Self::StopShort,
+        Self::StopForGood,
+        Self::Abort,
+        Self::Panic,
+        Self::ExitSuccess,
+        Self::ExitFailure,
+        Self::SlowByHalf,
+        Self::Slow,
+        Self::SlowByFive,
+        Self::CrashOnStart,
+        Self::CrashLoop,
+        Self::StuckOnStart,
+    ];
 
     /// The name that the command line uses.
     pub fn name(self) -> &'static str {
         match self {
             Self::Kill => "kill",
             Self::Stop => "stop",
+            Self::StopShort => "stop-50ms",
+            Self::StopForGood => "stop-for-good",
+            Self::Abort => "abort",
+            Self::Panic => "panic",
+            Self::ExitSuccess => "exit-0",
+            Self::ExitFailure => "exit-1",
+            Self::SlowByHalf => "slow-half",
             Self::Slow => "slow",
+            Self::SlowByFive => "slow-five",
             Self::CrashOnStart => "crash-on-start",
+            Self::CrashLoop => "crash-loop",
+            Self::StuckOnStart => "stuck-on-start",
         }
+    }
+
+    /// What it does, in a few words.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Kill => "SIGKILL",
+            Self::Stop => "stands still for two seconds, or until it is replaced as hung",
+            Self::StopShort => "stands still for 50 ms, or until it is replaced as hung",
+            Self::StopForGood => "stands still until it is replaced as hung",
+            Self::Abort => "SIGABRT",
+            Self::Panic => "its main thread panics",
+            Self::ExitSuccess => "ends with exit status 0",
+            Self::ExitFailure => "ends with exit status 1",
+            Self::SlowByHalf => "its cycles take half a period longer for a while",
+            Self::Slow => "its cycles overrun for a while, by two periods",
+            Self::SlowByFive => "the same by five periods",
+            Self::CrashOnStart => "SIGKILL, and once more while its replacement starts",
+            Self::CrashLoop => "SIGKILL, and again while each replacement starts",
+            Self::StuckOnStart => "SIGKILL, and its replacement stands still while it starts",
+        }
+    }
+
+    pub(crate) fn means(self) -> Means {
+        match self {
+            Self::Kill | Self::CrashOnStart | Self::CrashLoop | Self::StuckOnStart => {
+                Means::Signal(Signal::KILL)
+            }
+            Self::Abort => Means::Signal(Signal::ABORT),
+            Self::StopForGood => Means::Signal(Signal::STOP),
+            Self::Stop => Means::Pause(Duration::from_secs(2)),
+            Self::StopShort => Means::Pause(Duration::from_millis(50)),
+            Self::Panic => Means::Request(RequestedFault::Panic),
+            Self::ExitSuccess => Means::Request(RequestedFault::ExitSuccess),
+            Self::ExitFailure => Means::Request(RequestedFault::ExitFailure),
+            Self::SlowByHalf => Means::Request(RequestedFault::SlowByHalf),
+            Self::Slow => Means::Request(RequestedFault::Slow),
+            Self::SlowByFive => Means::Request(RequestedFault::SlowByFive),
+        }
+    }
+
+    /// Whether the process does not live on after it; where it may, the watchdog decides.
+    pub(crate) fn is_recovered_from_by_a_replacement(self) -> bool {
+        !matches!(self, Self::SlowByHalf | Self::Slow | Self::SlowByFive)
     }
 }
 
@@ -42,7 +139,7 @@ impl fmt::Display for Fault {
 
 /// No such fault.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
-#[error("unknown fault '{0}'; expected one of: kill, stop, slow, crash-on-start")]
+#[error("unknown fault '{}'; expected one of: {}", .0, Fault::ALL.map(Fault::name).join(", "))]
 pub struct UnknownFault(pub String);
 
 impl FromStr for Fault {

@@ -4,7 +4,7 @@ use std::time::Duration;
 /// Why the supervisor killed a process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum KillReason {
-    /// The injected fault crash-on-start.
+    /// An injected fault, before it was ready.
     InjectedCrash,
     /// It was not ready within this time.
     NotReadyInTime(Duration),
@@ -19,7 +19,7 @@ pub(crate) enum KillReason {
 impl fmt::Display for KillReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::InjectedCrash => write!(f, "killed before it was ready: injected crash-on-start"),
+            Self::InjectedCrash => write!(f, "killed before it was ready, by an injected fault"),
             Self::NotReadyInTime(limit) => write!(f, "not ready within {} s", limit.as_secs_f64()),
             Self::Hung(limit) => write!(f, "hung: no pulse for more than {} ms", limit.as_millis()),
             Self::NoHeartbeat(limit) => {

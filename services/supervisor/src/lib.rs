@@ -31,6 +31,7 @@ mod run_progress;
 mod run_topics;
 mod running;
 mod service_manager;
+mod start_fault;
 mod stderr_tail;
 mod supervised;
 mod supervisor_log;

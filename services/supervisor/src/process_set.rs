@@ -1,5 +1,7 @@
 use crate::death::Death;
+use crate::fault::Means;
 use crate::kill_reason::KillReason;
+use crate::start_fault::StartFault;
 use crate::supervised::{Lifecycle, Supervised};
 use crate::watch_clock::WatchClock;
 use crate::watchdog;
@@ -165,18 +167,18 @@ impl ProcessSet {
         self.processes[index].fault = Some(fault);
         self.record(index, SupervisorEventKind::Injected, None, None);
         let target = &mut self.processes[index];
-        target.crash_next = fault == Fault::CrashOnStart;
+        target.start_fault = StartFault::after(fault);
         let Some(running) = target.running_mut() else { return Ok(()) };
-        match fault {
-            Fault::Kill | Fault::CrashOnStart => running.child.signal(Signal::KILL),
-            Fault::Slow => {
-                running.child.signal(Signal::USR1);
-                target.fault = None;
-            }
-            Fault::Stop => {
+        match fault.means() {
+            Means::Signal(signal) => running.child.signal(signal),
+            Means::Pause(pause) => {
                 running.child.signal(Signal::STOP);
-                running.continue_at = Some(monotonic_time() + Fault::PAUSE);
+                running.continue_at = Some(monotonic_time() + pause);
             }
+            Means::Request(request) => running.child.request(request),
+        }
+        if !fault.is_recovered_from_by_a_replacement() {
+            target.fault = None;
         }
         Ok(())
     }

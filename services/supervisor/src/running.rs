@@ -1,5 +1,6 @@
 use crate::RunningChild;
 use crate::kill_reason::KillReason;
+use crate::start_fault::StartFault;
 use rustix::process::Signal;
 use std::time::{Duration, SystemTime};
 
@@ -21,13 +22,13 @@ pub(crate) struct Running {
     pub(crate) kill_reason: Option<KillReason>,
     /// When a process that was stopped by a fault is continued.
     pub(crate) continue_at: Option<Duration>,
-    /// When a starting process is killed, for the fault `crash-on-start`.
-    pub(crate) crash_at: Option<Duration>,
+    /// What is done to a starting process before it is ready, and when.
+    pub(crate) at_start: Option<(Duration, StartFault)>,
 }
 
 impl Running {
     /// A child that was started just now.
-    pub(crate) fn new(child: RunningChild, now: Duration, crash_at: Option<Duration>) -> Self {
+    pub(crate) fn new(child: RunningChild, now: Duration, at_start: Option<(Duration, StartFault)>) -> Self {
         Self {
             child,
             since: now,
@@ -38,7 +39,7 @@ impl Running {
             heartbeat: None,
             kill_reason: None,
             continue_at: None,
-            crash_at,
+            at_start,
         }
     }
 

@@ -1,6 +1,7 @@
 use crate::death::Death;
 use crate::kill_reason::KillReason;
 use crate::running::Running;
+use crate::start_fault::StartFault;
 use crate::watchdog::Silence;
 use crate::{Fault, ProcessSpec, RestartHistory, RunningChild};
 use coact_pipeline::Ready;
@@ -18,8 +19,8 @@ pub(crate) struct Supervised {
     pub(crate) refusals: RestartHistory,
     /// Fault that was injected and not yet recovered from; the events that it causes name it.
     pub(crate) fault: Option<Fault>,
-    /// The next replacement is to be killed before it is ready.
-    pub(crate) crash_next: bool,
+    /// What is to be done to the next replacement before it is ready.
+    pub(crate) start_fault: Option<StartFault>,
     /// It was given its predecessor's checkpoint.
     pub(crate) resumed: bool,
     /// The next replacement begins without one: its predecessor died of it.
@@ -42,8 +43,8 @@ pub(crate) enum Lifecycle {
 }
 
 impl Supervised {
-    /// How long after its start a replacement is killed by `crash-on-start`: while it opens its ports. Chosen by hand.
-    const CRASH_AFTER: Duration = Duration::from_millis(5);
+    /// How long after its start a replacement gets a [`StartFault`]: while it opens its ports. Chosen by hand.
+    const START_FAULT_AFTER: Duration = Duration::from_millis(5);
 
     /// A replacement that ends by itself sooner than this died of the state that it took up: what is wrong in it shows within
     /// some cycles, and later on it works on its own. Chosen by hand.
@@ -65,7 +66,7 @@ impl Supervised {
             history: RestartHistory::default(),
             refusals: RestartHistory::default(),
             fault: None,
-            crash_next: false,
+            start_fault: None,
             resumed: false,
             begins_anew: false,
             first_start: None,
@@ -104,8 +105,9 @@ impl Supervised {
     pub(crate) fn started(&mut self, child: RunningChild, now: Duration) {
         // A predecessor's heartbeat is none of this one's.
         std::fs::remove_file(&self.spec.heartbeat_file).ok();
-        let crash_at = std::mem::take(&mut self.crash_next).then_some(now + Self::CRASH_AFTER);
-        self.lifecycle = Lifecycle::Running(Running::new(child, now, crash_at));
+        let at_start = self.start_fault.map(|fault| (now + Self::START_FAULT_AFTER, fault));
+        self.start_fault = self.start_fault.filter(|fault| fault.is_repeated());
+        self.lifecycle = Lifecycle::Running(Running::new(child, now, at_start));
     }
 
     /// Its death, if it died; its replacement is due from then on.
@@ -126,7 +128,7 @@ impl Supervised {
         let Ok(report) = std::fs::read(self.spec.ready_file(self.generation)) else { return false };
         let is_first = self.generation == 0;
         let Some(running) = self.running_mut() else { return false };
-        if running.crash_at.is_some() || running.kill_reason.is_some() {
+        if running.at_start.is_some() || running.kill_reason.is_some() {
             return false;
         }
         running.ready = true;
@@ -180,7 +182,7 @@ impl Supervised {
         })
     }
 
-    /// Kills it when it is not ready in time, or due to crash by an injected fault; continues it when its injected pause is
+    /// Kills it when it is not ready in time; does what an injected fault does to one that starts; continues it when its injected pause is
     /// over.
     pub(crate) fn look(&mut self, now: Duration) {
         let ready_within = self.start_limit();
@@ -190,9 +192,11 @@ impl Supervised {
             running.child.signal(Signal::CONT);
             self.fault = None;
         }
-        if running.crash_at.is_some_and(|due| now >= due) {
-            running.crash_at = None;
-            running.kill(KillReason::InjectedCrash);
+        if let Some((_, fault)) = running.at_start.take_if(|(due, _)| now >= *due) {
+            match fault {
+                StartFault::Crash | StartFault::CrashLoop => running.kill(KillReason::InjectedCrash),
+                StartFault::Stuck => running.child.signal(Signal::STOP),
+            }
         }
         if !running.ready && now.saturating_sub(running.since) > ready_within {
             running.kill(KillReason::NotReadyInTime(ready_within));

@@ -206,6 +206,40 @@ fn crash_on_start_kills_the_replacement_before_it_is_ready_and_the_next_one_live
 }
 
 #[test]
+fn a_crash_loop_gives_the_set_up() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN)]);
+    trial.run_until_ready();
+    trial.set.inject("a", Fault::CrashLoop).unwrap();
+    let gave_up = trial.gives_up();
+    assert!(gave_up.reason.starts_with("killed before it was ready, by an injected fault"), "{gave_up:?}");
+    assert_eq!(trial.count(SupervisorEventKind::Ready, "a"), 1);
+}
+
+#[test]
+fn a_replacement_that_stands_still_while_it_starts_is_killed_and_the_next_one_lives() {
+    let mut trial = Trial::of(&[("a", &format!("sleep 0.05; {READY_AND_RUN}"))]);
+    trial.run_until_ready();
+    trial.set.inject("a", Fault::StuckOnStart).unwrap();
+    trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
+    let died: Vec<_> = trial.events.iter().filter(|event| event.event == SupervisorEventKind::Died).collect();
+    assert_eq!(died.len(), 2);
+    assert!(
+        died[1].reason.as_deref().is_some_and(|reason| reason.starts_with("not ready within")),
+        "{died:?}"
+    );
+}
+
+#[test]
+fn a_process_that_aborts_is_started_again() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN)]);
+    trial.run_until_ready();
+    trial.set.inject("a", Fault::Abort).unwrap();
+    trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
+    let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
+    assert_eq!((died.reason.as_deref(), died.fault.as_deref()), (Some("killed by SIGABRT"), Some("abort")));
+}
+
+#[test]
 fn a_process_killed_while_it_starts_is_started_again() {
     let dies_once =
         "if mkdir \"$DIR/once\" 2>/dev/null; then kill -9 $$; fi; touch \"$READY\"; exec sleep 600";

@@ -9,11 +9,9 @@ use rustix::time::ClockId;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The injected fault "slow" lasts so many cycles. Chosen by hand: some 150 ms, long enough to be seen in the report, and
-/// its pulses come every 3 ms, often enough that the watchdog does not take the process for hung.
+/// An injected slowness lasts so many cycles. Chosen by hand: long enough to be seen in the report, and its pulses come every
+/// 6 ms at the slowest, often enough that the watchdog does not take the process for hung.
 const SLOWED_CYCLES: u32 = 50;
-/// Each of them takes so much longer: two periods, so that every one misses its deadline and skips a cycle.
-const SLOWDOWN: Duration = coact_period::PERIOD.saturating_mul(2);
 
 /// A stage that may not end yet goes on for so many cycles at most: arms stop within half a second.
 const LONGEST_END: u64 = coact_period::CYCLES_PER_SECOND;
@@ -27,6 +25,8 @@ pub(crate) struct Executor {
     pulse: Output<Pulse>,
     refusals: Arc<Refusals>,
     slowed_cycles: u32,
+    /// By how much each of them takes longer.
+    slowdown: Duration,
 }
 
 /// Whether the process starts its cycles by the messages of `topic`, or by the timer.
@@ -55,6 +55,7 @@ impl Executor {
             pulse,
             refusals,
             slowed_cycles: 0,
+            slowdown: Duration::ZERO,
         }
     }
 
@@ -72,8 +73,8 @@ impl Executor {
                 // The request has ended the wait early.
                 scheduled_ns = self.wait(cycle, work, signals)?;
             }
-            if signals.take_slow() {
-                self.slowed_cycles = SLOWED_CYCLES;
+            if let Some(slowdown) = signals.take_slowdown() {
+                (self.slowed_cycles, self.slowdown) = (SLOWED_CYCLES, slowdown);
             }
             self.run_cycle(cycle, scheduled_ns, work)?;
             cycle = self.schedule.following(cycle, now());
@@ -128,11 +129,11 @@ impl Executor {
         pulse.send_as_is()
     }
 
-    /// The injected fault "slow": uses up time as a step that runs away would.
+    /// An injected slowness: uses up time as a step that runs away would.
     fn inject_slowness(&mut self, started_ns: u64) {
         if self.slowed_cycles > 0 {
             self.slowed_cycles -= 1;
-            while now() < started_ns + SLOWDOWN.as_nanos() as u64 {
+            while now() < started_ns + self.slowdown.as_nanos() as u64 {
                 std::hint::spin_loop();
             }
         }

@@ -1,32 +1,46 @@
-use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
+use crate::RequestedFault;
+use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Duration;
 
-/// Requests that reach a process as signals: to stop (SIGTERM, SIGINT), or to be slow (SIGUSR1).
+/// Requests that reach a process as signals: to stop (SIGTERM, SIGINT), or to do a fault to itself ([`RequestedFault`]).
 #[derive(Debug)]
 pub(crate) struct Signals {
     stop: Arc<AtomicBool>,
-    slow: Arc<AtomicBool>,
+    /// 0, or one more than the index of the requested fault in [`RequestedFault::ALL`].
+    fault: Arc<AtomicUsize>,
 }
 
 impl Signals {
     pub(crate) fn install() -> io::Result<Self> {
-        let signals = Self { stop: Arc::default(), slow: Arc::default() };
+        let signals = Self { stop: Arc::default(), fault: Arc::default() };
         flag::register(SIGTERM, Arc::clone(&signals.stop))?;
         flag::register(SIGINT, Arc::clone(&signals.stop))?;
-        flag::register(SIGUSR1, Arc::clone(&signals.slow))?;
+        for (fault, number) in RequestedFault::ALL.into_iter().zip(1..) {
+            flag::register_usize(fault.signal(), Arc::clone(&signals.fault), number)?;
+        }
         Ok(signals)
     }
 
-    /// True once a signal requested that the process stops.
+    /// True once a signal requested that the process stops. One that was requested to end by a fault ends here.
     pub(crate) fn stop(&self) -> bool {
+        if let Some(fault) = self.fault() {
+            fault.end();
+        }
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// True once for each request to be slow.
-    pub(crate) fn take_slow(&self) -> bool {
-        self.slow.load(Ordering::Relaxed) && self.slow.swap(false, Ordering::Relaxed)
+    /// Once for each request to be slow: by how much.
+    pub(crate) fn take_slowdown(&self) -> Option<Duration> {
+        let slowdown = self.fault()?.slowdown()?;
+        self.fault.store(0, Ordering::Relaxed);
+        Some(slowdown)
+    }
+
+    fn fault(&self) -> Option<RequestedFault> {
+        RequestedFault::ALL.get(self.fault.load(Ordering::Relaxed).wrapping_sub(1)).copied()
     }
 }

@@ -5,7 +5,9 @@ mod support;
 
 use coact_messages::{FieldFrame, Header, LAYOUT, Percept, Pulse, topic};
 use coact_period::PERIOD_NS;
-use coact_realtime::{Bus, Cycle, Input, Message, Output, PortError, Process, Schedule, Tick, now};
+use coact_realtime::{
+    Bus, Cycle, Input, Message, Output, PortError, Process, RequestedFault, Schedule, Tick, now,
+};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -158,7 +160,7 @@ fn injected_slowness_lasts_fifty_cycles_and_skips_periods() {
     let mut seen = Vec::new();
     watch(&mut pulses, &mut seen, |seen| seen.len() > 20);
     // SAFETY: the shells of this program handle the signal as a request to be slow.
-    unsafe { libc::raise(libc::SIGUSR1) };
+    unsafe { libc::raise(RequestedFault::Slow.signal()) };
     let slow = |pulse: &&Pulse| pulse.header.published_ns - pulse.started_ns >= 2 * PERIOD_NS;
     watch(&mut pulses, &mut seen, |seen| seen.iter().filter(slow).count() >= 50);
     stop(stages);

@@ -5,19 +5,21 @@ use std::process::ExitCode;
 
 /// Injects a fault into a process of a running process set, now.
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Examples:\n  coact inject fields kill\n  coact inject perception stop --run 1a2b-0\n\n\
-Faults:\n  kill            SIGKILL\n  stop            stands still for two seconds, or until it is replaced as hung\n  \
-slow            its cycles overrun for a while\n  crash-on-start  SIGKILL, and once more while its replacement starts"
-)]
+#[command(after_help = after_help())]
 pub struct Args {
     /// Name of the process, as in rt-config/pipeline.toml
     process: String,
-    /// kill, stop, slow or crash-on-start
+    /// Name of the fault: one of those below
     fault: Fault,
     /// Which run, when there are several
     #[arg(long, value_name = "ID")]
     run: Option<String>,
+}
+
+fn after_help() -> String {
+    let fault = |fault: Fault| format!("\n  {:<14}  {}", fault.name(), fault.description());
+    let examples = "Examples:\n  coact inject fields kill\n  coact inject perception stop --run 1a2b-0";
+    format!("{examples}\n\nFaults:{}", Fault::ALL.map(fault).concat())
 }
 
 /// Asks the run's supervisor.

@@ -47,7 +47,7 @@ pub struct Args {
     /// How the world computes: physics, or kinematic (same sensors and truth, no contact forces)
     #[arg(long, default_value = "physics")]
     world: WorldMode,
-    /// A fault, as in fields:kill@20s (kill, stop, slow or crash-on-start); may be repeated
+    /// A fault, as in fields:kill@20s; may be repeated (coact inject --help lists them)
     #[arg(long, value_name = "PROCESS:FAULT@TIME")]
     inject: Vec<Injection>,
     /// The process table [default: rt-config/pipeline.toml]

@@ -2,6 +2,7 @@
 
 mod completions;
 mod evaluate;
+mod faults;
 mod figures;
 mod learn;
 mod motion;
@@ -32,6 +33,8 @@ enum Command {
     Reaches(reaches::Args),
     /// Evaluate whole assemblies with random partners, and compare with ablations
     Evaluate(evaluate::Args),
+    /// Break process sets in every way, and judge what happens
+    Faults(faults::Args),
     /// Draw the chapter's figures from runs made now
     Figures(figures::Args),
     /// Plan a movement of the arm, or measure the planner
@@ -46,7 +49,7 @@ fn main() -> ExitCode {
     program::begin();
     let command = Cli::parse().command;
     // In real time there are processes that this program must stop.
-    if !matches!(command, Command::Reaches(_)) {
+    if !matches!(command, Command::Reaches(_) | Command::Faults(_)) {
         closed_pipe::ends_the_program();
     }
     program::end(match command {
@@ -54,6 +57,7 @@ fn main() -> ExitCode {
         Command::Learn(args) => learn::run(args),
         Command::Reaches(args) => reaches::run(args),
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Faults(args) => faults::run(args),
         Command::Figures(args) => figures::run(args),
         Command::Motion(args) => motion::run(args),
         Command::Train(args) => train::run(args),

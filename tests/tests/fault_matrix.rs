@@ -1,0 +1,42 @@
+//! `coact faults` breaks real sets, and says what became of them.
+#![allow(clippy::unwrap_used)]
+
+use coact_tests::{checkout, coact};
+use serde_json::Value;
+use std::process::{Command, Output};
+
+fn faults(arguments: &[&str]) -> Output {
+    let program = coact().with_file_name("coact-studies");
+    assert!(program.is_file(), "{} is missing: cargo build --workspace --bins", program.display());
+    Command::new(program).arg("faults").args(arguments).current_dir(checkout()).output().unwrap()
+}
+
+#[test]
+fn a_few_cells_of_the_matrix_are_green_and_every_cell_that_was_asked_for_is_judged() {
+    let out = tempfile::tempdir().unwrap();
+    let only = "fields:kill@moving,perception:exit-1@moving,world:panic@moving,fields:future@moving";
+    let output = faults(&["--only", only, "--json", "--out", out.path().to_str().unwrap()]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{said}"));
+    let cells = report["cells"].as_array().unwrap();
+    assert_eq!(cells.len(), 4, "{report}");
+    for cell in cells {
+        assert_eq!(cell["outcome"], "green", "{cell}\n{said}");
+    }
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let page = std::fs::read_to_string(out.path().join("faults.html")).unwrap();
+    assert_eq!(page.matches("<td class=\"green\">").count(), 4, "{page}");
+    assert_eq!(
+        serde_json::from_str::<Value>(&std::fs::read_to_string(out.path().join("faults.json")).unwrap())
+            .unwrap(),
+        report
+    );
+}
+
+#[test]
+fn a_selection_without_cells_is_refused_with_what_is_expected() {
+    let output = faults(&["--only", "fields:melt"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("fields:melt") && said.contains("TARGET:FAULT@MOMENT"), "{said}");
+}

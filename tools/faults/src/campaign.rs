@@ -1,0 +1,79 @@
+use crate::judge::judge;
+use crate::trial::Trial;
+use crate::{Cell, JudgedCell, Outcome, Setup, matrix};
+use std::collections::VecDeque;
+use std::time::Instant;
+
+/// Does cells in as few runs as possible, and judges each.
+#[derive(Debug)]
+pub struct Campaign<'a> {
+    setup: &'a Setup,
+    /// No run is begun after this instant.
+    until: Option<Instant>,
+}
+
+/// What a campaign tells while it goes on.
+#[derive(Debug)]
+pub enum Step<'a> {
+    /// A run begins with these cells.
+    Run(&'a [Cell]),
+    /// A cell was judged.
+    Judged(&'a JudgedCell),
+    /// These cells of a run with several could not be judged; they are done again, each alone.
+    Again(&'a [Cell]),
+}
+
+impl<'a> Campaign<'a> {
+    /// With this setup; no run is begun after `until`.
+    pub fn new(setup: &'a Setup, until: Option<Instant>) -> Self {
+        Self { setup, until }
+    }
+
+    /// Does all cells, and tells each `step`.
+    pub fn run(&self, cells: Vec<Cell>, step: &mut dyn FnMut(Step<'_>)) -> Vec<JudgedCell> {
+        let order = cells.clone();
+        let mut runs = VecDeque::from(matrix::runs(cells));
+        let mut judged = Vec::new();
+        while let Some(run) = runs.pop_front() {
+            let is_late = self.until.is_some_and(|until| Instant::now() >= until);
+            let outcomes = match is_late {
+                true => run.iter().map(|cell| not_judged(cell, "there was no time left")).collect(),
+                false => {
+                    step(Step::Run(&run));
+                    self.outcomes(&run)
+                }
+            };
+            let is_told = |cell: &JudgedCell| !matches!(cell.outcome, Outcome::Unknown(_));
+            let (mut told, unknown): (Vec<_>, Vec<_>) = outcomes.into_iter().partition(is_told);
+            let again: Vec<_> = unknown.iter().map(|judged| judged.cell.clone()).collect();
+            if !again.is_empty() && run.len() > 1 && !is_late {
+                step(Step::Again(&again));
+                runs.extend(again.into_iter().map(|cell| vec![cell]));
+            } else {
+                told.extend(unknown);
+            }
+            for cell in told {
+                step(Step::Judged(&cell));
+                judged.push(cell);
+            }
+        }
+        judged.sort_by_key(|judged| order.iter().position(|cell| *cell == judged.cell));
+        judged
+    }
+
+    fn outcomes(&self, cells: &[Cell]) -> Vec<JudgedCell> {
+        let (records, evidence) = match Trial::run(self.setup, cells) {
+            Ok(run) => run,
+            Err(trouble) => return cells.iter().map(|cell| not_judged(cell, &trouble.0)).collect(),
+        };
+        let judged = |record: &crate::trial::Record| JudgedCell {
+            cell: record.cell.clone(),
+            outcome: judge(record, &evidence, &self.setup.rules, cells.len() == 1),
+        };
+        records.iter().map(judged).collect()
+    }
+}
+
+fn not_judged(cell: &Cell, why: &str) -> JudgedCell {
+    JudgedCell { cell: cell.clone(), outcome: Outcome::Unknown(why.into()) }
+}

@@ -1,0 +1,85 @@
+use crate::MessageFault;
+use coact_supervisor::Fault;
+use serde::{Serialize, Serializer};
+use std::fmt;
+
+/// What happens in a cell of the matrix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum FaultKind {
+    /// Nothing: what is broken here already, no fault has broken.
+    Nothing,
+    /// Something is done to a process.
+    Process(Fault),
+    /// A stranger sends on the topic of a process what is not good.
+    Message(MessageFault),
+    /// Viewers take every place on the topics of the chain, and a process is killed meanwhile.
+    ViewerFlood,
+    /// Another set is started on the same machine.
+    SecondSet,
+    /// Somebody puts the description of a living run where dead ones are found and removed.
+    PlantedRun,
+}
+
+impl FaultKind {
+    /// Whether the process ends by it, and not because somebody finds it hung.
+    pub(crate) fn is_lethal(self) -> bool {
+        match self {
+            Self::Process(fault) => !matches!(
+                fault,
+                Fault::Stop
+                    | Fault::StopShort
+                    | Fault::StopForGood
+                    | Fault::SlowByHalf
+                    | Fault::Slow
+                    | Fault::SlowByFive
+            ),
+            Self::ViewerFlood => true,
+            Self::Nothing | Self::Message(_) | Self::SecondSet | Self::PlantedRun => false,
+        }
+    }
+
+    /// Whether a process may live through it: a short pause, or slowness.
+    pub(crate) fn may_be_survived(self) -> bool {
+        matches!(
+            self,
+            Self::Process(Fault::StopShort | Fault::SlowByHalf | Fault::Slow | Fault::SlowByFive)
+                | Self::Nothing
+                | Self::Message(_)
+                | Self::SecondSet
+                | Self::PlantedRun
+        )
+    }
+
+    /// So many starts of a process it takes until one lives.
+    pub(crate) fn restarts(self) -> usize {
+        match self {
+            Self::Process(Fault::CrashOnStart | Fault::StuckOnStart) => 2,
+            kind if kind.may_be_survived() && kind != Self::Process(Fault::StopShort) => 0,
+            _ => 1,
+        }
+    }
+
+    /// Whether the set is to be given up after it.
+    pub(crate) fn ends_the_set(self) -> bool {
+        self == Self::Process(Fault::CrashLoop)
+    }
+}
+
+impl fmt::Display for FaultKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Nothing => "nothing",
+            Self::Process(fault) => fault.name(),
+            Self::Message(fault) => fault.name(),
+            Self::ViewerFlood => "viewer-flood",
+            Self::SecondSet => "second-set",
+            Self::PlantedRun => "planted-run",
+        })
+    }
+}
+
+impl Serialize for FaultKind {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}

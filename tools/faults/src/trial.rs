@@ -1,0 +1,364 @@
+use crate::evidence::Evidence;
+use crate::running_set::{POLL, RunningSet};
+use crate::stranger::Stranger;
+use crate::viewer::Viewer;
+use crate::{Cell, FaultKind, MessageFault, Moment, Setup, Target, Trouble};
+use coact_realtime::{Schedule, now};
+use coact_run_records::{Event, LogFollower, MotionReport};
+use coact_supervisor::{Fault, request_fault};
+use rustix::process::Signal;
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// What happened in one cell.
+#[derive(Debug, Clone)]
+pub(crate) struct Record {
+    pub(crate) cell: Cell,
+    /// From just before the fault until the set had time to come over it, ns of `CLOCK_MONOTONIC`.
+    pub(crate) from_ns: u64,
+    pub(crate) until_ns: u64,
+    /// Whether each replacement went on from its predecessor's state, by its own report.
+    pub(crate) resumed: BTreeMap<&'static str, bool>,
+    /// How the joints moved, from before the moment came, as a viewer saw it.
+    pub(crate) motion: MotionReport,
+    /// Why the fault was not done, or not seen.
+    pub(crate) trouble: Option<Trouble>,
+}
+
+/// A run in which faults are done one after another.
+pub(crate) struct Trial<'a> {
+    setup: &'a Setup,
+    set: RunningSet,
+    viewer: Option<Viewer>,
+}
+
+/// Longest wait for a moment: in an assembly of a minute each comes several times.
+const MOMENT_WITHIN: Duration = Duration::from_secs(90);
+/// Longest start of a set.
+const STARTED_WITHIN: Duration = Duration::from_secs(40);
+/// Longest wait for a replacement: what is not needed is restarted after pauses of two seconds at most.
+const REPLACED_WITHIN: Duration = Duration::from_secs(15);
+/// What may live on after a fault shows within this time whether it does: longer than every watchdog's limit.
+const SURVIVES_WITHIN: Duration = Duration::from_millis(1500);
+/// From the recovery to the next fault: the arm has come to rest or goes on, and the monitor has written the fault down.
+const SETTLES_WITHIN: Duration = Duration::from_millis(700);
+/// So long a stranger sends.
+const SPOOFED: Duration = Duration::from_millis(300);
+/// Longest wait for the next subgoal after all faults.
+const GOES_ON_WITHIN: Duration = Duration::from_secs(90);
+/// The samples of a dead set have ended when none came for so long.
+const SILENCE: Duration = Duration::from_millis(300);
+/// How long the second set lives.
+const SECOND_SET_S: &str = "2";
+
+impl<'a> Trial<'a> {
+    /// Does the faults of these cells in one run, and returns what it left.
+    ///
+    /// # Errors
+    /// There was no run, or it left nothing that can be read: none of the cells can be judged.
+    pub(crate) fn run(setup: &'a Setup, cells: &[Cell]) -> Result<(Vec<Record>, Evidence), Trouble> {
+        let set = RunningSet::launch(setup)?;
+        let mut trial = Self { setup, set, viewer: None };
+        let records: Vec<_> = cells.iter().map(|cell| trial.perform(cell)).collect();
+        let start_ns = trial.set.run().start_ns().ok().flatten();
+        if records.iter().all(|record| record.trouble.is_none()) {
+            trial.wait_for_progress(&records, start_ns);
+        }
+        trial.finish(cells, start_ns).map(|evidence| (records, evidence))
+    }
+
+    fn perform(&mut self, cell: &Cell) -> Record {
+        let mut record = Record {
+            cell: cell.clone(),
+            from_ns: 0,
+            until_ns: u64::MAX,
+            resumed: BTreeMap::new(),
+            motion: MotionReport::default(),
+            trouble: None,
+        };
+        if let Err(trouble) = self.attempt(&mut record) {
+            record.trouble = Some(trouble);
+        }
+        record.until_ns = now();
+        record.motion = self.viewer.as_ref().map_or_else(MotionReport::default, Viewer::motion);
+        record
+    }
+
+    fn attempt(&mut self, record: &mut Record) -> Result<(), Trouble> {
+        let cell = record.cell.clone();
+        if let Some(viewer) = &mut self.viewer {
+            viewer.begin();
+        }
+        match cell.moment {
+            Moment::StartUp => self.wait_for_start_of(cell.target.processes()[0])?,
+            Moment::Shutdown => {
+                self.wait_for_start()?;
+                self.wait_for(Moment::Moving)?;
+                self.set.signal(Signal::INT)?;
+            }
+            moment => {
+                self.wait_for_start()?;
+                self.wait_for(moment)?;
+            }
+        }
+        let generations = self.generations(&cell);
+        record.from_ns = now();
+        self.strike(&cell)?;
+        match cell.moment {
+            Moment::Shutdown => Ok(()),
+            _ if cell.fault.ends_the_set() || cell.kills_supervisor() => self.watch_the_end(),
+            Moment::StartUp => self.wait_for_start().or(Ok(())),
+            _ => self.wait_for_recovery(&cell, &generations, record),
+        }
+    }
+
+    /// Looks once, and pauses until the next look.
+    fn look(&mut self) -> Result<bool, Trouble> {
+        let came = match &mut self.viewer {
+            Some(viewer) => viewer.look()?,
+            None => false,
+        };
+        std::thread::sleep(POLL);
+        Ok(came)
+    }
+
+    fn look_for(&mut self, time: Duration) -> Result<(), Trouble> {
+        let begin = Instant::now();
+        while begin.elapsed() < time {
+            self.look()?;
+        }
+        Ok(())
+    }
+
+    /// Until the run's clock runs; the viewer joins before it does.
+    fn wait_for_start(&mut self) -> Result<(), Trouble> {
+        let begin = Instant::now();
+        while self.set.run().start_ns().ok().flatten().is_none() {
+            if self.set.has_ended() || begin.elapsed() > STARTED_WITHIN {
+                return Err(Trouble("the run did not begin".into()));
+            }
+            self.join_when_possible();
+            self.look()?;
+        }
+        if self.viewer.is_none() {
+            self.viewer = Some(Viewer::join(self.set.run(), self.setup)?);
+        }
+        Ok(())
+    }
+
+    /// The topics exist as soon as a process is ready.
+    fn join_when_possible(&mut self) {
+        if self.viewer.is_none() && self.set.run().ready("monitor", 0).is_ok_and(|ready| ready.is_some()) {
+            self.viewer = Viewer::join(self.set.run(), self.setup).ok();
+        }
+    }
+
+    fn wait_for_start_of(&mut self, process: &str) -> Result<(), Trouble> {
+        let begin = Instant::now();
+        while self.set.pid_of(process).is_none() {
+            if begin.elapsed() > STARTED_WITHIN {
+                return Err(Trouble(format!("{process} was not started")));
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        match self.set.run().start_ns().ok().flatten() {
+            None => Ok(()),
+            Some(_) => Err(Trouble("the run had begun already".into())),
+        }
+    }
+
+    fn wait_for(&mut self, moment: Moment) -> Result<(), Trouble> {
+        let begin = Instant::now();
+        while begin.elapsed() < MOMENT_WITHIN {
+            self.look()?;
+            if self.viewer.as_ref().is_some_and(|viewer| moment.is_at(&viewer.sight())) {
+                return Ok(());
+            }
+            if self.set.has_ended() {
+                return Err(Trouble("the set had ended already".into()));
+            }
+        }
+        Err(Trouble(format!("the robot was not {moment} within {} s", MOMENT_WITHIN.as_secs())))
+    }
+
+    /// How often each process that is struck has been restarted.
+    fn generations(&mut self, cell: &Cell) -> BTreeMap<&'static str, u32> {
+        let events = self.set.events();
+        let newest = |process: &'static str| {
+            let of_it = events.iter().filter(|event| event.process == process);
+            (process, of_it.map(|event| event.generation).max().unwrap_or(0))
+        };
+        cell.target.processes().into_iter().map(newest).collect()
+    }
+
+    fn strike(&mut self, cell: &Cell) -> Result<(), Trouble> {
+        match cell.fault {
+            FaultKind::Nothing => self.look_for(SURVIVES_WITHIN),
+            FaultKind::Process(fault) => self.injure(cell, fault),
+            FaultKind::Message(fault) => self.spoof(cell.target.processes()[0], fault),
+            FaultKind::ViewerFlood => self.flood(cell.target.processes()[0]),
+            FaultKind::SecondSet => self.start_second_set(),
+            FaultKind::PlantedRun => self.plant(),
+        }
+    }
+
+    fn injure(&mut self, cell: &Cell, fault: Fault) -> Result<(), Trouble> {
+        let by_signal = matches!(cell.moment, Moment::StartUp | Moment::Shutdown);
+        if cell.target == Target::Supervisor {
+            return self.injure_supervisor(fault);
+        }
+        for process in cell.target.processes() {
+            match by_signal {
+                true => self.set.signal_process(process, signal_of(fault))?,
+                false => self.request(process, fault)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Through the supervisor, which notes what was injected.
+    fn request(&mut self, process: &str, fault: Fault) -> Result<(), Trouble> {
+        let refused = Trouble::because("the supervisor refused");
+        request_fault(self.set.run(), process, fault.name()).map_err(|error| refused(&error))
+    }
+
+    fn injure_supervisor(&mut self, fault: Fault) -> Result<(), Trouble> {
+        let pause = match fault {
+            Fault::StopShort => Duration::from_millis(50),
+            Fault::Stop => Duration::from_secs(2),
+            fault => return self.set.signal(signal_of(fault)),
+        };
+        self.set.signal(Signal::STOP)?;
+        let looked = self.look_for(pause);
+        self.set.signal(Signal::CONT)?;
+        looked
+    }
+
+    fn spoof(&mut self, process: &str, fault: MessageFault) -> Result<(), Trouble> {
+        let start_ns = self.set.run().start_ns().ok().flatten();
+        let schedule = Schedule { start_ns: start_ns.ok_or_else(|| Trouble("the run has no clock".into()))? };
+        let stranger = Stranger::join(self.set.run())?;
+        let mut send = stranger.spoofs(process, fault)?;
+        let begin = Instant::now();
+        while begin.elapsed() < SPOOFED {
+            send(schedule.tick_at(now()))?;
+            self.look()?;
+        }
+        Ok(())
+    }
+
+    fn flood(&mut self, process: &str) -> Result<(), Trouble> {
+        let stranger = Stranger::join(self.set.run())?;
+        let places = stranger.flood()?;
+        self.request(process, Fault::Kill)?;
+        // The viewers stay while the replacement is started.
+        self.look_for(SURVIVES_WITHIN)?;
+        drop(places);
+        Ok(())
+    }
+
+    fn start_second_set(&mut self) -> Result<(), Trouble> {
+        let failed = |error: std::io::Error| Trouble::because("no second set was started")(&error);
+        let report = self.set.report().with_file_name("second-report");
+        let mut command = std::process::Command::new(&self.setup.coact);
+        command.arg("launch").arg("--report").arg(report).args(["--duration", SECOND_SET_S]);
+        command.args(["--world", "kinematic"]).stdout(std::process::Stdio::null());
+        let mut second = command.stderr(std::process::Stdio::null()).spawn().map_err(failed)?;
+        while second.try_wait().map_err(failed)?.is_none() {
+            self.look()?;
+        }
+        Ok(())
+    }
+
+    /// Puts a copy of the run's description where a dead run of another name would lie, and has the dead removed.
+    fn plant(&mut self) -> Result<(), Trouble> {
+        let failed = |error: std::io::Error| Trouble::because("no run directory was planted")(&error);
+        let directory = self.set.run().directory().to_owned();
+        let planted = directory.with_file_name(format!("coact_{}-planted", self.set.run().id()));
+        std::fs::create_dir(&planted).map_err(failed)?;
+        let copied = std::fs::copy(directory.join("run.json"), planted.join("run.json"));
+        let locked = std::fs::write(planted.join("lock"), "");
+        coact_pipeline::Run::remove_dead();
+        std::fs::remove_dir_all(&planted).or_else(|error| match error.kind() {
+            // It was taken for what a dead run left.
+            std::io::ErrorKind::NotFound => Ok(()),
+            _ => Err(failed(error)),
+        })?;
+        copied.and(locked).map_err(failed)
+    }
+
+    fn wait_for_recovery(
+        &mut self,
+        cell: &Cell,
+        generations: &BTreeMap<&'static str, u32>,
+        record: &mut Record,
+    ) -> Result<(), Trouble> {
+        let limit = if cell.fault.may_be_survived() { SURVIVES_WITHIN } else { REPLACED_WITHIN };
+        let begin = Instant::now();
+        while begin.elapsed() < limit && record.resumed.len() < generations.len() {
+            self.look()?;
+            for (process, generation) in generations {
+                // A replacement may itself be struck, and the next one be the first that is ready.
+                let ready = (1..=3).find_map(|next| self.set.run().ready(process, generation + next).ok()?);
+                record.resumed.extend(ready.map(|ready| (*process, ready.resumed)));
+            }
+            if generations.is_empty() {
+                break;
+            }
+        }
+        self.look_for(SETTLES_WITHIN)
+    }
+
+    /// Until no samples come any more.
+    fn watch_the_end(&mut self) -> Result<(), Trouble> {
+        let (begin, mut last) = (Instant::now(), Instant::now());
+        while last.elapsed() < SILENCE && begin.elapsed() < REPLACED_WITHIN {
+            // What cannot be read any more has ended.
+            if self.look().unwrap_or(false) {
+                last = Instant::now();
+            }
+        }
+        Ok(())
+    }
+
+    /// Until the next subgoal is achieved, where the run is to go on; whether it was, is judged by the event log.
+    fn wait_for_progress(&mut self, records: &[Record], start_ns: Option<u64>) {
+        let Some((start_ns, last)) = start_ns.zip(records.last()) else { return };
+        let cell = &last.cell;
+        if cell.fault.ends_the_set() || cell.kills_supervisor() || cell.moment == Moment::Shutdown {
+            return;
+        }
+        let after_ms = last.until_ns.saturating_sub(start_ns) / 1_000_000;
+        let is_later = |event: &Event| matches!(event, Event::Subgoal { at_ms, .. } if *at_ms >= after_ms);
+        let mut events = LogFollower::<Event>::new(&self.set.report());
+        let begin = Instant::now();
+        while begin.elapsed() < GOES_ON_WITHIN && !self.set.has_ended() {
+            // What cannot be read is found when the run is judged.
+            if events.news().unwrap_or_default().iter().any(is_later) || self.look().is_err() {
+                return;
+            }
+        }
+    }
+
+    fn finish(mut self, cells: &[Cell], start_ns: Option<u64>) -> Result<Evidence, Trouble> {
+        if !cells.iter().any(|cell| cell.moment == Moment::Shutdown) {
+            // It may have ended already.
+            self.set.signal(Signal::INT).ok();
+        }
+        let Self { set, viewer, .. } = &mut self;
+        // What cannot be read any more has ended.
+        let ending = set.end(|| _ = viewer.as_mut().map(Viewer::look));
+        let read = Evidence::read(&set.report()).map_err(|error| Trouble::because("the report")(&error))?;
+        let last_speed = viewer.as_ref().map_or(0.0, |viewer| viewer.sight().speed);
+        Ok(Evidence { ending, start_ns, last_speed, ..read })
+    }
+}
+
+/// The signal by which a fault strikes that needs nobody to listen.
+fn signal_of(fault: Fault) -> Signal {
+    match fault {
+        Fault::Abort => Signal::ABORT,
+        Fault::StopForGood => Signal::STOP,
+        _ => Signal::KILL,
+    }
+}

@@ -1,0 +1,131 @@
+//! `coact faults`: what happens when something breaks, and whether the robot stays safe.
+
+use anyhow::{Context, Result, ensure};
+use coact::installation::Installation;
+use coact_faults::{Campaign, Cell, MatrixReport, Moment, Outcome, Selection, Setup, Step, matrix, page};
+use coact_pipeline::WorldMode;
+use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
+use owo_colors::{OwoColorize, Stream};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// Breaks real process sets in every way, at every moment, and judges each by what the run left.
+#[derive(Debug, clap::Args)]
+#[command(after_help = after_help())]
+pub struct Args {
+    /// Each fault where it is worst, within three minutes
+    #[arg(long)]
+    quick: bool,
+    /// These cells only, with commas between: TARGET:FAULT@MOMENT, parts of which may be left out
+    #[arg(long, value_name = "CELLS", value_delimiter = ',')]
+    only: Vec<Selection>,
+    /// Seed of every run
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// How the world computes: kinematic, or physics
+    #[arg(long, default_value = "kinematic")]
+    world: WorldMode,
+    /// Print one JSON document instead of the table
+    #[arg(long)]
+    json: bool,
+    /// Write faults.html and faults.json to this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// After this time the quick part begins no run any more: what is left of its three minutes is enough to end one.
+const QUICK: Duration = Duration::from_secs(150);
+
+fn after_help() -> String {
+    let examples = "Examples:
+  coact faults --quick                     three minutes
+  coact faults --only kill@moving          SIGKILL of each process while the arm moves
+  coact faults --only control:,@shutdown   all of control, and all at the end of a run
+  coact faults --out reports/faults        the whole matrix, as a page; more than an hour";
+    let not_covered = matrix::NOT_COVERED.map(|(fault, why)| format!("\n  {fault}: {why}")).concat();
+    format!(
+        "{examples}\n\nNot covered yet:{not_covered}\n\nExit status: 0, 1 when a cell is red, 2 bad usage or configuration."
+    )
+}
+
+/// Does the cells and shows what became of them.
+///
+/// # Errors
+/// The configuration is refused, or the folder cannot be written to.
+pub fn run(args: Args) -> Result<ExitCode> {
+    let Installation { programs, configuration, .. } = Installation::find()?;
+    let coact = programs.join("coact");
+    ensure!(coact.is_file(), "{}: there is no such program; expected it beside this one", coact.display());
+    if let Some(out) = &args.out {
+        std::fs::create_dir_all(out)
+            .with_context(|| format!("--out {}: expected a folder that can be written to", out.display()))?;
+    }
+    let setup = Setup::load(coact, &configuration, args.seed, args.world)?;
+    let begin = Instant::now();
+    let campaign = Campaign::new(&setup, args.quick.then(|| begin + QUICK));
+    let judged = campaign.run(cells(&args)?, &mut show);
+    let report = MatrixReport::new(judged, begin.elapsed().as_secs_f64());
+    let json = serde_json::to_string_pretty(&report)?;
+    if let Some(out) = &args.out {
+        for (name, text) in [("faults.html", &page(&report)), ("faults.json", &json)] {
+            let path = out.join(name);
+            std::fs::write(&path, text).with_context(|| format!("{}: cannot be written", path.display()))?;
+        }
+    }
+    println!("{}", if args.json { json } else { text(&report) });
+    Ok(if report.passes() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+fn cells(args: &Args) -> Result<Vec<Cell>> {
+    let all = if args.quick { matrix::quick() } else { matrix::whole() };
+    let is_meant = |cell: &Cell| args.only.is_empty() || args.only.iter().any(|only| only.selects(cell));
+    let cells: Vec<_> = all.into_iter().filter(is_meant).collect();
+    ensure!(!cells.is_empty(), "--only selects no cell of the quick part; expected --only without --quick");
+    Ok(cells)
+}
+
+fn show(step: Step<'_>) {
+    let names = |cells: &[Cell]| cells.iter().map(Cell::to_string).collect::<Vec<_>>().join(", ");
+    match step {
+        Step::Run(cells) => eprintln!("run: {}", names(cells)),
+        Step::Again(cells) => eprintln!("again, each alone: {}", names(cells)),
+        Step::Judged(judged) => eprintln!("  {} {}", judged.cell, word(&judged.outcome)),
+    }
+}
+
+fn word(outcome: &Outcome) -> String {
+    match outcome {
+        Outcome::Green => "green".if_supports_color(Stream::Stderr, |text| text.green()).to_string(),
+        Outcome::Red(_) => "red".if_supports_color(Stream::Stderr, |text| text.red()).to_string(),
+        Outcome::Unknown(_) => {
+            "unknown".if_supports_color(Stream::Stderr, |text| text.bright_black()).to_string()
+        }
+    }
+}
+
+/// The table, and below it the reasons of all that is not green.
+fn text(report: &MatrixReport) -> String {
+    let mut table = Table::new();
+    table.load_style(UTF8_HORIZONTAL_ONLY);
+    table.set_header(["fault", "target"].into_iter().chain(Moment::ALL.map(Moment::name)));
+    for row in report.rows() {
+        let outcomes = row.outcomes.map(|outcome| outcome.map_or_else(String::new, word));
+        table.add_row([row.fault, row.target].into_iter().chain(outcomes));
+    }
+    let [green, red, unknown] = report.counts();
+    let mut text = format!("{table}\n");
+    for judged in &report.cells {
+        let reasons = match &judged.outcome {
+            Outcome::Green => continue,
+            Outcome::Red(reasons) => reasons.join("\n    "),
+            Outcome::Unknown(reason) => reason.clone(),
+        };
+        text += &format!("\n{} {}\n    {reasons}", judged.cell, word(&judged.outcome));
+    }
+    let missing = report.not_covered.iter().map(|(fault, _)| *fault).collect::<Vec<_>>().join("; ");
+    format!(
+        "{text}\n\n{green} green, {red} red, {unknown} unknown, in {:.0} s\nnot covered yet: {missing}",
+        report.duration_s
+    )
+}
