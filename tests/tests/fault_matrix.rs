@@ -12,9 +12,10 @@ fn faults(arguments: &[&str]) -> Output {
 }
 
 #[test]
-fn a_few_cells_of_the_matrix_are_green_and_every_cell_that_was_asked_for_is_judged() {
+fn an_arm_rests_when_its_supervisor_was_killed_and_nothing_is_left_of_what_broke() {
     let out = tempfile::tempdir().unwrap();
-    let only = "fields:kill@moving,perception:exit-1@moving,world:panic@moving,fields:future@moving";
+    let only =
+        "supervisor:kill@moving,control:crash-loop@moving,set:planted-run@moving,control:kill@shutdown";
     let output = faults(&["--only", only, "--json", "--out", out.path().to_str().unwrap()]);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     let report: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{said}"));

@@ -4,7 +4,7 @@ use crate::evidence::Evidence;
 use crate::matrix::CHAIN;
 use crate::trial::Record;
 use crate::{Cell, FaultKind, Moment, Outcome, Target};
-use coact_messages::topic;
+use coact_messages::{Refusal, topic};
 use coact_monitor::Rules;
 use coact_run_records::{Event, FaultReport, MotionReport, SupervisorEvent, SupervisorEventKind};
 
@@ -240,10 +240,11 @@ impl Case<'_> {
             let topic = topic::state_of(process).filter(|_| process != "world").unwrap_or(topic::SENSORS);
             let readers = topic::find(topic).map_or(&[][..], |entry| entry.readers);
             for reader in readers.iter().filter(|reader| CHAIN.contains(reader) || **reader == "monitor") {
-                let refused = summary.refused.get(*reader);
-                let reason = fault.refusal().name();
-                if refused.and_then(|by| by.get(reason)).is_none_or(|count| *count == 0) {
-                    reasons.push(format!("{reader} ignored no message as \"{reason}\""));
+                let counts = summary.refused.get(*reader);
+                let count = |reason: &Refusal| counts.and_then(|counts| counts.get(reason.name())).copied();
+                if fault.refusals().iter().filter_map(count).sum::<u64>() == 0 {
+                    let expected: Vec<_> = fault.refusals().iter().map(|reason| reason.name()).collect();
+                    reasons.push(format!("{reader} ignored no message as \"{}\"", expected.join("\" or \"")));
                 }
             }
         }
@@ -292,3 +293,6 @@ impl Case<'_> {
 fn died(event: &SupervisorEvent) -> String {
     format!("{} died: {}", event.process, event.reason.as_deref().unwrap_or("nobody knows why"))
 }
+
+#[cfg(test)]
+mod tests;

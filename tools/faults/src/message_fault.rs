@@ -1,5 +1,8 @@
 use coact_messages::{Header, LAYOUT, Refusal};
 
+/// So many cycles ago is too long ago for every topic of the chain (`TopicEntry::lifetime`).
+const LONG_AGO: u64 = 6000;
+
 /// What is wrong with a message that a stranger sends on a topic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum MessageFault {
@@ -44,14 +47,20 @@ impl MessageFault {
         }
     }
 
-    /// For which reason readers must ignore it. Of messages whose time is good, the sender is looked at first.
-    pub fn refusal(self) -> Refusal {
+    /// For which reasons readers may ignore it. Of messages whose time is good, the sender is looked at first: it is a stranger,
+    /// or, where the topic's writer has been replaced, looks like its predecessor.
+    pub fn refusals(self) -> &'static [Refusal] {
         match self {
-            Self::Garbage | Self::Layout => Refusal::Layout,
-            Self::Stale => Refusal::Stale,
-            Self::Future => Refusal::Future,
-            Self::NotANumber | Self::Repeated | Self::Backward => Refusal::Writer,
+            Self::Garbage | Self::Layout => &[Refusal::Layout],
+            Self::Stale => &[Refusal::Stale],
+            Self::Future => &[Refusal::Future],
+            Self::NotANumber | Self::Repeated | Self::Backward => &[Refusal::Writer, Refusal::Generation],
         }
+    }
+
+    /// From which cycle of a run on there can be such a message: what is stale is older than five seconds.
+    pub(crate) fn possible_from(self) -> u64 {
+        if self == Self::Stale { LONG_AGO } else { 0 }
     }
 
     /// The header of such a message in this cycle.
@@ -69,7 +78,7 @@ impl MessageFault {
             Self::Garbage => bytemuck::cast([0xff_u8; size_of::<Header>()]),
             Self::Layout => Header { layout: LAYOUT + 1, ..good },
             Self::NotANumber => good,
-            Self::Stale => Header { cycle: tick.saturating_sub(6000), layout: LAYOUT, ..good },
+            Self::Stale => Header { cycle: tick.saturating_sub(LONG_AGO), ..good },
             Self::Repeated => Header { sequence: 1, ..good },
             Self::Backward => Header { cycle: tick.saturating_sub(10), ..good },
             Self::Future => Header { cycle: tick + 1500, ..good },

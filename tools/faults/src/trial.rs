@@ -98,6 +98,7 @@ impl<'a> Trial<'a> {
             }
             moment => {
                 self.wait_for_start()?;
+                self.wait_until_possible(cell.fault)?;
                 self.wait_for(moment)?;
             }
         }
@@ -165,6 +166,20 @@ impl<'a> Trial<'a> {
             None => Ok(()),
             Some(_) => Err(Trouble("the run had begun already".into())),
         }
+    }
+
+    fn wait_until_possible(&mut self, fault: FaultKind) -> Result<(), Trouble> {
+        let FaultKind::Message(fault) = fault else { return Ok(()) };
+        let schedule = self.schedule()?;
+        while schedule.tick_at(now()) < fault.possible_from() {
+            self.look()?;
+        }
+        Ok(())
+    }
+
+    fn schedule(&self) -> Result<Schedule, Trouble> {
+        let start_ns = self.set.run().start_ns().ok().flatten();
+        Ok(Schedule { start_ns: start_ns.ok_or_else(|| Trouble("the run has no clock".into()))? })
     }
 
     fn wait_for(&mut self, moment: Moment) -> Result<(), Trouble> {
@@ -235,8 +250,7 @@ impl<'a> Trial<'a> {
     }
 
     fn spoof(&mut self, process: &str, fault: MessageFault) -> Result<(), Trouble> {
-        let start_ns = self.set.run().start_ns().ok().flatten();
-        let schedule = Schedule { start_ns: start_ns.ok_or_else(|| Trouble("the run has no clock".into()))? };
+        let schedule = self.schedule()?;
         let stranger = Stranger::join(self.set.run())?;
         let mut send = stranger.spoofs(process, fault)?;
         let begin = Instant::now();
