@@ -18,6 +18,9 @@ pub(crate) struct Stranger {
 /// Places among the readers of a topic, taken for as long as this lives.
 pub(crate) type Flood = Vec<Subscriber<ipc::Service, FieldFrame, ()>>;
 
+/// Sends one message in the given cycle.
+pub(crate) type Sender = Box<dyn FnMut(u64) -> Result<(), Trouble>>;
+
 /// A message that is good by its length only.
 trait Spoofed: Pod + Debug + ZeroCopySend {}
 impl<T: Pod + Debug + ZeroCopySend> Spoofed for T {}
@@ -33,11 +36,7 @@ impl Stranger {
     }
 
     /// What sends messages with this fault on the topic of `process`, once for each call with the present cycle.
-    pub(crate) fn spoofs(
-        &self,
-        process: &str,
-        fault: MessageFault,
-    ) -> Result<Box<dyn FnMut(u64) -> Result<(), Trouble>>, Trouble> {
+    pub(crate) fn spoofs(&self, process: &str, fault: MessageFault) -> Result<Sender, Trouble> {
         match process {
             "world" => self.spoofs_on::<SensorSample>(topic::SENSORS, fault),
             "perception" => self.spoofs_on::<Percept>(topic::PERCEPT, fault),
@@ -47,11 +46,7 @@ impl Stranger {
         }
     }
 
-    fn spoofs_on<T: Spoofed>(
-        &self,
-        topic: &str,
-        fault: MessageFault,
-    ) -> Result<Box<dyn FnMut(u64) -> Result<(), Trouble>>, Trouble> {
+    fn spoofs_on<T: Spoofed>(&self, topic: &str, fault: MessageFault) -> Result<Sender, Trouble> {
         let open = || -> Result<_, Box<dyn Error>> {
             let service =
                 self.node.service_builder(&ServiceName::new(topic)?).publish_subscribe::<T>().open()?;
