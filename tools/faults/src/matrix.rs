@@ -106,7 +106,7 @@ pub fn quick() -> Vec<Cell> {
         other(FaultKind::Process(Fault::StopShort), Target::Supervisor),
         moving(Fault::CrashLoop, "control"),
         cell(Fault::Kill, Target::Process("fields"), Moment::StartUp),
-        cell(Fault::Kill, Target::Process("control"), Moment::Shutdown),
+        cell(Fault::Kill, Target::Process("world"), Moment::Shutdown),
     ]
 }
 
