@@ -16,9 +16,9 @@ const STAMPED_WITHIN_S: f64 = 1.0;
 /// An arm that is slower than this stands, rad/s: far above the encoders' scatter of 0.001. Chosen by hand.
 const STANDING: f64 = Moment::STANDING;
 
-/// A machine that wakes up a thread of the highest priority so late may let a process hang for the watchdog's shortest limit, ns:
-/// half of those 10 ms, for the probe is one thread on one core.
-const MACHINE_STANDS: u64 = 5_000_000;
+/// A machine that wakes up a thread of the highest priority so late may let a process hang for as long as the watchdog waits,
+/// ns: half of its 100 ms, for the probe is one thread on one core.
+const MACHINE_STANDS: u64 = 50_000_000;
 
 /// Whether every rule was kept in the cell. Of a run with several cells, a rule that was broken by none of them in particular
 /// makes all of them unknown: they are to be done `alone`.
