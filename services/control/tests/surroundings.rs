@@ -274,12 +274,15 @@ fn a_hidden_hand_is_not_farther_from_a_shoulder_that_is_seen_than_the_arm_is_lon
     world.until(8.0, "the nut lies beyond her reach", |world| world.held().is_some());
 }
 
+/// Most speed of what is nearer than the protective separation (`contact_speed_mps` in safety.toml), m/s.
+const CONTACT_SPEED: f64 = 0.25;
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, rng_seed: RngSeed::Fixed(18), failure_persistence: None, ..ProptestConfig::default() })]
 
-    // A hand that wanders about the way to the nut, with the speeds and accelerations that hands have.
+    // A hand that wanders about the way to the nut and sets out hard: it may come near an arm that brakes still.
     #[test]
-    fn the_arm_never_closes_what_is_nearer_than_the_protective_separation(
+    fn the_arm_closes_no_faster_than_at_contact_speed_what_is_nearer_than_the_protective_separation(
         targets in prop::collection::vec((-0.25..0.25f64, -0.25..0.25f64, 0.02..0.3f64), 8),
         most in 0.1..1.0f64,
     ) {
@@ -301,7 +304,7 @@ proptest! {
                 // Where the hand has run into the arm already, each way out leads past a part of it. The guard knows the
                 // fingers in 13 shapes, to 2 mm.
                 prop_assert!(
-                    !(0.005..0.038).contains(&now) || now > before - 1e-5,
+                    !(0.005..0.038).contains(&now) || now > before - CONTACT_SPEED * PERIOD_S,
                     "it moves {} mm towards a hand {now} m away", 1e3 * (before - now)
                 );
             }
