@@ -235,7 +235,8 @@ proptest! {
         }
         // Another writer's commands may be followed once this one is silent.
         let fault = if FAULTS[fault] == Fault::OtherGeneration { Fault::Missing } else { FAULTS[fault] };
-        let most = rig.stopping() + REACTION;
+        // In the two cycles that are bridged a joint may get faster.
+        let most = rig.stopping() + 2 * REACTION;
         let hold = if fault == Fault::Held { HoldReason::Stopped } else { HoldReason::None };
         for cycle in 0..most {
             spoil(&mut rig, fault, 0.7);
