@@ -1,7 +1,7 @@
 use coact_messages::{ARM_JOINTS, JointReading, Pulse, SensorSample};
 use coact_period::{PERIOD_NS, cycles, seconds};
 use coact_robot::JointLimits;
-use coact_run_records::MotionReport;
+use coact_run_records::{JointMoment, MotionReport};
 use std::collections::VecDeque;
 use std::time::Duration;
 
@@ -73,7 +73,7 @@ impl JointMotion {
         self.positions(&sample.joints);
         self.staleness(sample.header.sensor_ns);
         if self.velocities.len() == 2 * MEAN {
-            self.speeds();
+            self.speeds(cycle);
         }
     }
 
@@ -89,13 +89,15 @@ impl JointMotion {
         }
     }
 
-    fn speeds(&mut self) {
+    fn speeds(&mut self, cycle: u64) {
         for (joint, limits) in self.limits.iter().enumerate() {
             let (before, now) = (self.mean(0, joint), self.mean(MEAN, joint));
             let acceleration = (now - before) / seconds(MEAN as u64);
+            let here = JointMoment { joint: joint + 1, s: seconds(cycle) };
             let report = &mut self.report;
-            report.speed = report.speed.max(now.abs() / limits.velocity);
-            report.acceleration = report.acceleration.max(acceleration.abs() / limits.acceleration);
+            exceed((&mut report.speed, &mut report.speed_at), now.abs() / limits.velocity, here);
+            let fraction = acceleration.abs() / limits.acceleration;
+            exceed((&mut report.acceleration, &mut report.acceleration_at), fraction, here);
         }
     }
 
@@ -121,5 +123,12 @@ impl JointMotion {
     /// Mean velocity of a joint over [`MEAN`] cycles.
     fn mean(&self, from: usize, joint: usize) -> f64 {
         self.velocities.range(from..from + MEAN).map(|velocity| velocity[joint]).sum::<f64>() / MEAN as f64
+    }
+}
+
+/// Keeps the larger value, and where it was found.
+fn exceed((most, at): (&mut f64, &mut JointMoment), found: f64, here: JointMoment) {
+    if found > *most {
+        (*most, *at) = (found, here);
     }
 }

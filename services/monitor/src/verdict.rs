@@ -1,7 +1,7 @@
 //! The rules of `verdict.toml`, applied to a summary.
 
 use crate::Rules;
-use coact_run_records::{Event, MotionReport, OutageReport, SeparationReport, Summary};
+use coact_run_records::{Event, JointMoment, MotionReport, OutageReport, SeparationReport, Summary};
 
 /// What was done, one sentence for each rule that was broken: task, anticipation, safety, nothing lost.
 pub(crate) fn work(summary: &Summary, events: &[Event], run_s: f64, rules: &Rules) -> Vec<String> {
@@ -76,15 +76,16 @@ fn anticipation(summary: &Summary, events: &[Event], rules: &Rules, reasons: &mu
 
 /// What happened at the joints, whoever commanded it.
 fn motion(motion: &MotionReport, rules: &Rules, reasons: &mut Vec<String>) {
-    let mut fraction = |what: &str, found: f64, limit: f64| {
+    let mut fraction = |what: &str, found: f64, at: JointMoment, limit: f64| {
         if found > limit {
             reasons.push(format!(
-                "a joint's {what} was {found:.2} times its limit; at most {limit:.2} times is allowed"
+                "the {what} of joint {} was {found:.2} times its limit at {:.1} s; at most {limit:.2} times is allowed",
+                at.joint, at.s
             ));
         }
     };
-    fraction("speed", motion.speed, rules.joint_speed_fraction);
-    fraction("acceleration", motion.acceleration, rules.joint_acceleration_fraction);
+    fraction("speed", motion.speed, motion.speed_at, rules.joint_speed_fraction);
+    fraction("acceleration", motion.acceleration, motion.acceleration_at, rules.joint_acceleration_fraction);
     if motion.beyond_position_rad > rules.joint_beyond_rad {
         reasons
             .push(format!("a joint was {:.4} rad beyond its limit of position", motion.beyond_position_rad));

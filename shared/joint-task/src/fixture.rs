@@ -74,4 +74,26 @@ impl Task {
         }
         found
     }
+
+    /// How far a part comes through or around fixtures on its way along `axis` (unit) into its place, m: the depth of a hole,
+    /// or as far as an axle sticks out. 0 where nothing but the place itself is met.
+    pub fn insertion_depth(&self, place: [f64; 3], axis: [f64; 3]) -> f64 {
+        let along = |point: [f64; 3]| {
+            let offset: [f64; 3] = std::array::from_fn(|i| point[i] - place[i]);
+            let along: f64 = (0..3).map(|i| offset[i] * axis[i]).sum();
+            let across = (0..3).map(|i| (offset[i] - along * axis[i]).powi(2)).sum::<f64>().sqrt();
+            (along, across)
+        };
+        let depths = self.fixtures().into_iter().map(|fixture| match fixture.form {
+            FixtureForm::Rod { to, radius, .. } => {
+                let (depth, off) = along(to);
+                if off < radius { depth + radius } else { 0.0 }
+            }
+            FixtureForm::Upright { shape, underside: [x, y, z] } => {
+                let (depth, off) = along([x, y, z + shape.height()]);
+                if off < shape.radius() && axis[2] > 0.5 { depth } else { 0.0 }
+            }
+        });
+        depths.fold(0.0, f64::max)
+    }
 }

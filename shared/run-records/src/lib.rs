@@ -61,7 +61,7 @@ pub use fault_event::FaultEvent;
 pub use fault_report::FaultReport;
 pub use judgement::{Judgement, Verdict};
 pub use log_follower::LogFollower;
-pub use motion_report::MotionReport;
+pub use motion_report::{JointMoment, MotionReport};
 pub use outage_report::OutageReport;
 pub use percentiles::Percentiles;
 pub use process_report::ProcessReport;

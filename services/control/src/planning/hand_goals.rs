@@ -15,6 +15,8 @@ pub(crate) struct HandGoals {
     hand: Hand,
     grips: GripTable,
     sockets: Vec<Isometry3<f64>>,
+    /// How deep a part goes into each, m.
+    depths: Vec<f64>,
 }
 
 /// Distance at which the approach to a grasp, or to a place where a part is put, begins, m. Chosen by hand: from there the hand
@@ -43,6 +45,9 @@ const POINTING_REACH: f64 = 0.85;
 /// Cells along each side of the robot's workspace among which a free place is looked for. Chosen by hand; not sensitive.
 const CELLS: usize = 5;
 
+/// Places no farther apart are one, m. Not sensitive: sockets are centimetres apart.
+const SAME_PLACE: f64 = 1e-3;
+
 impl HandGoals {
     pub fn new(model: &RobotModel, task: &Task) -> Self {
         Self {
@@ -51,6 +56,7 @@ impl HandGoals {
             hand: model.robot.hand.clone(),
             grips: model.grips.clone(),
             sockets: task.subgoals.iter().map(|subgoal| frame(subgoal.socket, subgoal.axis)).collect(),
+            depths: task.subgoals.iter().map(|goal| task.insertion_depth(goal.socket, goal.axis)).collect(),
         }
     }
 
@@ -137,6 +143,14 @@ impl HandGoals {
     /// Where the part of a subgoal belongs.
     pub fn socket(&self, subgoal: usize) -> Isometry3<f64> {
         self.sockets[subgoal]
+    }
+
+    /// How deep a part goes that comes to `place`, m; 0 where that is no socket.
+    pub fn insertion_depth(&self, place: &Isometry3<f64>) -> f64 {
+        let at = |socket: &Isometry3<f64>| {
+            (socket.translation.vector - place.translation.vector).norm() < SAME_PLACE
+        };
+        self.sockets.iter().position(at).map_or(0.0, |socket| self.depths[socket])
     }
 
     /// A part's frame as it is seen; it stands on the table at the lowest.

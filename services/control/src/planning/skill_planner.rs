@@ -112,8 +112,11 @@ impl SkillPlanner {
             Skill::Park => Goal::Posture(self.models.mechanism.park),
             _ => Goal::Hand(goals.iter().map(|grip_goal| grip_goal.goal).collect()),
         };
-        let puts = matches!(query.skill, Skill::Insert | Skill::PutBack);
-        let insertion_depth = if puts { INSERTION_DEPTH } else { 0.0 };
+        let insertion_depth = match query.skill {
+            Skill::Insert => INSERTION_DEPTH.max(self.goals.insertion_depth(&query.place)),
+            Skill::PutBack => INSERTION_DEPTH,
+            _ => 0.0,
+        };
         let next = query.next_place.map(|next| next * query.place.inverse());
         let problem = Problem {
             leave: attempt.leave,

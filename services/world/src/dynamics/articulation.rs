@@ -29,13 +29,13 @@ impl Articulation {
             let mut displacement = vec![0.0; ndofs];
             let factor = driven.factor();
             let wanted = factor * joints.position[driven.source];
-            displacement[at] = wanted as f32 - link.joint().coords()[3];
+            displacement[at] = wanted - link.joint().coords()[3];
             body.apply_displacements(&displacement);
             let gains = driven.gains();
             if let Some(link) = body.link_mut(id).filter(|_| driven.gear.is_none()) {
-                link.joint.data.set_motor(JointAxis::AngX, wanted as f32, 0.0, gains.0, gains.1);
+                link.joint.data.set_motor(JointAxis::AngX, wanted, 0.0, gains.0, gains.1);
             }
-            body.generalized_velocity_mut()[at] = (factor * joints.velocity[driven.source]) as f32;
+            body.generalized_velocity_mut()[at] = factor * joints.velocity[driven.source];
             body.forward_kinematics(bodies, false);
             body.update_rigid_bodies(bodies, true);
         }
@@ -48,7 +48,7 @@ impl Articulation {
             let Some(link) = body.link_mut(id) else { continue };
             let gains = driven.gains();
             let setpoint = &setpoints[driven.source];
-            let motor = (setpoint.position as f32, setpoint.velocity as f32);
+            let motor = (setpoint.position, setpoint.velocity);
             link.joint.data.set_motor(JointAxis::AngX, motor.0, motor.1, gains.0, gains.1);
         }
     }
@@ -99,14 +99,14 @@ impl Articulation {
         for driven in self.joints.iter().filter(|driven| driven.is_source) {
             let Some((body, id)) = world.multibody_joints.get(driven.handle) else { continue };
             let Some(link) = body.link(id) else { continue };
-            joints.position[driven.source] = f64::from(link.joint().coords()[3]);
-            joints.velocity[driven.source] = f64::from(body.joint_velocity(link)[0]);
+            joints.position[driven.source] = link.joint().coords()[3];
+            joints.velocity[driven.source] = body.joint_velocity(link)[0];
         }
     }
 }
 
 /// Torque of the weight of all links about a joint, Nm.
-fn weight_on(body: &Multibody, joint: usize, bodies: &RigidBodySet, gravity: Vector) -> f32 {
+fn weight_on(body: &Multibody, joint: usize, bodies: &RigidBodySet, gravity: Vector) -> f64 {
     let Some(column) = body.link(joint).map(|link| link.assembly_id()) else { return 0.0 };
     let links = body.links().enumerate().filter_map(|(id, link)| {
         let weight = bodies.get(link.rigid_body_handle())?.mass() * gravity;

@@ -11,7 +11,7 @@ use rapier3d::prelude::*;
 use std::collections::HashMap;
 
 /// Rotor inertia of every joint, kg m²: keeps the lightest links well conditioned.
-const ARMATURE: f32 = 1e-3;
+const ARMATURE: f64 = 1e-3;
 
 impl Articulation {
     /// Builds bodies, colliders and joints from the robot's URDF.
@@ -78,7 +78,7 @@ impl Articulation {
                     link2: link(world, &joint.name)?,
                     dof2: 0,
                     axis2: axis,
-                    coeff: *factor as f32,
+                    coeff: *factor,
                     offset: 0.0,
                 })
             })

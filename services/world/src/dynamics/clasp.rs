@@ -87,6 +87,6 @@ impl Clasp {
             let others = pushes(world, *own).filter(|(other, _)| !on_hand(*other));
             load += others.map(|(_, push)| push).sum::<Vector>();
         }
-        Some(f64::from(load.length()))
+        Some(load.length())
     }
 }

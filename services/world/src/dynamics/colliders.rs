@@ -6,7 +6,7 @@ use rapier3d::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
 /// Friction coefficient of parts: wood or plastic on wood. Chosen by hand.
-pub(super) const PART_FRICTION: f32 = 0.7;
+pub(super) const PART_FRICTION: f64 = 0.7;
 
 /// Turns the engine's y axis onto our z axis.
 pub(super) fn upright() -> Isometry3<f64> {
@@ -20,10 +20,10 @@ pub(super) fn part_collider(shape: Shape) -> ColliderBuilder {
     let centre = Isometry3::translation(0.0, 0.0, half);
     match shape {
         Shape::Cylinder { radius, .. } => {
-            ColliderBuilder::cylinder(half as f32, radius as f32).position(pose(&(centre * upright())))
+            ColliderBuilder::cylinder(half, radius).position(pose(&(centre * upright())))
         }
         Shape::Box { size } => {
-            let [x, y, z] = size.map(|extent| 0.5 * extent as f32);
+            let [x, y, z] = size.map(|extent| 0.5 * extent);
             ColliderBuilder::cuboid(x, y, z).position(pose(&centre))
         }
     }
@@ -33,27 +33,25 @@ pub(super) fn part_collider(shape: Shape) -> ColliderBuilder {
 pub(super) fn collider(geometry: &urdf_rs::Geometry) -> Option<(ColliderBuilder, Isometry3<f64>)> {
     Some(match geometry {
         urdf_rs::Geometry::Box { size } => {
-            let [x, y, z] = size.0.map(|extent| 0.5 * extent as f32);
+            let [x, y, z] = size.0.map(|extent| 0.5 * extent);
             (ColliderBuilder::cuboid(x, y, z), Isometry3::identity())
         }
         urdf_rs::Geometry::Cylinder { radius, length } => {
-            (ColliderBuilder::cylinder(0.5 * *length as f32, *radius as f32), upright())
+            (ColliderBuilder::cylinder(0.5 * *length, *radius), upright())
         }
         urdf_rs::Geometry::Capsule { radius, length } => {
-            (ColliderBuilder::capsule_y(0.5 * *length as f32, *radius as f32), upright())
+            (ColliderBuilder::capsule_y(0.5 * *length, *radius), upright())
         }
-        urdf_rs::Geometry::Sphere { radius } => {
-            (ColliderBuilder::ball(*radius as f32), Isometry3::identity())
-        }
+        urdf_rs::Geometry::Sphere { radius } => (ColliderBuilder::ball(*radius), Isometry3::identity()),
         urdf_rs::Geometry::Mesh { .. } => return None,
     })
 }
 
-/// A pose in the engine's single precision.
+/// A pose in the engine's own type.
 pub(super) fn pose(place: &Isometry3<f64>) -> Pose {
     let (at, turn) = (place.translation.vector, place.rotation.coords);
     Pose::from_parts(
-        Vector::new(at.x as f32, at.y as f32, at.z as f32),
-        Rotation::from_xyzw(turn.x as f32, turn.y as f32, turn.z as f32, turn.w as f32).normalize(),
+        Vector::new(at.x, at.y, at.z),
+        Rotation::from_xyzw(turn.x, turn.y, turn.z, turn.w).normalize(),
     )
 }

@@ -8,9 +8,9 @@ use rapier3d::prelude::*;
 /// Stiffness, 1/s², and damping, 1/s, of the arm's motors, which are acceleration based and critically damped at a
 /// natural frequency of 200 rad/s. The velocity is fed forward. Chosen by hand: with them, and the substeps of the solver,
 /// moving joints stay within 5 mrad of their setpoints.
-const ARM: (f32, f32) = (40_000.0, 400.0);
+const ARM: (f64, f64) = (40_000.0, 400.0);
 /// The same of the fingers: soft enough that a part stops them before their effort is spent.
-const HAND: (f32, f32) = (10_000.0, 200.0);
+const HAND: (f64, f64) = (10_000.0, 200.0);
 
 /// A revolute joint with its motor, or one that is geared to another.
 #[derive(Debug, Clone)]
@@ -22,7 +22,7 @@ pub(super) struct DrivenJoint {
     /// Whether it is that joint itself.
     pub is_source: bool,
     /// Largest torque of its motor, Nm.
-    pub effort: f32,
+    pub effort: f64,
     /// The URDF joint that it is geared to, and its angle for each rad of that.
     pub gear: Option<(String, f64)>,
 }
@@ -48,7 +48,7 @@ impl DrivenJoint {
         let axis = Vector3::from(joint.axis.xyz.0);
         let align = UnitQuaternion::rotation_between(&Vector3::x(), &axis)
             .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI));
-        let effort = joint.limit.effort as f32;
+        let effort = joint.limit.effort;
         let data = GenericJointBuilder::new(JointAxesMask::LOCKED_REVOLUTE_AXES)
             .local_frame1(pose(&(origin * align)))
             .local_frame2(pose(&Isometry3::from_parts(Default::default(), align)));
@@ -65,7 +65,7 @@ impl DrivenJoint {
     }
 
     /// Stiffness, 1/s², and damping, 1/s, of its motor.
-    pub fn gains(&self) -> (f32, f32) {
+    pub fn gains(&self) -> (f64, f64) {
         if self.source < ARM_JOINTS { ARM } else { HAND }
     }
 

@@ -2,7 +2,7 @@ use super::colliders::{PART_FRICTION, part_collider, pose};
 use super::layer::Layer;
 use crate::WorldError;
 use coact_joint_task::{FixtureForm, Task};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use nalgebra::Isometry3;
 use rapier3d::prelude::*;
 
@@ -23,8 +23,8 @@ pub(super) fn insert_fixtures(world: &mut PhysicsWorld, task: &Task) -> Result<(
                 shape.position(place)
             }
             FixtureForm::Rod { from, to, radius } => {
-                let point = |at: [f64; 3]| Vector::from(DVec3::from(at).as_vec3().to_array());
-                ColliderBuilder::capsule_from_endpoints(point(from), point(to), radius as f32)
+                let point = |at: [f64; 3]| Vector::from(at);
+                ColliderBuilder::capsule_from_endpoints(point(from), point(to), radius)
             }
         };
         world.insert_collider(shape.friction(PART_FRICTION).collision_groups(Layer::Fixture.groups()), None);

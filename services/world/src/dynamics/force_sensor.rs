@@ -29,9 +29,9 @@ impl ForceSensor {
     pub fn read(&self) -> Contacts {
         let mut mean = Contacts::NONE;
         for step in self.steps.iter() {
-            mean.outside += step.outside / STEPS as f32;
+            mean.outside += step.outside / STEPS as f64;
             let fingers = mean.pushes.iter_mut().flatten().zip(step.pushes.iter().flatten());
-            fingers.for_each(|(mean, push)| *mean += *push / STEPS as f32);
+            fingers.for_each(|(mean, push)| *mean += *push / STEPS as f64);
         }
         mean
     }

@@ -7,7 +7,7 @@ use nalgebra::Isometry3;
 use rapier3d::prelude::*;
 
 /// Friction coefficient of the finger pads, of rubber; those of the parts are lower, and the engine takes the mean.
-const PAD: f32 = 1.0;
+const PAD: f64 = 1.0;
 
 /// Where a link is: on which body, and its pose in that body's frame.
 pub(super) type Place = (RigidBodyHandle, Isometry3<f64>);
@@ -52,12 +52,12 @@ fn mass_properties(inertial: &urdf_rs::Inertial, within: &Isometry3<f64>) -> Mas
         inertia.izz,
     );
     let turn = place.rotation.to_rotation_matrix();
-    let turned = (turn * tensor * turn.transpose()).map(|entry| entry as f32);
+    let turned = turn * tensor * turn.transpose();
     let matrix = Matrix::from_cols_array(&turned.as_slice().try_into().unwrap_or([0.0; 9]));
-    let centre = place.translation.vector.map(|entry| entry as f32);
+    let centre = place.translation.vector;
     MassProperties::with_inertia_matrix(
         Vector::new(centre.x, centre.y, centre.z),
-        inertial.mass.value as f32,
+        inertial.mass.value,
         matrix,
     )
 }

@@ -31,11 +31,11 @@ impl MeasuredGrip {
     /// The grip that these forces make.
     pub(super) fn of(contacts: &Contacts) -> Self {
         let forces = contacts.pushes.map(|pushes| {
-            let all: f32 = pushes.iter().map(|push| push.length()).sum();
+            let all: f64 = pushes.iter().map(|push| push.length()).sum();
             let unopposed = pushes.iter().copied().sum::<Vector>().length();
             let [one, two, three, _palm] = pushes.map(Vector::length);
             let both_sides = one.max(two) > 0.0 && three > 0.0;
-            if both_sides { f64::from(0.5 * (all - unopposed)) } else { 0.0 }
+            if both_sides { 0.5 * (all - unopposed) } else { 0.0 }
         });
         let most = (0..MAX_PARTS).max_by(|one, other| forces[*one].total_cmp(&forces[*other]));
         let part = most.filter(|&part| forces[part] > 0.0);

@@ -15,18 +15,18 @@ use coact_messages::PartState;
 use coact_period::PERIOD_S;
 use coact_person::Holder;
 use coact_robot::Robot;
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use rapier3d::prelude::*;
 
 /// Gravity, m/s².
-const GRAVITY: f32 = 9.81;
+const GRAVITY: f64 = 9.81;
 /// Substeps of the solver in each step of 1 ms. Two, at half the cost of the engine's four, keep moving joints within
 /// 5 mrad of their setpoints and resting parts within 5 mm of their places.
 const SUBSTEPS: usize = 2;
 /// Size of the things that are handled, m: the engine scales its tolerances by it, and lets them overlap by 0.5 % of it.
-const SIZE: f32 = 0.1;
+const SIZE: f64 = 0.1;
 /// The person's hand is a ball of this radius, m: half the breadth of an adult's hand.
-const PERSON_HAND: f32 = 0.045;
+const PERSON_HAND: f64 = 0.045;
 
 /// Rigid-body dynamics of table, base, parts and robot; one step is one tick.
 ///
@@ -55,7 +55,7 @@ impl PhysicsSimulation {
     pub fn new(task: &Task, robot: &Robot, joints: &Joints, parts: &Parts) -> Result<Self, WorldError> {
         let mut world = PhysicsWorld::new();
         world.gravity = Vector::new(0.0, 0.0, -GRAVITY);
-        world.integration_parameters.dt = PERIOD_S as f32;
+        world.integration_parameters.dt = PERIOD_S;
         world.integration_parameters.num_solver_iterations = SUBSTEPS;
         world.integration_parameters.length_unit = SIZE;
         insert_fixtures(&mut world, task)?;
@@ -118,7 +118,7 @@ impl PhysicsSimulation {
     pub fn pull(&mut self, part: usize, force: DVec3) {
         if let Some(body) = self.world.bodies.get_mut(self.parts[part]) {
             body.reset_forces(true);
-            body.add_force(force.as_vec3().to_array().into(), true);
+            body.add_force(force, true);
         }
     }
 
@@ -138,7 +138,7 @@ impl PhysicsSimulation {
         self.forces.feel(Contacts::measure(&self.world, &self.articulation, body, own));
         let felt = self.forces.read();
         self.grip = MeasuredGrip::of(&felt);
-        self.outside = DVec3::from_array(felt.outside.to_array().map(f64::from));
+        self.outside = felt.outside;
     }
 
     /// Lets the person pull at what the hand holds, as far as the grip withstands it; beyond that the part slips.
@@ -149,7 +149,7 @@ impl PhysicsSimulation {
         let Some(held) = held.filter(|_| pull != DVec3::ZERO) else { return };
         if let Some(body) = self.world.bodies.get_mut(self.parts[held]) {
             let force = pull.clamp_length_max(self.grip.carries(held));
-            body.add_force(force.as_vec3().to_array().into(), true);
+            body.add_force(force, true);
             self.pulled = Some(held);
         }
     }
@@ -201,7 +201,7 @@ impl PhysicsSimulation {
             self.left[index] = *part;
         }
         if let Some(body) = self.world.bodies.get_mut(self.person) {
-            body.set_next_kinematic_position(Pose::from_translation(person.as_vec3().to_array().into()));
+            body.set_next_kinematic_position(Pose::from_translation(person));
         }
     }
 
@@ -218,7 +218,7 @@ impl PhysicsSimulation {
         body.set_body_type(kind, true);
         body.set_position(pose_of(part), true);
         if kind == RigidBodyType::Dynamic {
-            body.set_linvel(DVec3::from(part.velocity).as_vec3().to_array().into(), true);
+            body.set_linvel(part.velocity.into(), true);
             body.set_angvel(Vector::ZERO, true);
         }
     }
@@ -241,9 +241,7 @@ impl PhysicsSimulation {
                 self.put(index, &last);
                 continue;
             }
-            let at = DVec3::from_array(at.to_array().map(f64::from));
-            let turn = DQuat::from_array(turn.to_array().map(f64::from)).normalize();
-            parts.move_to(index, at, turn, velocity.to_array().map(f64::from));
+            parts.move_to(index, at, turn.normalize(), velocity.to_array());
             self.left[index] = parts.all()[index];
         }
     }
@@ -254,7 +252,7 @@ fn insert_part(world: &mut PhysicsWorld, task: &Task, part: &PartState, number: 
     let body = world.insert_body(RigidBodyBuilder::dynamic().pose(pose_of(part)));
     let kind = &task.kinds[part.kind as usize];
     let collider = part_collider(kind.shape)
-        .mass(kind.mass as f32)
+        .mass(kind.mass)
         .friction(PART_FRICTION)
         .user_data(number)
         .collision_groups(Layer::Part.groups());
@@ -271,9 +269,5 @@ fn body_type(part: &PartState) -> RigidBodyType {
 }
 
 fn pose_of(part: &PartState) -> Pose {
-    let [x, y, z, w] = part.orientation.map(|entry| entry as f32);
-    Pose::from_parts(
-        part.position.map(|entry| entry as f32).into(),
-        Rotation::from_xyzw(x, y, z, w).normalize(),
-    )
+    Pose::from_parts(part.position.into(), Rotation::from_array(part.orientation).normalize())
 }
