@@ -1,6 +1,7 @@
 use crate::death::Death;
 use crate::fault::Means;
 use crate::kill_reason::KillReason;
+use crate::operator::Operator;
 use crate::start_fault::StartFault;
 use crate::supervised::{Lifecycle, Supervised};
 use crate::watch_clock::WatchClock;
@@ -198,6 +199,20 @@ impl ProcessSet {
         self.processes.iter().filter(|process| !process.is_ready()).map(|process| process.spec.name.as_str())
     }
 
+    /// Logs what an operator has done to the whole set.
+    pub(crate) fn record_operator(&mut self, event: SupervisorEventKind, operator: Operator) {
+        self.note(SupervisorEvent {
+            at_ns: monotonic_time().as_nanos() as u64,
+            event,
+            process: SupervisorEvent::OPERATOR.to_owned(),
+            generation: 0,
+            pid: operator.pid,
+            fault: None,
+            reason: None,
+            user: Some(operator.user),
+        });
+    }
+
     /// Names of all processes, in starting order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.processes.iter().map(|process| process.spec.name.as_str())
@@ -383,7 +398,13 @@ impl ProcessSet {
             pid,
             fault: process.fault.map(|fault| fault.name().to_owned()),
             reason,
+            user: None,
         };
+        self.note(event);
+    }
+
+    /// Logs an event, and keeps it for [`ProcessSet::take_events`].
+    fn note(&mut self, event: SupervisorEvent) {
         self.log.write(event.clone());
         self.new_events.push(event);
     }
