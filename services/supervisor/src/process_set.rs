@@ -162,11 +162,18 @@ impl ProcessSet {
         let index = self.processes.iter().position(|p| p.spec.name == process);
         let index =
             index.ok_or_else(|| InjectionRefusal::UnknownProcess { name: process.into(), known: names() })?;
+        if let Some(only) = fault.only_of().filter(|only| *only != process) {
+            return Err(InjectionRefusal::OtherProcess { fault, process: process.into(), only });
+        }
         if !self.processes[index].is_ready() {
             return Err(InjectionRefusal::NotRunning(process.into()));
         }
         self.processes[index].fault = Some(fault);
-        self.record(index, SupervisorEventKind::Injected, None, None);
+        let kind = match fault.is_latent() {
+            true => SupervisorEventKind::InjectedLatent,
+            false => SupervisorEventKind::Injected,
+        };
+        self.record(index, kind, None, None);
         let target = &mut self.processes[index];
         target.start_fault = StartFault::after(fault);
         let Some(running) = target.running_mut() else { return Ok(()) };

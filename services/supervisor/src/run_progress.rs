@@ -121,7 +121,7 @@ impl RunProgress {
             SupervisorEventKind::Died => {
                 (NoteKind::Disturbance, format!("{process} died: {reason} (pid {pid})"))
             }
-            SupervisorEventKind::Injected => {
+            SupervisorEventKind::Injected | SupervisorEventKind::InjectedLatent => {
                 (NoteKind::Disturbance, format!("injecting {fault} into {process}"))
             }
             SupervisorEventKind::GaveUp => (NoteKind::Alarm, format!("{process} is given up: {reason}")),

@@ -60,6 +60,8 @@ pub enum SupervisorEventKind {
     GaveUp,
     /// About to get a fault injected.
     Injected,
+    /// About to get a fault injected that takes effect later, when what it breaks is needed: the process dies of it then.
+    InjectedLatent,
     /// Requested to end, because the run ends: nothing is due from it any more.
     StopRequested,
     /// Ended because the run ended.
