@@ -3,7 +3,8 @@
 
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{
-    Command, FieldFrame, Header, LAYOUT, Percept, Pulse, SensorSample, Speech, Truth, WorldState, topic,
+    Command, FieldFrame, Header, LAYOUT, Percept, Pulse, SensorSample, Speech, StopState, Truth, WorldState,
+    topic,
 };
 use coact_pipeline::Run;
 use coact_realtime::{Schedule, now};
@@ -87,6 +88,7 @@ fn spoof_all(run: &Run) {
     let pulse = Spoofer::<Pulse>::join(&node, &topic::pulse("fields"));
     let speech = Spoofer::<Speech>::join(&node, topic::SPEECH);
     let heard = Spoofer::<Speech>::join(&node, topic::HEARD);
+    let stop = Spoofer::<StopState>::join(&node, topic::STOP);
     let begin = Instant::now();
     while begin.elapsed() < SPOOFED {
         let tick = schedule.tick_at(now());
@@ -99,6 +101,7 @@ fn spoof_all(run: &Run) {
         pulse.spoof(tick);
         speech.spoof(tick);
         heard.spoof(tick);
+        stop.spoof(tick);
         std::thread::sleep(PAUSE);
     }
 }

@@ -3,7 +3,7 @@
 
 use coact_messages::topic::{ALL, ANYONE, resume, state_of};
 use coact_messages::{
-    Command, FieldFrame, Percept, Pulse, SensorSample, Speech, TopicEntry, Truth, WorldState,
+    Command, FieldFrame, Percept, Pulse, SensorSample, Speech, StopState, TopicEntry, Truth, WorldState,
 };
 use coact_pipeline::Run;
 use coact_tests::{Launched, wait_for};
@@ -59,6 +59,7 @@ impl Client {
             "Pulse" => self.of_type::<Pulse>(topic),
             "SensorSample" => self.of_type::<SensorSample>(topic),
             "Speech" => self.of_type::<Speech>(topic),
+            "StopState" => self.of_type::<StopState>(topic),
             "Truth" => self.of_type::<Truth>(topic),
             "WorldState" => self.of_type::<WorldState>(topic),
             _ => panic!("{topic}: the type {message} is not in this list yet"),
@@ -118,7 +119,7 @@ fn processes_open_the_topics_that_the_table_names() {
     let launched = Launched::start(&["--world", "kinematic"]);
     let run = launched.when_started();
     let topics: Vec<_> = ALL.iter().flat_map(expected).collect();
-    assert_eq!(topics.len(), 8 + 4 + 4);
+    assert_eq!(topics.len(), 9 + 4 + 4);
     let found = || {
         let client = Client::of(&run);
         topics.iter().find(|(topic, message, parties)| client.parties(topic, message) != *parties)

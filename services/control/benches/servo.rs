@@ -9,6 +9,7 @@ use coact_control::Control;
 use coact_period::{CYCLES_PER_SECOND, PERIOD, seconds};
 use hdrhistogram::Histogram;
 use kinematic_world::KinematicWorld;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// A decision changes after so many cycles.
@@ -20,7 +21,7 @@ fn main() {
     let limits = kinematic_world::limits();
     let (control, planner) = Control::in_real_time(world.robot.clone(), &world.task, &limits).unwrap();
     world.control = control;
-    std::thread::spawn(move || planner.run());
+    std::thread::spawn(move || planner.run(&AtomicBool::new(false)));
     let actions = world.task.actions.len() as u64;
     let mut times = Histogram::<u64>::new_with_max(1_000_000_000, 3).unwrap();
     let (mut command, mut moving) = (world.command.clone(), 0);

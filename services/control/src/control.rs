@@ -96,6 +96,12 @@ impl Control {
         self.take_over(last)
     }
 
+    /// Whether the planner beside the servo hangs: it owes an answer, and its search does not go on. Nothing but another process
+    /// helps then; all that control knows stands in its last command.
+    pub fn planner_hangs(&self) -> bool {
+        self.planner.hangs()
+    }
+
     /// One period: the setpoints of cycle `tick` into `out`, from the newest messages known. `previous` is the command
     /// of the cycle before; without it the stage goes on from what it sent, or was resumed from. The very first
     /// setpoints are the measured joint positions (the park posture when nothing was measured yet).
@@ -112,6 +118,7 @@ impl Control {
         previous: Option<&Command>,
         out: &mut Command,
     ) {
+        self.planner.look();
         let drive = report_of(tick, sample);
         self.begin(sample, drive, previous);
         if let Some(drive) = drive {

@@ -3,7 +3,7 @@
 use coact_control::Control;
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, Header, Percept, SensorSample, topic};
-use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick};
+use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick, end_for_hung_thread};
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
 
@@ -29,7 +29,11 @@ impl Cycle for ControlCycle {
         let mut out = command.loan()?;
         // The stage goes on from the command that it sent itself, or was resumed from.
         control.step(tick.cycle, sample.latest(), percept.latest(), frame.latest(), None, &mut out);
-        out.send(tick.cycle, frame.header().map_or(0, |header| header.sensor_ns))
+        let header = out.send(tick.cycle, frame.header().map_or(0, |header| header.sensor_ns))?;
+        if self.control.planner_hangs() {
+            end_for_hung_thread("planner");
+        }
+        Ok(header)
     }
 }
 
@@ -49,6 +53,7 @@ fn main() -> anyhow::Result<()> {
             tracing::warn!("control begins at rest: the state in its checkpoint of cycle {cycle} is damaged");
         }
     }
-    process.spawn_background("planner", move || planner.run())?;
+    let freezes = process.background_freezes();
+    process.spawn_background("planner", move || planner.run(&freezes))?;
     Ok(process.run_cycles(ControlCycle { control, sample, percept, frame, command })?)
 }

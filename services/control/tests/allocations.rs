@@ -6,6 +6,7 @@ mod kinematic_world;
 use allocation_counter::measure;
 use coact_control::Control;
 use kinematic_world::KinematicWorld;
+use std::sync::atomic::AtomicBool;
 
 /// Time of a cycle here: the planner has its own pace.
 const CYCLE: std::time::Duration = std::time::Duration::from_micros(100);
@@ -16,7 +17,7 @@ fn a_step_allocates_nothing() {
     let limits = kinematic_world::limits();
     let (control, planner) = Control::in_real_time(world.robot.clone(), &world.task, &limits).unwrap();
     world.control = control;
-    std::thread::spawn(move || planner.run());
+    std::thread::spawn(move || planner.run(&AtomicBool::new(false)));
     let actions = world.task.actions.len() as u32;
     let mut times = Vec::with_capacity(40_000);
     let (mut counted, mut moved) = (0, 0);

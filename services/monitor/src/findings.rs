@@ -4,8 +4,9 @@ use coact_joint_task::Task;
 use coact_messages::Refusal;
 use coact_period::PERIOD_NS;
 use coact_run_records::{
-    AnticipationReport, Environment, Event, FaultReport, Judgement, MotionReport, OutageReport, Percentiles,
-    ProcessReport, ReactionReport, SeparationReport, Summary, TaskReport, TrackingReport,
+    AnticipationReport, Environment, Event, FaultReport, Judgement, MotionReport, OperatorStopReport,
+    OutageReport, Percentiles, ProcessReport, ReactionReport, SeparationReport, Summary, TaskReport,
+    TrackingReport,
 };
 use std::collections::BTreeMap;
 
@@ -22,6 +23,8 @@ pub struct Findings<'a> {
     pub metrics: Option<&'a Metrics>,
     /// When each process was requested to end, ns of `CLOCK_MONOTONIC`: up to then cycles were due.
     pub stop_requested: &'a BTreeMap<String, u64>,
+    /// When an operator had the robot stand.
+    pub operator_stops: Vec<OperatorStopReport>,
     /// How the arm moved.
     pub motion: MotionReport,
     /// How near robot and person came.
@@ -52,6 +55,7 @@ impl Findings<'_> {
             environment,
             events,
             metrics,
+            operator_stops,
             motion,
             separation,
             blind_s,
@@ -76,6 +80,7 @@ impl Findings<'_> {
             anticipation: AnticipationReport::new(events),
             task: TaskReport::new(task.subgoals.len(), events, duration_s),
             refused: ignored(metrics, refused.map(u64::from)),
+            operator_stops,
             faults: FaultReport::all(events, start_ns),
             work: Judgement::default(),
             timing: Judgement::default(),

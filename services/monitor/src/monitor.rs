@@ -9,7 +9,8 @@ use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, NONE, Pulse, Refusal, SensorSample, Speech, Truth};
 use coact_period::cycles;
 use coact_run_records::{
-    Environment, Event, LogFollower, Record, RunLog, Snapshot, Summary, SupervisorEvent, SupervisorEventKind,
+    Environment, Event, LogFollower, OperatorStopReport, Record, RunLog, Snapshot, Summary, SupervisorEvent,
+    SupervisorEventKind,
 };
 use coact_separation::SeparationMeter;
 use std::collections::{BTreeMap, VecDeque};
@@ -47,6 +48,8 @@ pub struct Monitor {
     commanding: Option<String>,
     /// When each process was requested to end, ns of `CLOCK_MONOTONIC`.
     stop_requested: BTreeMap<String, u64>,
+    /// What operators did.
+    operators: Vec<SupervisorEvent>,
     tracking: Tracking,
     reaction: Reaction,
     snapshots: SnapshotLog,
@@ -117,6 +120,7 @@ impl Monitor {
             newest_command: None,
             commanding,
             stop_requested: BTreeMap::new(),
+            operators: Vec::new(),
             tracking: Tracking::new(),
             reaction: Reaction::new(),
             snapshots,
@@ -213,6 +217,8 @@ impl Monitor {
             self.faults.supervisor(&event);
             if event.event == SupervisorEventKind::StopRequested {
                 self.stop_requested.insert(event.process, event.at_ns);
+            } else if event.process == SupervisorEvent::OPERATOR {
+                self.operators.push(event);
             }
         }
         Ok(())
@@ -270,6 +276,7 @@ impl Monitor {
             events: self.events.records(),
             metrics: Some(self.latencies.metrics()),
             stop_requested: &self.stop_requested,
+            operator_stops: OperatorStopReport::all(&self.operators, self.start_ns),
             motion: self.motion.report(),
             separation: self.separation.report().clone(),
             blind_s: blind_s(self.events.records()),

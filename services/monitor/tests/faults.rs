@@ -12,7 +12,16 @@ const MS: u64 = 1_000_000;
 fn seen(event: SupervisorEventKind, process: &str, generation: u32, at_ms: u64) -> SupervisorEvent {
     let fault = (event == SupervisorEventKind::Injected).then(|| "kill".into());
     let reason = (event == SupervisorEventKind::Died).then(|| "signal 9".into());
-    SupervisorEvent { at_ns: at_ms * MS, event, process: process.into(), generation, pid: 7, fault, reason }
+    SupervisorEvent {
+        at_ns: at_ms * MS,
+        event,
+        process: process.into(),
+        generation,
+        pid: 7,
+        fault,
+        reason,
+        user: None,
+    }
 }
 
 fn set() -> Faults {

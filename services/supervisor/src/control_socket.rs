@@ -1,4 +1,6 @@
-use crate::{Fault, InjectionRefusal, operator};
+use crate::operator::Operator;
+use crate::set_request::{ANSWER_TIMEOUT, AnswerLine, RequestLine, socket_of};
+use crate::{Fault, InjectionRefusal, StopRequest};
 use coact_pipeline::Run;
 use std::fs::Permissions;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -7,94 +9,44 @@ use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, mpsc};
-use std::time::Duration;
 
-/// Where a running set listens for faults to inject: `control.sock` in the run directory. A request is one line of JSON
-/// ([`RequestLine`]), and so is its answer ([`AnswerLine`]).
+/// Where a running set listens for what its operator wants: `control.sock` in the run directory.
 #[derive(Debug)]
 pub(crate) struct ControlSocket {
     path: PathBuf,
-    requests: mpsc::Receiver<FaultRequest>,
+    requests: mpsc::Receiver<SetRequest>,
     closed: Arc<AtomicBool>,
 }
 
-/// A request to inject a fault now.
+/// What an operator wants of the set now.
 #[derive(Debug)]
-pub(crate) struct FaultRequest {
-    pub(crate) process: String,
-    pub(crate) fault: Fault,
-    answer: mpsc::Sender<AnswerLine>,
+pub(crate) struct SetRequest {
+    pub(crate) operator: Operator,
+    pub(crate) wanted: Wanted,
+    pub(crate) asker: Asker,
 }
 
-#[derive(Debug, serde::Serialize, serde::Deserialize)]
-struct RequestLine {
-    process: String,
-    fault: String,
+/// Who waits for the answer to a request.
+#[derive(Debug)]
+pub(crate) struct Asker(mpsc::Sender<AnswerLine>);
+
+#[derive(Debug)]
+pub(crate) enum Wanted {
+    Fault { process: String, fault: Fault },
+    Stop(StopRequest),
 }
 
-/// `refused` is absent when the fault was injected.
-#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
-struct AnswerLine {
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    refused: Option<String>,
-}
-
-/// Why a running set injected nothing.
-#[derive(Debug, thiserror::Error)]
-pub enum FaultRequestError {
-    /// The set cannot be reached. The message contains the cause, so that it is no source as well.
-    #[error("{}: {cause}; expected a running set (coact launch) that listens there", path.display())]
-    Unreachable {
-        /// Its socket.
-        path: PathBuf,
-        /// Why.
-        cause: io::Error,
-    },
-    /// It refused.
-    #[error("{0}")]
-    Refused(String),
-}
-
-/// Neither side waits longer than this for the other's line. The supervisor answers within some milliseconds: after this
-/// time it has ended, or hangs. Chosen by hand.
-const ANSWER_TIMEOUT: Duration = Duration::from_secs(2);
 /// No request is longer than this, bytes: far more than two names take.
 const MAX_REQUEST: u64 = 4096;
 
-fn path_of(run: &Run) -> PathBuf {
-    run.directory().join("control.sock")
-}
-
-/// Requests that a running set injects a fault into one of its processes now.
-///
-/// # Errors
-/// [`FaultRequestError`]: nothing listens there, or it knows no such process or fault.
-pub fn request_fault(run: &Run, process: &str, fault: &str) -> Result<(), FaultRequestError> {
-    let path = path_of(run);
-    let request = RequestLine { process: process.into(), fault: fault.into() };
-    match exchange(&path, &request) {
-        Ok(AnswerLine { refused: None }) => Ok(()),
-        Ok(AnswerLine { refused: Some(why) }) => Err(FaultRequestError::Refused(why)),
-        Err(cause) => Err(FaultRequestError::Unreachable { path, cause }),
-    }
-}
-
-fn exchange(path: &std::path::Path, request: &RequestLine) -> io::Result<AnswerLine> {
-    let mut stream = UnixStream::connect(path)?;
-    stream.set_read_timeout(Some(2 * ANSWER_TIMEOUT))?;
-    writeln!(stream, "{}", serde_json::to_string(request)?)?;
-    let mut line = String::new();
-    BufReader::new(stream).read_line(&mut line)?;
-    Ok(serde_json::from_str(&line)?)
-}
-
 impl ControlSocket {
-    /// Listens on a thread of its own: no client can delay the supervision.
+    /// Listens on a thread of its own: no client can delay the supervision. Each client has a thread as well: none that says
+    /// nothing can delay a stop.
     ///
     /// # Errors
     /// The socket cannot be made.
     pub(crate) fn open(run: &Run) -> io::Result<Self> {
-        let path = path_of(run);
+        let path = socket_of(run);
         let listener = UnixListener::bind(&path)?;
         std::fs::set_permissions(&path, Permissions::from_mode(0o600))?;
         let (sender, requests) = mpsc::channel();
@@ -105,15 +57,20 @@ impl ControlSocket {
                 if over.load(Ordering::Relaxed) {
                     return;
                 }
+                let Ok(stream) = stream else { continue };
+                let sender = sender.clone();
                 // A client that breaks the protocol or goes away gets no answer, and concerns nobody else.
-                stream.and_then(|stream| serve(stream, &sender)).ok();
+                let served = std::thread::Builder::new().spawn(move || serve(stream, &sender).ok());
+                if let Err(error) = served {
+                    tracing::warn!("an operator's request was not heard: {error}");
+                }
             }
         });
         Ok(Self { path, requests, closed })
     }
 
     /// The next request that has come.
-    pub(crate) fn next(&self) -> Option<FaultRequest> {
+    pub(crate) fn next(&self) -> Option<SetRequest> {
         self.requests.try_recv().ok()
     }
 }
@@ -126,33 +83,73 @@ impl Drop for ControlSocket {
     }
 }
 
-impl FaultRequest {
-    /// Sends the answer.
-    pub(crate) fn answer(self, outcome: Result<(), InjectionRefusal>) {
+impl Asker {
+    /// Whether a fault was injected.
+    pub(crate) fn injected(self, outcome: Result<(), InjectionRefusal>) {
         let refused = outcome.err().map(|refusal| refusal.to_string());
-        self.answer.send(AnswerLine { refused }).ok();
+        self.0.send(AnswerLine { refused, ..AnswerLine::default() }).ok();
+    }
+
+    /// That the latch is as was wanted; in words why that was no change, if it was none.
+    pub(crate) fn latched(self, unchanged: Option<String>) {
+        self.0.send(AnswerLine { unchanged, ..AnswerLine::default() }).ok();
     }
 }
 
-fn serve(mut stream: UnixStream, requests: &mpsc::Sender<FaultRequest>) -> io::Result<()> {
+fn serve(mut stream: UnixStream, requests: &mpsc::Sender<SetRequest>) -> io::Result<()> {
     stream.set_read_timeout(Some(ANSWER_TIMEOUT))?;
     stream.set_write_timeout(Some(ANSWER_TIMEOUT))?;
+    let operator = Operator::of(&stream)?;
     let mut line = String::new();
     BufReader::new((&stream).take(MAX_REQUEST)).read_line(&mut line)?;
-    let answer = operator::check(&stream)?
-        .and_then(|()| forward(&line, requests))
-        .unwrap_or_else(|why| AnswerLine { refused: Some(why) });
+    let answer = operator
+        .check()
+        .and_then(|()| forward(&line, operator, requests))
+        .unwrap_or_else(|why| AnswerLine { refused: Some(why), ..AnswerLine::default() });
     writeln!(stream, "{}", serde_json::to_string(&answer)?)
 }
 
-fn forward(line: &str, requests: &mpsc::Sender<FaultRequest>) -> Result<AnswerLine, String> {
-    let line: RequestLine = serde_json::from_str(line)
-        .map_err(|error| format!("{error}; expected {{\"process\": \"...\", \"fault\": \"...\"}}"))?;
-    let fault = line.fault.parse::<Fault>().map_err(|error| error.to_string())?;
+fn forward(
+    line: &str,
+    operator: Operator,
+    requests: &mpsc::Sender<SetRequest>,
+) -> Result<AnswerLine, String> {
+    let wanted = read(line)?;
     let (answer, answered) = mpsc::channel();
     let over = |_| "the run is ending".to_owned();
-    requests
-        .send(FaultRequest { process: line.process, fault, answer })
-        .map_err(|error| over(error.to_string()))?;
+    let request = SetRequest { operator, wanted, asker: Asker(answer) };
+    requests.send(request).map_err(|error| over(error.to_string()))?;
     answered.recv_timeout(ANSWER_TIMEOUT).map_err(|error| over(error.to_string()))
+}
+
+fn read(line: &str) -> Result<Wanted, String> {
+    let expected = "expected {\"request\": \"inject\", \"process\": \"...\", \"fault\": \"...\"}, {\"request\": \"stop\"} \
+                    or {\"request\": \"resume\"}";
+    match serde_json::from_str(line).map_err(|error| format!("{error}; {expected}"))? {
+        RequestLine::Inject { process, fault } => {
+            let fault = fault.parse::<Fault>().map_err(|error| error.to_string())?;
+            Ok(Wanted::Fault { process, fault })
+        }
+        RequestLine::Stop => Ok(Wanted::Stop(StopRequest::Stop)),
+        RequestLine::Resume => Ok(Wanted::Stop(StopRequest::Resume)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn requests_are_read_and_what_is_none_is_told_what_would_be() {
+        assert!(matches!(read("{\"request\": \"stop\"}\n"), Ok(Wanted::Stop(StopRequest::Stop))));
+        assert!(matches!(read("{\"request\": \"resume\"}\n"), Ok(Wanted::Stop(StopRequest::Resume))));
+        let fault = read("{\"request\": \"inject\", \"process\": \"fields\", \"fault\": \"kill\"}");
+        assert!(matches!(fault, Ok(Wanted::Fault { process, fault: Fault::Kill }) if process == "fields"));
+        for line in
+            ["", "stop", "{\"request\": \"halt\"}", "{\"request\": \"inject\", \"process\": \"fields\"}"]
+        {
+            assert!(read(line).unwrap_err().contains("expected {\"request\""), "{line}");
+        }
+    }
 }

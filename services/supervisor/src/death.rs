@@ -1,6 +1,7 @@
 use crate::RunningChild;
 use crate::kill_reason::KillReason;
 use crate::running::Running;
+use coact_realtime::HUNG_THREAD;
 use rustix::process::Signal;
 use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
@@ -55,6 +56,7 @@ fn describe(status: ExitStatus) -> String {
             Some(name) => format!("killed by {}", signal_name(name)),
             None => format!("killed by signal {signal}"),
         },
+        (None, Some(HUNG_THREAD)) => "ended by itself, because a thread of it hung".into(),
         (None, Some(code)) => format!("ended by itself with exit status {code}"),
         (None, None) => "ended by itself".into(),
     }

@@ -35,6 +35,8 @@ pub enum Fault {
     CrashLoop,
     /// SIGKILL, and the next replacement stands still before it is ready.
     StuckOnStart,
+    /// Its planner, a thread of its own, stands still from its next query on.
+    FreezePlanner,
 }
 
 /// By what a fault is injected.
@@ -50,7 +52,7 @@ pub(crate) enum Means {
 
 impl Fault {
     /// Every fault, in the order in which messages name them.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Kill,
         Self::Stop,
         Self::StopShort,
@@ -65,6 +67,7 @@ impl Fault {
         Self::CrashOnStart,
         Self::CrashLoop,
         Self::StuckOnStart,
+        Self::FreezePlanner,
     ];
 
     /// The name that the command line uses.
@@ -84,6 +87,7 @@ impl Fault {
             Self::CrashOnStart => "crash-on-start",
             Self::CrashLoop => "crash-loop",
             Self::StuckOnStart => "stuck-on-start",
+            Self::FreezePlanner => "freeze-planner",
         }
     }
 
@@ -104,6 +108,7 @@ impl Fault {
             Self::CrashOnStart => "SIGKILL, and once more while its replacement starts",
             Self::CrashLoop => "SIGKILL, and again while each replacement starts",
             Self::StuckOnStart => "SIGKILL, and its replacement stands still while it starts",
+            Self::FreezePlanner => "of control: its planner stands still from the next query on",
         }
     }
 
@@ -122,7 +127,18 @@ impl Fault {
             Self::SlowByHalf => Means::Request(RequestedFault::SlowByHalf),
             Self::Slow => Means::Request(RequestedFault::Slow),
             Self::SlowByFive => Means::Request(RequestedFault::SlowByFive),
+            Self::FreezePlanner => Means::Request(RequestedFault::FreezePlanner),
         }
+    }
+
+    /// The only process to which it can be done; none when it can be done to each.
+    pub fn only_of(self) -> Option<&'static str> {
+        (self == Self::FreezePlanner).then_some("control")
+    }
+
+    /// Whether it takes effect later, when what it breaks is needed.
+    pub(crate) fn is_latent(self) -> bool {
+        self == Self::FreezePlanner
     }
 
     /// Whether the process does not live on after it; where it may, the watchdog decides.

@@ -1,6 +1,7 @@
 use crate::death::Death;
 use crate::fault::Means;
 use crate::kill_reason::KillReason;
+use crate::operator::Operator;
 use crate::start_fault::StartFault;
 use crate::supervised::{Lifecycle, Supervised};
 use crate::watch_clock::WatchClock;
@@ -161,11 +162,18 @@ impl ProcessSet {
         let index = self.processes.iter().position(|p| p.spec.name == process);
         let index =
             index.ok_or_else(|| InjectionRefusal::UnknownProcess { name: process.into(), known: names() })?;
+        if let Some(only) = fault.only_of().filter(|only| *only != process) {
+            return Err(InjectionRefusal::OtherProcess { fault, process: process.into(), only });
+        }
         if !self.processes[index].is_ready() {
             return Err(InjectionRefusal::NotRunning(process.into()));
         }
         self.processes[index].fault = Some(fault);
-        self.record(index, SupervisorEventKind::Injected, None, None);
+        let kind = match fault.is_latent() {
+            true => SupervisorEventKind::InjectedLatent,
+            false => SupervisorEventKind::Injected,
+        };
+        self.record(index, kind, None, None);
         let target = &mut self.processes[index];
         target.start_fault = StartFault::after(fault);
         let Some(running) = target.running_mut() else { return Ok(()) };
@@ -196,6 +204,20 @@ impl ProcessSet {
     /// Names of those that are not ready.
     pub fn not_ready(&self) -> impl Iterator<Item = &str> {
         self.processes.iter().filter(|process| !process.is_ready()).map(|process| process.spec.name.as_str())
+    }
+
+    /// Logs what an operator has done to the whole set.
+    pub(crate) fn record_operator(&mut self, event: SupervisorEventKind, operator: Operator) {
+        self.note(SupervisorEvent {
+            at_ns: monotonic_time().as_nanos() as u64,
+            event,
+            process: SupervisorEvent::OPERATOR.to_owned(),
+            generation: 0,
+            pid: operator.pid,
+            fault: None,
+            reason: None,
+            user: Some(operator.user),
+        });
     }
 
     /// Names of all processes, in starting order.
@@ -383,7 +405,13 @@ impl ProcessSet {
             pid,
             fault: process.fault.map(|fault| fault.name().to_owned()),
             reason,
+            user: None,
         };
+        self.note(event);
+    }
+
+    /// Logs an event, and keeps it for [`ProcessSet::take_events`].
+    fn note(&mut self, event: SupervisorEvent) {
         self.log.write(event.clone());
         self.new_events.push(event);
     }

@@ -1,5 +1,6 @@
-use crate::control_socket::ControlSocket;
+use crate::control_socket::{ControlSocket, SetRequest, Wanted};
 use crate::ending::EndCondition;
+use crate::operator_stop::OperatorStop;
 use crate::run_topics::RunTopics;
 use crate::service_manager::ServiceManager;
 use crate::topic_reader::TopicReader;
@@ -7,7 +8,7 @@ use crate::{
     Ending, Injection, InjectionRefusal, LaunchError, Note, NoteKind, ProcessSet, RunProgress, Terminal,
 };
 use coact_pipeline::{Pipeline, Run};
-use coact_realtime::{SchedulingClass, monotonic_time};
+use coact_realtime::{Schedule, SchedulingClass, monotonic_time};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,6 +33,7 @@ pub(crate) struct RunLoop<'a> {
     // Stopped (dropped) before the topics are closed.
     set: ProcessSet,
     reader: TopicReader,
+    stop: OperatorStop,
     topics: RunTopics,
     socket: ControlSocket,
     progress: RunProgress,
@@ -68,6 +70,7 @@ impl<'a> RunLoop<'a> {
         }
         let topics = RunTopics::create(run, pipeline)?;
         let reader = TopicReader::new(topics.bus(), pipeline)?;
+        let stop = OperatorStop::new(topics.bus())?;
         let socket = ControlSocket::open(run)
             .map_err(|cause| LaunchError::File { path: run.directory().to_owned(), cause })?;
         injections.sort_by_key(|injection| std::cmp::Reverse(injection.at));
@@ -77,6 +80,7 @@ impl<'a> RunLoop<'a> {
             terminal,
             set,
             reader,
+            stop,
             topics,
             socket,
             progress,
@@ -99,8 +103,12 @@ impl<'a> RunLoop<'a> {
         self.show();
         self.terminal.status("stopping".into());
         self.service_manager.run_ends();
-        let Self { set, topics, .. } = &mut self;
-        set.stop(|| topics.poll());
+        let schedule = self.schedule();
+        let Self { set, topics, stop, .. } = &mut self;
+        set.stop(|| {
+            topics.poll();
+            stop.repeat(schedule);
+        });
         self.show_events();
         ending
     }
@@ -111,9 +119,11 @@ impl<'a> RunLoop<'a> {
             self.service_manager.is_alive(monotonic_time());
             self.set.replace_dead(&mut self.topics)?;
             self.topics.poll();
+            self.stop.repeat(self.schedule());
             self.reader.poll(&mut self.set, &mut self.progress);
             self.set.advance(&mut self.topics)?;
             self.start_clock()?;
+            self.obey();
             self.inject();
             self.show();
             if let Some(ending) = self.ending() {
@@ -155,11 +165,28 @@ impl<'a> RunLoop<'a> {
         Some(monotonic_time().saturating_sub(self.start?))
     }
 
-    fn inject(&mut self) {
-        while let Some(request) = self.socket.next() {
-            let outcome = self.set.inject(&request.process, request.fault);
-            request.answer(outcome);
+    /// The run's clock, once it runs.
+    fn schedule(&self) -> Option<Schedule> {
+        self.start.map(|start| Schedule { start_ns: start.as_nanos() as u64 })
+    }
+
+    /// Does what operators have asked for.
+    fn obey(&mut self) {
+        while let Some(SetRequest { operator, wanted, asker }) = self.socket.next() {
+            match wanted {
+                Wanted::Fault { process, fault } => asker.injected(self.set.inject(&process, fault)),
+                Wanted::Stop(wanted) => {
+                    let outcome = self.stop.request(wanted, operator, self.schedule());
+                    if let Ok(change) = outcome {
+                        self.set.record_operator(change, operator);
+                    }
+                    asker.latched(outcome.err());
+                }
+            }
         }
+    }
+
+    fn inject(&mut self) {
         let Some(elapsed) = self.elapsed() else { return };
         while let Some(injection) = self.injections.pop_if(|injection| injection.at <= elapsed) {
             match self.set.inject(&injection.process, injection.fault) {

@@ -16,6 +16,8 @@ pub struct RunProgress {
     /// messages.
     missed: BTreeMap<String, PulseCounts>,
     restarts: u32,
+    /// An operator has stopped the robot.
+    stopped: bool,
     notes: Vec<Note>,
 }
 
@@ -42,6 +44,7 @@ impl RunProgress {
             decision: None,
             missed: BTreeMap::new(),
             restarts: 0,
+            stopped: false,
             notes: Vec::new(),
         }
     }
@@ -118,7 +121,7 @@ impl RunProgress {
             SupervisorEventKind::Died => {
                 (NoteKind::Disturbance, format!("{process} died: {reason} (pid {pid})"))
             }
-            SupervisorEventKind::Injected => {
+            SupervisorEventKind::Injected | SupervisorEventKind::InjectedLatent => {
                 (NoteKind::Disturbance, format!("injecting {fault} into {process}"))
             }
             SupervisorEventKind::GaveUp => (NoteKind::Alarm, format!("{process} is given up: {reason}")),
@@ -128,6 +131,14 @@ impl RunProgress {
             SupervisorEventKind::Restarted => {
                 self.restarts += 1;
                 return;
+            }
+            SupervisorEventKind::OperatorStopped => {
+                self.stopped = true;
+                (NoteKind::Alarm, format!("stopped by {}; coact resume lets it go on", event.operator()))
+            }
+            SupervisorEventKind::OperatorResumed => {
+                self.stopped = false;
+                (NoteKind::Achieved, format!("may go on, says {}", event.operator()))
             }
         };
         self.notes.push(Note::new(kind, text));
@@ -153,8 +164,9 @@ impl RunProgress {
         let reached = self.achieved.iter().filter(|&&achieved| achieved).count();
         let missed: u64 = self.missed.values().map(|missed| missed.before + missed.now).sum();
         let decision = self.decision.map_or("no decision", |index| &self.actions[index]);
+        let stopped = if self.stopped { "  STOPPED (coact resume)" } else { "" };
         format!(
-            "{:>6.1} s  subgoals {reached}/{}  missed {missed}  restarts {}  {decision}",
+            "{:>6.1} s{stopped}  subgoals {reached}/{}  missed {missed}  restarts {}  {decision}",
             elapsed.as_secs_f64(),
             self.achieved.len(),
             self.restarts
@@ -223,6 +235,31 @@ mod tests {
         }
         progress.pulse("world", &Pulse { missed: 1, ..Pulse::default() });
         assert!(progress.status(Duration::ZERO).contains("missed 8"), "{}", progress.status(Duration::ZERO));
+    }
+
+    #[test]
+    fn the_status_says_that_an_operator_has_stopped_the_robot_until_it_may_go_on() {
+        let mut progress = progress();
+        let mut event = SupervisorEvent {
+            at_ns: 5,
+            event: SupervisorEventKind::OperatorStopped,
+            process: SupervisorEvent::OPERATOR.into(),
+            generation: 0,
+            pid: 42,
+            fault: None,
+            reason: None,
+            user: Some(1000),
+        };
+        progress.event(&event);
+        assert!(progress.status(Duration::ZERO).contains("STOPPED"));
+        event.event = SupervisorEventKind::OperatorResumed;
+        progress.event(&event);
+        assert!(!progress.status(Duration::ZERO).contains("STOPPED"));
+        let expected = [
+            "stopped by user 1000 (pid 42); coact resume lets it go on",
+            "may go on, says user 1000 (pid 42)",
+        ];
+        assert_eq!(texts(&mut progress), expected);
     }
 
     #[test]

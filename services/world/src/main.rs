@@ -1,6 +1,7 @@
 //! The process that stands in for the hardware: released by the timer, it starts each cycle of the chain.
 
 mod speech_input;
+mod stop_input;
 
 use anyhow::Context;
 use coact_joint_task::Task;
@@ -9,10 +10,11 @@ use coact_pipeline::RunSettings;
 use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick, now};
 use coact_recordings::{Order, read_folder};
 use coact_robot::Robot;
-use coact_safety::SafetyLimits;
+use coact_safety::{DriveLimits, SafetyLimits};
 use coact_world::{Partner, Replay, Settings, World, has_part_for};
 use speech_input::SpeechInput;
 use std::path::Path;
+use stop_input::StopInput;
 
 /// What `RunSettings::partner` begins with when recorded reaches are to be played.
 const REPLAY: &str = "replay:";
@@ -25,6 +27,9 @@ struct Hardware {
     truth: Output<Truth>,
     state: Output<WorldState>,
     heard: SpeechInput,
+    stop: StopInput,
+    /// The process is told to end.
+    ends: bool,
     /// Actions of the script of which it is known that they could not be done.
     skipped: u64,
 }
@@ -37,11 +42,17 @@ impl Cycle for Hardware {
     }
 
     fn may_end(&mut self) -> bool {
-        self.world.hold(HoldReason::Ending);
+        self.ends = true;
         self.world.stands()
     }
 
     fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
+        let hold = match (self.ends, self.stop.stops(tick.cycle)?) {
+            (true, _) => HoldReason::Ending,
+            (false, true) => HoldReason::Stopped,
+            (false, false) => HoldReason::None,
+        };
+        self.world.hold(hold);
         if let Some(speech) = self.heard.next() {
             self.world.hear(speech.sentence());
         }
@@ -117,7 +128,9 @@ fn play(process: Process, recording: &str) -> anyhow::Result<()> {
 
 fn simulate(mut process: Process) -> anyhow::Result<()> {
     process.outlive_supervisor()?;
-    let mut world = world(process.run().settings())?;
+    let drive = SafetyLimits::load(&process.run().settings().safety)?.drive;
+    let stop = StopInput::open(process.bus(), drive.stop_unheard_after)?;
+    let mut world = world(process.run().settings(), drive)?;
     let command = process.bus().input(topic::COMMAND)?;
     let mut sample: Output<SensorSample> = process.bus().output(topic::SENSORS)?;
     let mut truth: Output<Truth> = process.bus().output(topic::TRUTH)?;
@@ -131,14 +144,14 @@ fn simulate(mut process: Process) -> anyhow::Result<()> {
     }
     let (heard, skipped) =
         (SpeechInput::open(process.run(), process.bus().refusals().clone())?, world.skipped());
-    Ok(process.run_cycles(Hardware { world, command, sample, truth, state, heard, skipped })?)
+    let ends = false;
+    Ok(process.run_cycles(Hardware { world, command, sample, truth, state, heard, stop, ends, skipped })?)
 }
 
-fn world(run: &RunSettings) -> anyhow::Result<World> {
+fn world(run: &RunSettings, drive: DriveLimits) -> anyhow::Result<World> {
     let task = Task::load(&run.task)?;
     let robot = Robot::load(&run.robot)?;
     let partner = Partner::load(&run.partner, &task, run.seed)?;
-    let drive = SafetyLimits::load(&run.safety)?.drive;
     let settings = Settings { seed: run.seed, partner, mode: run.world, drive };
     Ok(World::new(&task, &robot, settings)?)
 }

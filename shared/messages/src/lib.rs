@@ -7,7 +7,8 @@
 //! ```
 //!
 //! Beside the chain stand [`Pulse`] (each process, each cycle: what the deadline accounting knows),
-//! [`Truth`] (world to monitor alone), [`WorldState`] (what a restarted world resumes from) and [`Speech`].
+//! [`Truth`] (world to monitor alone), [`WorldState`] (what a restarted world resumes from), [`Speech`], and [`StopState`]
+//! (whether an operator has stopped the robot).
 //!
 //! All messages are `repr(C)`, hold no pointer, accept any bit pattern, and begin with a [`Header`]. Their layout
 //! is versioned by [`LAYOUT`]: whoever changes a field raises it.
@@ -56,6 +57,7 @@ mod pulse;
 mod refusal;
 mod sensor_sample;
 mod speech;
+mod stop_state;
 pub mod topic;
 mod topic_entry;
 mod truth;
@@ -75,6 +77,7 @@ pub use pulse::Pulse;
 pub use refusal::Refusal;
 pub use sensor_sample::{HandView, JointReading, Keypoint, KeypointName, SceneView, SensorSample, Sighting};
 pub use speech::Speech;
+pub use stop_state::StopState;
 pub use topic_entry::TopicEntry;
 pub use truth::{PartnerError, PartnerPhase, Truth};
 pub use world_state::{PartState, WorldState};

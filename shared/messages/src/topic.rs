@@ -35,6 +35,9 @@ pub const SPEECH: &str = "coact/speech";
 /// sample.
 pub const HEARD: &str = "coact/heard";
 
+/// [`StopState`](crate::StopState), whether an operator has stopped the robot.
+pub const STOP: &str = "coact/stop";
+
 /// In [`TopicEntry::writers`]: any program outside the set.
 pub const ANYONE: &str = "anyone";
 
@@ -72,7 +75,7 @@ const CHAIN: TopicEntry = TopicEntry {
 const PLAIN: TopicEntry = TopicEntry { announced: false, checkpoint: false, ..CHAIN };
 
 /// Every topic of a process set: the chain of one cycle in its order, then what stands beside it.
-pub const ALL: [TopicEntry; 10] = [
+pub const ALL: [TopicEntry; 11] = [
     TopicEntry {
         name: SENSORS,
         message: "SensorSample",
@@ -128,6 +131,14 @@ pub const ALL: [TopicEntry; 10] = [
         readers: &["world"],
         lifetime: None,
         depth: SENTENCES,
+        ..PLAIN
+    },
+    TopicEntry {
+        name: STOP,
+        message: "StopState",
+        writers: &["supervisor"],
+        // The drive has the last word; what it does, control sees in the sensor sample.
+        readers: &["world"],
         ..PLAIN
     },
     TopicEntry {

@@ -3,8 +3,8 @@
 
 use bytemuck::{Pod, zeroed_box};
 use coact_messages::{
-    Command, FieldFrame, Header, LayerKind, Percept, Plausible, Pulse, SensorSample, Speech, Truth,
-    WorldState,
+    Command, FieldFrame, Header, LayerKind, Percept, Plausible, Pulse, SensorSample, Speech, StopState,
+    Truth, WorldState,
 };
 use std::hint::black_box;
 use std::time::Instant;
@@ -30,6 +30,7 @@ fn garbage_is_refused_and_messages_of_zeros_are_not() {
     refuses_garbage::<Command>();
     refuses_garbage::<Pulse>();
     refuses_garbage::<Speech>();
+    refuses_garbage::<StopState>();
     refuses_garbage::<Truth>();
     refuses_garbage::<WorldState>();
 }

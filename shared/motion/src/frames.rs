@@ -11,6 +11,7 @@ pub(crate) struct Frames {
 
 impl Frames {
     pub fn of(mechanism: &Mechanism, posture: &Posture) -> Self {
+        mechanism.heartbeat.beat();
         let mut frames = Self { pose: [Isometry3::identity(); 7], axis: [Vector3::zeros(); 7] };
         let mut pose = Isometry3::identity();
         for (index, (joint, &angle)) in mechanism.arm.joints.iter().zip(posture).enumerate() {

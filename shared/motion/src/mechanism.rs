@@ -1,4 +1,4 @@
-use crate::{CollisionModel, Link, collision_geometry};
+use crate::{CollisionModel, Link, SearchHeartbeat, collision_geometry};
 use coact_robot::{
     Arm, HAND_JOINTS, Hand, HandGoal, JointLimits, Posture, Robot, RobotError, Srs, Urdf, grip_frame,
 };
@@ -22,6 +22,8 @@ pub struct Mechanism {
     pub grasp_distance: f64,
     pub(crate) urdf: Urdf,
     pub(crate) meshes: Meshes,
+    /// Beats whenever a search looks at a posture of this mechanism: in the innermost loop of each.
+    pub(crate) heartbeat: SearchHeartbeat,
 }
 
 /// What to do about a mesh file that is not there.
@@ -58,9 +60,16 @@ impl Mechanism {
             grasp_distance: robot.hand.grasp_distance,
             urdf: robot.urdf.clone(),
             meshes: Meshes::Required,
+            heartbeat: SearchHeartbeat::default(),
         };
         collision_geometry::arm_links(&mechanism)?;
         Ok(mechanism)
+    }
+
+    /// The same mechanism, whose searches beat with this heartbeat.
+    #[must_use]
+    pub fn beating(self, heartbeat: SearchHeartbeat) -> Self {
+        Self { heartbeat, ..self }
     }
 
     /// A robot that only a URDF describes. Its palm is the link from which fingers branch off; its park posture is the
@@ -85,7 +94,8 @@ impl Mechanism {
         }
         park[3] = 0.5 * arm.joints[3].limits.upper.clamp(0.0, ELBOW);
         let name = urdf.name().to_owned();
-        let mechanism = Self { name, arm, closed_form, park, grasp_distance, urdf, meshes };
+        let heartbeat = SearchHeartbeat::default();
+        let mechanism = Self { name, arm, closed_form, park, grasp_distance, urdf, meshes, heartbeat };
         collision_geometry::arm_links(&mechanism)?;
         Ok(mechanism)
     }
@@ -107,7 +117,8 @@ impl Mechanism {
         let arm = Arm { joints: self.arm.joints, tool };
         let closed_form = self.closed_form.and_then(|_| Srs::new(arm.clone()).ok());
         let name = urdf.name().to_owned();
-        let mechanism = Self { name, arm, closed_form, park: self.park, grasp_distance, urdf, meshes };
+        let (park, heartbeat) = (self.park, self.heartbeat);
+        let mechanism = Self { name, arm, closed_form, park, grasp_distance, urdf, meshes, heartbeat };
         collision_geometry::arm_links(&mechanism)?;
         Ok(mechanism)
     }

@@ -83,8 +83,9 @@ impl Run {
     /// have put there what is found.
     pub fn load(directory: &Path) -> Result<Self, RunError> {
         let path = directory.join("run.json");
-        trust::file(&path)?;
+        // First the directory, into which another user's cannot be looked.
         trust::directory(directory)?;
+        trust::file(&path)?;
         let description: Description = read_json(&path)?;
         // The name selects what is removed from shared memory: it must be this run's.
         if directory.file_name() != Some(format!("coact_{}", description.id).as_ref()) {
@@ -92,6 +93,14 @@ impl Run {
             return Err(RunError::Malformed { path, problem });
         }
         Ok(Self { directory: directory.to_owned(), description, lock: None })
+    }
+
+    /// The run of this name.
+    ///
+    /// # Errors
+    /// As [`Run::load`].
+    pub fn named(id: &str) -> Result<Self, RunError> {
+        Self::load(&base().join(format!("coact_{id}")))
     }
 
     /// Every run of this user on this machine that has a directory, whether its owner still lives or not.

@@ -155,7 +155,7 @@ fn a_directory_without_a_run_says_why_once() {
     let error = Run::load("/no/such/run".as_ref()).unwrap_err();
     let shown = format!("{:#}", anyhow::Error::from(error));
     assert_eq!(shown.matches("No such file").count(), 1, "{shown}");
-    assert!(shown.starts_with("/no/such/run/run.json: cannot be read: "), "{shown}");
+    assert!(shown.starts_with("/no/such/run: cannot be read: "), "{shown}");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 use crate::{Message, PortError};
-use coact_messages::{Command, FieldFrame, Percept, Pulse, SensorSample, Speech, Truth, WorldState, topic};
+use coact_messages::{
+    Command, FieldFrame, Percept, Pulse, SensorSample, Speech, StopState, Truth, WorldState, topic,
+};
 use coact_pipeline::Pipeline;
 
 /// Something that is done with each topic of a set, whatever its message.
@@ -13,6 +15,7 @@ pub(crate) fn for_each_topic(pipeline: &Pipeline, work: &mut impl EachTopic) -> 
     work.topic::<SensorSample>(topic::SENSORS)?;
     work.topic::<Truth>(topic::TRUTH)?;
     work.topic::<Speech>(topic::SPEECH)?;
+    work.topic::<StopState>(topic::STOP)?;
     with_checkpoint::<WorldState>(work, topic::WORLD_STATE)?;
     with_checkpoint::<Percept>(work, topic::PERCEPT)?;
     with_checkpoint::<FieldFrame>(work, topic::FIELDS)?;

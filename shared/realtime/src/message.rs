@@ -1,6 +1,7 @@
 use bytemuck::Pod;
 use coact_messages::{
-    Command, FieldFrame, Header, Percept, Plausible, Pulse, SensorSample, Speech, Truth, WorldState,
+    Command, FieldFrame, Header, Percept, Plausible, Pulse, SensorSample, Speech, StopState, Truth,
+    WorldState,
 };
 use iceoryx2::prelude::ZeroCopySend;
 use std::fmt::Debug;
@@ -32,4 +33,4 @@ macro_rules! message {
     )*};
 }
 
-message!(Command, FieldFrame, Percept, Pulse, SensorSample, Speech, Truth, WorldState);
+message!(Command, FieldFrame, Percept, Pulse, SensorSample, Speech, StopState, Truth, WorldState);

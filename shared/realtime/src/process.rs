@@ -11,6 +11,8 @@ use rustix::process::Signal;
 use std::io;
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// How long a replacement waits for its predecessor's checkpoint before it begins anew. The supervisor publishes it before
@@ -168,6 +170,11 @@ impl Process {
                 tracing::warn!("a message of {name} is ignored: {}", reason.name());
             }
         }
+    }
+
+    /// Set once an injected fault requests that the background work stands still; the work itself does it.
+    pub fn background_freezes(&self) -> Arc<AtomicBool> {
+        self.signals.background_freezes()
     }
 
     /// Becomes real time as far as the process table wants and the machine grants, and reports readiness.

@@ -16,12 +16,21 @@ pub enum RequestedFault {
     Slow,
     /// Its cycles take five periods longer for a while.
     SlowByFive,
+    /// Its planner stands still.
+    FreezePlanner,
 }
 
 impl RequestedFault {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Panic, Self::ExitSuccess, Self::ExitFailure, Self::SlowByHalf, Self::Slow, Self::SlowByFive];
+    pub const ALL: [Self; 7] = [
+        Self::Panic,
+        Self::ExitSuccess,
+        Self::ExitFailure,
+        Self::SlowByHalf,
+        Self::Slow,
+        Self::SlowByFive,
+        Self::FreezePlanner,
+    ];
 
     /// The signal that requests it: real-time signals, which nothing else of ours uses. The first stays free for debuggers
     /// and tools such as valgrind.
@@ -29,10 +38,10 @@ impl RequestedFault {
         libc::SIGRTMIN() + 1 + self as i32
     }
 
-    /// By how much each of the next cycles takes longer; none where the process ends.
+    /// By how much each of the next cycles takes longer; none where the process ends, or its cycles are not concerned.
     pub(crate) fn slowdown(self) -> Option<Duration> {
         match self {
-            Self::Panic | Self::ExitSuccess | Self::ExitFailure => None,
+            Self::Panic | Self::ExitSuccess | Self::ExitFailure | Self::FreezePlanner => None,
             Self::SlowByHalf => Some(PERIOD / 2),
             Self::Slow => Some(PERIOD * 2),
             Self::SlowByFive => Some(PERIOD * 5),
@@ -45,7 +54,7 @@ impl RequestedFault {
             Self::Panic => panic!("injected fault: panic"),
             Self::ExitSuccess => std::process::exit(0),
             Self::ExitFailure => std::process::exit(1),
-            Self::SlowByHalf | Self::Slow | Self::SlowByFive => {}
+            Self::SlowByHalf | Self::Slow | Self::SlowByFive | Self::FreezePlanner => {}
         }
     }
 }

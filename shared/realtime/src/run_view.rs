@@ -2,6 +2,9 @@ use crate::{Origin, Schedule};
 use coact_pipeline::Run;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+/// In the table of topics.
+const SUPERVISOR: &str = "supervisor";
+
 /// What the ports of a process know of their run: its present cycle, and which process is which.
 #[derive(Debug)]
 pub(crate) struct RunView {
@@ -33,9 +36,13 @@ impl RunView {
     }
 
     /// Whether the process `name` of the run has reported, in this generation, that it is ready, and is the origin's process.
+    /// The supervisor reports to nobody: it is the process that made the run.
     ///
     /// It reads a file, once for each writer that begins to send: to connect to one costs more.
     pub(crate) fn is(&self, name: &str, generation: u32, origin: Origin) -> bool {
+        if name == SUPERVISOR {
+            return generation == 0 && self.is_supervisor(origin);
+        }
         self.run.ready(name, generation).is_ok_and(|ready| ready.is_some_and(|ready| ready.pid == origin.pid))
     }
 

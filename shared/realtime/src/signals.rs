@@ -12,13 +12,17 @@ pub(crate) struct Signals {
     stop: Arc<AtomicBool>,
     /// 0, or one more than the index of the requested fault in [`RequestedFault::ALL`].
     fault: Arc<AtomicUsize>,
+    background_freezes: Arc<AtomicBool>,
 }
 
 impl Signals {
     pub(crate) fn install() -> io::Result<Self> {
-        let signals = Self { stop: Arc::default(), fault: Arc::default() };
+        let signals =
+            Self { stop: Arc::default(), fault: Arc::default(), background_freezes: Arc::default() };
         flag::register(SIGTERM, Arc::clone(&signals.stop))?;
         flag::register(SIGINT, Arc::clone(&signals.stop))?;
+        let freeze = RequestedFault::FreezePlanner.signal();
+        flag::register(freeze, Arc::clone(&signals.background_freezes))?;
         for (fault, number) in RequestedFault::ALL.into_iter().zip(1..) {
             flag::register_usize(fault.signal(), Arc::clone(&signals.fault), number)?;
         }
@@ -31,6 +35,11 @@ impl Signals {
             fault.end();
         }
         self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Set once the background work is to stand still.
+    pub(crate) fn background_freezes(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.background_freezes)
     }
 
     /// Once for each request to be slow: by how much.

@@ -1,6 +1,6 @@
 use crate::{
-    AnticipationReport, Environment, FaultReport, Judgement, MotionReport, OutageReport, Percentiles,
-    ProcessReport, ReactionReport, RecordError, SeparationReport, TaskReport, TrackingReport,
+    AnticipationReport, Environment, FaultReport, Judgement, MotionReport, OperatorStopReport, OutageReport,
+    Percentiles, ProcessReport, ReactionReport, RecordError, SeparationReport, TaskReport, TrackingReport,
 };
 use coact_input_file::LONGEST_LOG;
 use serde::{Deserialize, Serialize};
@@ -41,6 +41,9 @@ pub struct Summary {
     /// are left out.
     #[serde(default)]
     pub refused: BTreeMap<String, BTreeMap<String, u64>>,
+    /// When an operator had the robot stand.
+    #[serde(default)]
+    pub operator_stops: Vec<OperatorStopReport>,
     /// Faults, and the recovery from each.
     pub faults: Vec<FaultReport>,
     /// The work: task, anticipation, safety, nothing lost.
@@ -69,6 +72,7 @@ impl Summary {
             anticipation: AnticipationReport::new(&[]),
             task,
             refused: BTreeMap::new(),
+            operator_stops: Vec::new(),
             faults: Vec::new(),
             work: Judgement::new(vec![reason.clone()]),
             timing: Judgement::new(vec![reason]),
@@ -133,6 +137,7 @@ mod tests {
             anticipation: AnticipationReport::new(&[]),
             task: TaskReport::new(2, &[Event::Assembly { at_ms: 1200, completed: 1 }], 2.0),
             refused: BTreeMap::new(),
+            operator_stops: Vec::new(),
             faults: Vec::new(),
             work: Judgement::new(vec!["only 0 of 2 subgoals were achieved".into()]),
             timing: Judgement::default(),

@@ -1,7 +1,7 @@
 use crate::Record;
 use serde::{Deserialize, Serialize};
 
-/// One line of the supervisor log, `supervisor.jsonl`: what happened to a process, and when.
+/// One line of the supervisor log, `supervisor.jsonl`: what happened to a process, or what an operator did, and when.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct SupervisorEvent {
@@ -9,11 +9,11 @@ pub struct SupervisorEvent {
     pub at_ns: u64,
     /// What happened.
     pub event: SupervisorEventKind,
-    /// Name of the process.
+    /// Name of the process; `operator` for what an operator did to the whole set.
     pub process: String,
     /// How often the process had been restarted before.
     pub generation: u32,
-    /// Process id.
+    /// Process id. Of an operator: of the program that made the request.
     pub pid: u32,
     /// Name of the injected fault, if one was.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -21,6 +21,20 @@ pub struct SupervisorEvent {
     /// Why: how it died, why it was given up.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub reason: Option<String>,
+    /// Of an operator: the user's id.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub user: Option<u32>,
+}
+
+impl SupervisorEvent {
+    /// What stands for an operator in the place of a process.
+    pub const OPERATOR: &'static str = "operator";
+
+    /// Of an operator: who it was, in words.
+    pub fn operator(&self) -> String {
+        let user = self.user.map_or("an operator".into(), |user| format!("user {user}"));
+        format!("{user} (pid {})", self.pid)
+    }
 }
 
 impl Record for SupervisorEvent {
@@ -46,10 +60,16 @@ pub enum SupervisorEventKind {
     GaveUp,
     /// About to get a fault injected.
     Injected,
+    /// About to get a fault injected that takes effect later, when what it breaks is needed: the process dies of it then.
+    InjectedLatent,
     /// Requested to end, because the run ends: nothing is due from it any more.
     StopRequested,
     /// Ended because the run ended.
     Stopped,
+    /// An operator stopped the robot: it brakes, and stands until it may go on.
+    OperatorStopped,
+    /// An operator let it go on.
+    OperatorResumed,
 }
 
 #[cfg(test)]
@@ -67,6 +87,7 @@ mod tests {
             pid: 7,
             fault: None,
             reason: None,
+            user: None,
         };
         let line = serde_json::to_string(&started).unwrap();
         assert_eq!(line, r#"{"at_ns":5,"event":"started","process":"fields","generation":0,"pid":7}"#);
@@ -75,5 +96,9 @@ mod tests {
         let line = serde_json::to_string(&given_up).unwrap();
         assert!(line.contains(r#""event":"gave_up""#), "{line}");
         assert_eq!(serde_json::from_str::<SupervisorEvent>(&line).unwrap(), given_up);
+        let kind = SupervisorEventKind::OperatorStopped;
+        let stopped = SupervisorEvent { event: kind, reason: None, user: Some(1000), ..given_up };
+        let line = serde_json::to_string(&stopped).unwrap();
+        assert!(line.contains(r#""event":"operator_stopped""#) && line.contains(r#""user":1000"#), "{line}");
     }
 }

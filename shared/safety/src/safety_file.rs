@@ -74,6 +74,7 @@ struct DriveTable {
     command_after_ms: Spanned<u64>,
     tracking_error_rad: Spanned<f64>,
     tracking_error_after_ms: Spanned<u64>,
+    stop_unheard_after_ms: Spanned<u64>,
 }
 
 pub(crate) fn parse(text: &str) -> Result<SafetyLimits, Fault> {
@@ -169,6 +170,11 @@ impl DriveTable {
                 "tracking_error_after_ms",
                 &self.tracking_error_after_ms,
                 1..=1000,
+            )?,
+            stop_unheard_after: milliseconds(
+                "stop_unheard_after_ms",
+                &self.stop_unheard_after_ms,
+                50..=5000,
             )?,
         })
     }

@@ -105,6 +105,8 @@ pub struct DriveLimits {
     pub tracking_error: f64,
     /// ... and farther only for so long.
     pub tracking_error_after: Duration,
+    /// Not having heard for so long whether an operator has stopped the robot, the joints stand.
+    pub stop_unheard_after: Duration,
 }
 
 impl SafetyLimits {

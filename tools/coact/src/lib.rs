@@ -11,6 +11,7 @@ mod latency;
 mod launch;
 mod living_runs;
 mod lockstep;
+mod operator_stop;
 /// The setting of a partner.
 pub mod partner;
 /// How a program ends.
@@ -47,6 +48,14 @@ enum Command {
     Launch(launch::Args),
     /// Say whether this machine can hold a period of 1 ms, and what would help
     Check(check::Args),
+    /// Stop the robot of a running process set: it brakes, and stands until resume
+    ///
+    /// The stop belongs to the set, not to this terminal: it outlasts whatever ends or dies, except the set itself.
+    #[command(after_help = "Examples:\n  coact stop\n  coact stop --run 1a2b-0")]
+    Stop(operator_stop::Args),
+    /// Let the robot of a running process set go on after stop
+    #[command(after_help = "Examples:\n  coact resume\n  coact resume --run 1a2b-0")]
+    Resume(operator_stop::Args),
     /// Inject a fault into a process of a running process set
     Inject(inject::Args),
     /// Say something to the robot of a running process set
@@ -79,6 +88,8 @@ fn run(arguments: &[OsString]) -> Result<ExitCode> {
     match command {
         Command::Launch(args) => launch::run(args),
         Command::Check(args) => check::run(args),
+        Command::Stop(args) => operator_stop::stop(&args),
+        Command::Resume(args) => operator_stop::resume(&args),
         Command::Inject(args) => inject::run(args),
         Command::Say(args) => say::run(args),
         Command::Latency(args) => latency::run(args),

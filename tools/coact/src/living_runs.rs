@@ -1,7 +1,7 @@
 //! Process sets that are running now.
 
 use anyhow::{Context, Result, bail, ensure};
-use coact_pipeline::Run;
+use coact_pipeline::{Run, RunError};
 
 /// The run of this name, or, without one, the only one.
 ///
@@ -41,11 +41,19 @@ fn all() -> Vec<Run> {
 
 fn named(living: Vec<Run>, id: &str) -> Result<Run> {
     let known = ids(&living);
+    if let Some(problem) = foreign(id) {
+        bail!("run {id}: {problem}");
+    }
     match living.into_iter().find(|run| run.id() == id) {
         Some(run) => Ok(run),
         None if known.is_empty() => bail!("there is no run {id}: {}", none()),
         None => bail!("there is no run {id}; running now: {known}"),
     }
+}
+
+/// Why a run that exists is not this user's.
+fn foreign(id: &str) -> Option<RunError> {
+    Run::named(id).err().filter(|error| matches!(error, RunError::Untrusted { .. }))
 }
 
 fn ids(living: &[Run]) -> String {

@@ -3,8 +3,8 @@
 use crate::snapshots;
 use anyhow::{Context, Result};
 use coact_run_records::{
-    AnticipationReport, Environment, FaultReport, Judgement, MachineReport, MotionReport, OutageReport,
-    SeparationReport, Summary, TaskReport,
+    AnticipationReport, Environment, FaultReport, Judgement, MachineReport, MotionReport, OperatorStopReport,
+    OutageReport, SeparationReport, Summary, TaskReport,
 };
 use owo_colors::{OwoColorize, Stream};
 use std::collections::BTreeMap;
@@ -58,6 +58,7 @@ fn render(summary: &Summary, report: &Path) -> String {
         lines.push(privileges(&summary.environment));
     }
     lines.extend(summary.refused.iter().map(|(process, reasons)| ignored(process, reasons)));
+    lines.extend(summary.operator_stops.iter().map(operator_stop));
     lines.extend(summary.faults.iter().map(fault));
     if summary.blind_s > 0.0 {
         lines.push(format!("monitor       saw nothing for {:.1} s", summary.blind_s));
@@ -170,6 +171,12 @@ fn privileges(environment: &Environment) -> String {
     text.if_supports_color(Stream::Stdout, |text| text.red()).to_string()
 }
 
+fn operator_stop(stop: &OperatorStopReport) -> String {
+    let resumed = stop.resumed_at_s.zip(stop.resumed_by.as_ref());
+    let resumed = resumed.map_or("until the end".into(), |(at_s, by)| format!("until {at_s:.1} s by {by}"));
+    format!("stopped       from {:.1} s by {}, {resumed}", stop.at_s, stop.by)
+}
+
 fn fault(fault: &FaultReport) -> String {
     let after = |ms: Option<f64>| ms.map_or("never".into(), |ms| format!("after {ms:.1} ms"));
     format!(
@@ -247,6 +254,12 @@ mod tests {
                 utterances: Vec::new(),
             },
             refused: BTreeMap::new(),
+            operator_stops: vec![OperatorStopReport {
+                at_s: 4.25,
+                by: "user 0 (pid 7)".into(),
+                resumed_at_s: Some(6.0),
+                resumed_by: Some("user 0 (pid 8)".into()),
+            }],
             faults: vec![FaultReport {
                 process: "fields".into(),
                 fault: "kill".into(),
@@ -279,6 +292,7 @@ mod tests {
             "late by a period or more at 3 of 1000 wake-ups of an idle thread, by 2.3 ms at most",
             "not locked",
             "fields: kill at 20.0 s, seen after 0.3 ms, recovered after 21.5 ms, others missed 1",
+            "stopped       from 4.2 s by user 0 (pid 7), until 6.0 s by user 0 (pid 8)",
             "reports/x",
         ] {
             assert!(text.contains(part), "{part} is not in {text}");

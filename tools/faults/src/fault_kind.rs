@@ -32,6 +32,7 @@ impl FaultKind {
                     | Fault::SlowByHalf
                     | Fault::Slow
                     | Fault::SlowByFive
+                    | Fault::FreezePlanner
             ),
             Self::ViewerFlood => true,
             Self::Nothing | Self::Message(_) | Self::SecondSet | Self::PlantedRun => false,

@@ -285,7 +285,8 @@ impl Case<'_> {
         let by_supervisor = self.is_injected()
             && self.cell.target != Target::Supervisor
             && !matches!(self.cell.moment, Moment::StartUp | Moment::Shutdown);
-        let injected = self.noted(SupervisorEventKind::Injected).count();
+        let kinds = [SupervisorEventKind::Injected, SupervisorEventKind::InjectedLatent];
+        let injected: usize = kinds.map(|kind| self.noted(kind).count()).iter().sum();
         (by_supervisor && injected == 0).then(|| "the supervisor noted no injection".to_owned())
     }
 }

@@ -17,13 +17,12 @@ const CELLS_OF_A_RUN: usize = 8;
 const RESTARTS_OF_A_RUN: usize = 4;
 
 /// What the issue of faults knows and no cell does yet, with the reason.
-pub const NOT_COVERED: [(&str, &str); 6] = [
+pub const NOT_COVERED: [(&str, &str); 5] = [
     ("poisoned resume", "a message that only the supervisor may send; services/supervisor/tests has it"),
     ("sensor drop-out of 0.1, 1, 10 s", "the simulated sensors cannot be switched off yet"),
     ("/dev/shm full, with a death", "it would strike every other program of the machine"),
     ("report disk full", "it needs a file system of its own"),
     ("no file handles", "it needs another limit than the run's own"),
-    ("planner freeze", "a thread cannot be stopped by a signal alone"),
 ];
 
 /// Every cell.
@@ -88,6 +87,7 @@ pub fn quick() -> Vec<Cell> {
         message(MessageFault::NotANumber, "control", Moment::Moving),
         moving(Fault::SlowByFive, "control"),
         moving(Fault::StopForGood, "fields"),
+        moving(Fault::FreezePlanner, "control"),
         moving(Fault::Panic, "control"),
         moving(Fault::ExitSuccess, "world"),
         moving(Fault::ExitFailure, "perception"),
@@ -162,7 +162,8 @@ fn cell(fault: Fault, target: Target, moment: Moment) -> Cell {
 fn applies(fault: Fault, process: &str) -> bool {
     let of_the_chain =
         matches!(fault, Fault::SlowByHalf | Fault::Slow | Fault::SlowByFive | Fault::CrashLoop);
-    !of_the_chain || CHAIN.contains(&process)
+    let can_be_done = fault.only_of().is_none_or(|only| only == process);
+    can_be_done && (!of_the_chain || CHAIN.contains(&process))
 }
 
 #[cfg(test)]

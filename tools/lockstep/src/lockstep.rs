@@ -2,7 +2,7 @@ use coact_control::Control;
 use coact_fields::Network;
 use coact_joint_task::{NetworkPlan, Task};
 use coact_messages::{
-    Command, FieldFrame, Header, LAYOUT, LayerKind, Percept, SensorSample, Truth, WorldState,
+    Command, FieldFrame, Header, HoldReason, LAYOUT, LayerKind, Percept, SensorSample, Truth, WorldState,
 };
 use coact_perception::Perception;
 use coact_period::PERIOD_NS;
@@ -136,6 +136,11 @@ impl Lockstep {
     /// The person has said something: the next sensor sample tells it.
     pub fn hear(&mut self, sentence: &str) {
         self.world.hear(sentence);
+    }
+
+    /// Says why the joints may not move from now on, if there is a reason: they brake and stand.
+    pub fn hold(&mut self, reason: HoldReason) {
+        self.world.hold(reason);
     }
 
     /// Runs one period of every stage.

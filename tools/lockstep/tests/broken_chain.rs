@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_lockstep::Lockstep;
-use coact_messages::{ARM_JOINTS, Command, DriveMode, JOINTS};
+use coact_messages::{ARM_JOINTS, Command, DriveMode, HoldReason, JOINTS};
 use coact_period::PERIOD_S;
 use coact_pipeline::{RunSettings, WorldMode};
 use coact_robot::{JointLimits, Robot};
@@ -13,6 +13,8 @@ use std::path::Path;
 const FAST: f64 = 0.5;
 /// How long the chain is broken, ticks: longer than any arm needs to stop.
 const BROKEN: u64 = 500;
+/// How long an operator's stop lasts, ticks: longer than anything that control waits for.
+const STOPPED: u64 = 5000;
 /// How long the joints are watched afterwards, ticks: the arm moves on, but its hand meets nothing yet that pushes it.
 const WATCHED: u64 = 1000;
 
@@ -118,6 +120,30 @@ fn spoil(command: &mut Command, good: &Command, how: Break) {
         }
         Break::Jumping => command.position[0] += 0.3,
     }
+}
+
+#[test]
+fn an_arm_that_was_stopped_for_long_stands_soon_and_goes_on_within_its_limits() {
+    let mut watched = Watched::new(WorldMode::Kinematic);
+    watched.until_fast();
+    watched.used = [0.0; 2];
+    let most = stopping(&watched) + 5;
+    watched.stages.hold(HoldReason::Stopped);
+    for cycle in 0..STOPPED {
+        watched.step();
+        assert!(watched.stands() || cycle <= most, "moves after {cycle} cycles, {most} needed");
+    }
+    let before = watched.stages.truth.achieved.count_ones();
+    watched.stages.hold(HoldReason::None);
+    for _ in 0..30_000 {
+        watched.step();
+        if watched.stages.truth.achieved.count_ones() > before {
+            let [speed, acceleration] = watched.used;
+            assert!(speed <= 1.0 && acceleration <= 1.05, "{speed}, {acceleration} of the limits");
+            return;
+        }
+    }
+    panic!("nothing is achieved afterwards");
 }
 
 /// The joints' motion while the chain breaks and afterwards: fractions of their limits of speed and acceleration.

@@ -3,6 +3,7 @@
 mod hand_goals;
 mod in_sight;
 mod planner_link;
+mod planner_watch;
 mod planning_query;
 mod planning_result;
 mod planning_scene;
@@ -12,6 +13,7 @@ mod skill_planner;
 pub(crate) use hand_goals::HandGoals;
 pub(crate) use in_sight::InSight;
 pub(crate) use planner_link::PlannerLink;
+use planner_watch::PlannerWatch;
 pub(crate) use planning_query::PlanningQuery;
 pub(crate) use planning_result::PlanningResult;
 use planning_scene::PlanningScene;

@@ -1,5 +1,5 @@
 use super::planning_thread::Slots;
-use super::{PlanningQuery, PlanningResult, PlanningThread, SkillPlanner};
+use super::{PlannerWatch, PlanningQuery, PlanningResult, PlanningThread, SkillPlanner};
 use std::sync::Arc;
 
 /// Control's side of the planner: makes queries, and takes the results.
@@ -7,6 +7,7 @@ use std::sync::Arc;
 pub(crate) struct PlannerLink {
     /// The newest query that was made here; a predecessor's is not known.
     asked: u64,
+    watch: PlannerWatch,
     place: PlannerPlace,
 }
 
@@ -20,14 +21,30 @@ enum PlannerPlace {
 impl PlannerLink {
     /// To a planner that answers at once.
     pub fn within(planner: SkillPlanner) -> Self {
-        Self { asked: 0, place: PlannerPlace::Within { planner: Box::new(planner), result: None } }
+        Self::to(PlannerPlace::Within { planner: Box::new(planner), result: None })
     }
 
     /// To a planner on a thread of its own.
     pub fn beside(planner: SkillPlanner) -> (Self, PlanningThread) {
-        let slots = Arc::new(Slots::default());
+        let slots = Arc::new(Slots::new(planner.heartbeat().clone()));
         let thread = PlanningThread::new(planner, Arc::clone(&slots));
-        (Self { asked: 0, place: PlannerPlace::Beside(slots) }, thread)
+        (Self::to(PlannerPlace::Beside(slots)), thread)
+    }
+
+    fn to(place: PlannerPlace) -> Self {
+        Self { asked: 0, watch: PlannerWatch::default(), place }
+    }
+
+    /// Looks whether the planner goes on; to be called once in each cycle.
+    pub fn look(&mut self) {
+        if let PlannerPlace::Beside(slots) = &self.place {
+            self.watch.look(slots.answered() != self.asked, slots.beats());
+        }
+    }
+
+    /// Whether the planner hangs: it owes an answer, and does not go on. One that answers within the step cannot.
+    pub fn hangs(&self) -> bool {
+        self.watch.hangs()
     }
 
     /// Makes a query; one that was not taken up yet is replaced.

@@ -3,7 +3,7 @@ use super::{HandGoals, PlanningQuery, PlanningResult, PlanningScene};
 use crate::robot::{CollisionModels, FingerShape, GripGoal, RobotModel};
 use crate::state::{ArmTrajectory, Skill};
 use coact_joint_task::Task;
-use coact_motion::{CollisionModel, Goal, MinClearance, Plan, Problem, Refusal, Scene};
+use coact_motion::{CollisionModel, Goal, MinClearance, Plan, Problem, Refusal, Scene, SearchHeartbeat};
 use coact_robot::{HandGoal, MotionState, RobotError};
 use coact_safety::{PlannerLimits, SafetyLimits};
 use coact_stage_state::Flag;
@@ -18,6 +18,7 @@ pub(crate) struct SkillPlanner {
     goals: HandGoals,
     scene: PlanningScene,
     limits: PlannerLimits,
+    heartbeat: SearchHeartbeat,
 }
 
 /// Postures that a search looks at when the arm is in motion, and when it stands: in motion the answer must come within the
@@ -44,13 +45,21 @@ struct Attempt<'a> {
 impl SkillPlanner {
     pub fn new(
         robot: RobotModel,
-        models: CollisionModels,
+        mut models: CollisionModels,
         goals: HandGoals,
         task: &Task,
         limits: SafetyLimits,
     ) -> Self {
+        // Its own: the guard, which has the same mechanism, works in the cycle of who watches this one.
+        let heartbeat = SearchHeartbeat::default();
+        models.mechanism = models.mechanism.beating(heartbeat.clone());
         let scene = PlanningScene::new(&robot, &models, task, limits);
-        Self { robot, models, goals, scene, limits: limits.planner }
+        Self { robot, models, goals, scene, limits: limits.planner, heartbeat }
+    }
+
+    /// Beats while it searches.
+    pub fn heartbeat(&self) -> &SearchHeartbeat {
+        &self.heartbeat
     }
 
     /// Whether the arm can get to one of these goals when nothing is in the way.

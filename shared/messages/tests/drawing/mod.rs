@@ -22,7 +22,7 @@ const COLUMNS: [(&str, &str); 8] = [
 const BLOCKS: [(usize, &str); 3] = [
     (0, "the chain of one cycle, 1 kHz"),
     (4, "beside the chain"),
-    (7, "closed to all but these readers; restarts"),
+    (8, "closed to all but these readers; restarts"),
 ];
 
 // Sizes in px: chosen so that the text is legible at the width of a page (about 900 px).

@@ -45,6 +45,7 @@ fn noted(event: SupervisorEventKind, process: &str, reason: &str) -> SupervisorE
         pid: 7,
         fault: None,
         reason: Some(reason.into()),
+        user: None,
     }
 }
 
