@@ -145,14 +145,21 @@ fn serve(mut stream: UnixStream, requests: &mpsc::Sender<FaultRequest>) -> io::R
     writeln!(stream, "{}", serde_json::to_string(&answer)?)
 }
 
-fn forward(line: &str, requests: &mpsc::Sender<FaultRequest>) -> Result<AnswerLine, String> {
+/// What a line that came on the socket asks for: a process, and the fault to be injected into it.
+///
+/// # Errors
+/// Why it is no request, in words for who sent it.
+pub fn read_request(line: &str) -> Result<(String, Fault), String> {
     let line: RequestLine = serde_json::from_str(line)
         .map_err(|error| format!("{error}; expected {{\"process\": \"...\", \"fault\": \"...\"}}"))?;
     let fault = line.fault.parse::<Fault>().map_err(|error| error.to_string())?;
+    Ok((line.process, fault))
+}
+
+fn forward(line: &str, requests: &mpsc::Sender<FaultRequest>) -> Result<AnswerLine, String> {
+    let (process, fault) = read_request(line)?;
     let (answer, answered) = mpsc::channel();
     let over = |_| "the run is ending".to_owned();
-    requests
-        .send(FaultRequest { process: line.process, fault, answer })
-        .map_err(|error| over(error.to_string()))?;
+    requests.send(FaultRequest { process, fault, answer }).map_err(|error| over(error.to_string()))?;
     answered.recv_timeout(ANSWER_TIMEOUT).map_err(|error| over(error.to_string()))
 }

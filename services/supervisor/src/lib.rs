@@ -42,7 +42,7 @@ mod watchdog;
 
 pub use checkpoints::Checkpoints;
 pub use child::RunningChild;
-pub use control_socket::{FaultRequestError, request_fault};
+pub use control_socket::{FaultRequestError, read_request, request_fault};
 pub use ending::Ending;
 pub use fault::{Fault, UnknownFault};
 pub use gave_up::GaveUp;
