@@ -1,5 +1,5 @@
 use crate::BenchError;
-use crate::raw_port::RawPort;
+use crate::raw_port::{RawPort, prefix};
 use coact_monitor::histogram;
 use coact_period::PERIOD_NS;
 use coact_pipeline::{Pipeline, ProcessEntry, Run};
@@ -44,8 +44,13 @@ impl RawHop {
             let received = receiver.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             sent.and(received)
         });
-        // What was left in it, the next bench does not need either.
+        // iceoryx2 leaves its count of nodes; what cannot be removed harms nobody.
         std::fs::remove_dir_all(&folder).ok();
+        for entry in std::fs::read_dir("/dev/shm").into_iter().flatten().flatten() {
+            if entry.file_name().to_string_lossy().starts_with(&prefix()) {
+                std::fs::remove_file(entry.path()).ok();
+            }
+        }
         measured.map(|histogram| Self { histogram })
     }
 }

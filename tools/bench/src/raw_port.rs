@@ -23,6 +23,11 @@ pub(crate) enum RawPort {
     },
 }
 
+/// What the names of this program's shared memory begin with.
+pub(crate) fn prefix() -> String {
+    format!("coact-bench-{}_", std::process::id())
+}
+
 fn refused(error: impl std::fmt::Debug) -> BenchError {
     BenchError::Port(format!("{error:?}"))
 }
@@ -31,8 +36,7 @@ impl RawPort {
     /// Opens an end below a folder of its own.
     pub(crate) fn open(folder: &Path, sends: bool) -> Result<Self, BenchError> {
         let mut config = Config::default();
-        config.global.prefix =
-            FileName::new(format!("coact-bench-{}_", std::process::id()).as_bytes()).map_err(refused)?;
+        config.global.prefix = FileName::new(prefix().as_bytes()).map_err(refused)?;
         let root = iceoryx2::prelude::Path::new(folder.as_os_str().as_encoded_bytes()).map_err(refused)?;
         config.global.set_root_path(&root);
         let node = NodeBuilder::new().config(&config).signal_handling_mode(SignalHandlingMode::Disabled);
