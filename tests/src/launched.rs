@@ -1,9 +1,10 @@
-use crate::{Finished, checkout, coact, wait_for};
+use crate::{Finished, TIMEOUT, checkout, coact, wait_within};
 use coact_pipeline::Run;
 use rustix::process::{Pid, Signal, kill_process};
 use std::fs::File;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
 /// A running `coact launch`.
 #[derive(Debug)]
@@ -29,14 +30,25 @@ impl Launched {
 
     /// Its run, once it has been made.
     pub fn run(&self) -> Run {
+        self.run_within(TIMEOUT)
+    }
+
+    fn run_within(&self, most: Duration) -> Run {
         let report = self.report();
-        wait_for("the run's directory", || Run::all().into_iter().find(|run| run.settings().report == report))
+        wait_within(most, "the run's directory", || {
+            Run::all().into_iter().find(|run| run.settings().report == report)
+        })
     }
 
     /// Its run, once all processes are ready and its clock runs.
     pub fn when_started(&self) -> Run {
-        let run = self.run();
-        wait_for("the run's start", || run.start_ns().unwrap_or_default());
+        self.when_started_within(TIMEOUT)
+    }
+
+    /// The same, but it must take no longer than this.
+    pub fn when_started_within(&self, most: Duration) -> Run {
+        let run = self.run_within(most);
+        wait_within(most, "the run's start", || run.start_ns().unwrap_or_default());
         run
     }
 
@@ -46,8 +58,13 @@ impl Launched {
     }
 
     /// Waits for its end.
-    pub fn finish(mut self) -> Finished {
-        let status = wait_for("the end of the run", || self.child.try_wait().unwrap());
+    pub fn finish(self) -> Finished {
+        self.finish_within(TIMEOUT)
+    }
+
+    /// Waits for its end, which must come within this time.
+    pub fn finish_within(mut self, most: Duration) -> Finished {
+        let status = wait_within(most, "the end of the run", || self.child.try_wait().unwrap());
         let read = |name: &str| std::fs::read_to_string(self.folder.path().join(name)).unwrap_or_default();
         Finished::read(&self.report(), status.code(), read("stdout"), read("stderr"))
     }

@@ -7,10 +7,14 @@
 mod finished;
 mod launched;
 mod paths;
+mod thread_faults;
+mod tracer;
 
 pub use finished::Finished;
 pub use launched::Launched;
 pub use paths::{checkout, coact, left_behind, shared_memory};
+pub use thread_faults::ThreadFaults;
+pub use tracer::{TraceError, Tracer};
 
 use std::time::{Duration, Instant};
 
@@ -24,13 +28,21 @@ const POLL_INTERVAL: Duration = Duration::from_millis(5);
 ///
 /// # Panics
 /// After a while without one; `what` says what was waited for.
-pub fn wait_for<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
+pub fn wait_for<T>(what: &str, poll: impl FnMut() -> Option<T>) -> T {
+    wait_within(TIMEOUT, what, poll)
+}
+
+/// The same, but no longer than this.
+///
+/// # Panics
+/// As [`wait_for`].
+pub fn wait_within<T>(most: Duration, what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
     let begin = Instant::now();
     loop {
         if let Some(found) = poll() {
             return found;
         }
-        assert!(begin.elapsed() < TIMEOUT, "timed out: {what}");
+        assert!(begin.elapsed() < most, "timed out: {what}");
         std::thread::sleep(POLL_INTERVAL);
     }
 }

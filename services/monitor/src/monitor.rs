@@ -91,12 +91,15 @@ impl Monitor {
         faults.resume(events.records());
         let (supervisor, snapshots) = (LogFollower::new(&report), SnapshotLog::open(&report, &task)?);
         let mut motion = JointMotion::new(limits, fresh);
-        if let Ok(found) = std::fs::read(report.join(MOTION)) {
+        if let Ok(found) = coact_input_file::read_within(&report.join(MOTION), coact_input_file::LONGEST_TEXT)
+        {
             let error =
                 |cause| MonitorError::File { path: report.join(MOTION), cause: std::io::Error::other(cause) };
             motion.resume(serde_json::from_slice(&found).map_err(error)?);
         }
-        if let Ok(found) = std::fs::read(report.join(SEPARATION)) {
+        if let Ok(found) =
+            coact_input_file::read_within(&report.join(SEPARATION), coact_input_file::LONGEST_TEXT)
+        {
             let error = |cause| MonitorError::File {
                 path: report.join(SEPARATION),
                 cause: std::io::Error::other(cause),

@@ -30,9 +30,17 @@ pub(crate) struct SetRequest {
 #[derive(Debug)]
 pub(crate) struct Asker(mpsc::Sender<AnswerLine>);
 
+/// What is asked of a running set.
 #[derive(Debug)]
-pub(crate) enum Wanted {
-    Fault { process: String, fault: Fault },
+pub enum Wanted {
+    /// That a fault be injected.
+    Fault {
+        /// Into this process.
+        process: String,
+        /// The fault.
+        fault: Fault,
+    },
+    /// That the robot stop, or go on.
     Stop(StopRequest),
 }
 
@@ -114,7 +122,7 @@ fn forward(
     operator: Operator,
     requests: &mpsc::Sender<SetRequest>,
 ) -> Result<AnswerLine, String> {
-    let wanted = read(line)?;
+    let wanted = read_request(line)?;
     let (answer, answered) = mpsc::channel();
     let over = |_| "the run is ending".to_owned();
     let request = SetRequest { operator, wanted, asker: Asker(answer) };
@@ -122,7 +130,11 @@ fn forward(
     answered.recv_timeout(ANSWER_TIMEOUT).map_err(|error| over(error.to_string()))
 }
 
-fn read(line: &str) -> Result<Wanted, String> {
+/// What a line that came on the socket asks for.
+///
+/// # Errors
+/// Why it is no request, in words for who sent it.
+pub fn read_request(line: &str) -> Result<Wanted, String> {
     let expected = "expected {\"request\": \"inject\", \"process\": \"...\", \"fault\": \"...\"}, {\"request\": \"stop\"} \
                     or {\"request\": \"resume\"}";
     match serde_json::from_str(line).map_err(|error| format!("{error}; {expected}"))? {
@@ -142,14 +154,14 @@ mod tests {
 
     #[test]
     fn requests_are_read_and_what_is_none_is_told_what_would_be() {
-        assert!(matches!(read("{\"request\": \"stop\"}\n"), Ok(Wanted::Stop(StopRequest::Stop))));
-        assert!(matches!(read("{\"request\": \"resume\"}\n"), Ok(Wanted::Stop(StopRequest::Resume))));
-        let fault = read("{\"request\": \"inject\", \"process\": \"fields\", \"fault\": \"kill\"}");
+        assert!(matches!(read_request("{\"request\": \"stop\"}\n"), Ok(Wanted::Stop(StopRequest::Stop))));
+        assert!(matches!(read_request("{\"request\": \"resume\"}\n"), Ok(Wanted::Stop(StopRequest::Resume))));
+        let fault = read_request("{\"request\": \"inject\", \"process\": \"fields\", \"fault\": \"kill\"}");
         assert!(matches!(fault, Ok(Wanted::Fault { process, fault: Fault::Kill }) if process == "fields"));
         for line in
             ["", "stop", "{\"request\": \"halt\"}", "{\"request\": \"inject\", \"process\": \"fields\"}"]
         {
-            assert!(read(line).unwrap_err().contains("expected {\"request\""), "{line}");
+            assert!(read_request(line).unwrap_err().contains("expected {\"request\""), "{line}");
         }
     }
 }

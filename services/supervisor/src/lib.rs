@@ -44,6 +44,7 @@ mod watchdog;
 
 pub use checkpoints::Checkpoints;
 pub use child::RunningChild;
+pub use control_socket::{Wanted, read_request};
 pub use ending::Ending;
 pub use fault::{Fault, UnknownFault};
 pub use gave_up::GaveUp;

@@ -2,7 +2,7 @@ use crate::robot_hand_state::RobotHandState;
 use crate::sensors::TrackerState;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_drive::DriveState;
-use coact_messages::{Heard, MAX_PARTS, SceneView};
+use coact_messages::{Flaw, Heard, MAX_PARTS, SceneView};
 use coact_person::PersonState;
 use coact_stage_state::{Flag, Implausible, StageState, ensure};
 
@@ -44,9 +44,10 @@ impl StageState for SimulationState {
         ensure(counts, "tick or count", "one that can be reached in a run")?;
         let complete = self.complete_since <= self.tick.max(1);
         ensure(complete, "complete_since", "a tick that has been")?;
-        let sightings = self.scene.sightings as usize <= self.scene.sighting.len()
-            && self.scene.occluders as usize <= self.scene.occluder.len();
-        ensure(sightings, "scene", "as many sightings and occluders as there is room for")?;
+        let frames = [self.scene.captured_cycle, self.tracker.delivered.captured_cycle];
+        ensure(frames.iter().all(|cycle| *cycle <= self.tick), "captured_cycle", "a tick that has been")?;
+        let views = self.scene.check().and_then(|()| self.tracker.check_views());
+        views.map_err(|Flaw { field, expected }| Implausible { field, expected })?;
         self.drive.check()?;
         self.tracker.check()
     }

@@ -37,6 +37,9 @@ pub struct Pulse {
     pub reserved: u32,
 }
 
+/// More than any run has cycles: one for each millisecond of thousands of years. Sums of such counts do not overflow.
+const MOST: u64 = 1 << 48;
+
 impl Plausible for Pulse {
     fn check(&self) -> Result<(), Flaw> {
         let times = [
@@ -48,6 +51,8 @@ impl Plausible for Pulse {
         ];
         let last = self.header.published_ns;
         ensure(times.iter().all(|time| *time <= last), "times", "times before the publication")?;
+        let counts = [self.header.sequence, self.missed, self.stale, self.skipped];
+        ensure(counts.iter().all(|count| *count <= MOST), "counts", "counts that a run can reach")?;
         optional("refused_topic", self.refused_topic, topic::ALL.len())
     }
 }

@@ -123,7 +123,7 @@ impl Plausible for SensorSample {
     fn check(&self) -> Result<(), Flaw> {
         self.joints.check()?;
         not_after("hand.captured_cycle", &self.header, &[self.hand.captured_cycle])?;
-        self.hand.keypoints.iter().try_for_each(Keypoint::check)?;
+        self.hand.check()?;
         not_after("scene.captured_cycle", &self.header, &[self.scene.captured_cycle])?;
         self.scene.check()?;
         self.heard.check(&self.header)
@@ -140,6 +140,17 @@ impl JointReading {
     }
 }
 
+impl HandView {
+    /// Looks for a keypoint that is not what it can be: the world keeps frames in its own state, and judges them when it
+    /// resumes.
+    ///
+    /// # Errors
+    /// The first such field.
+    pub fn check(&self) -> Result<(), Flaw> {
+        self.keypoints.iter().try_for_each(Keypoint::check)
+    }
+}
+
 impl Keypoint {
     fn check(&self) -> Result<(), Flaw> {
         fractions("hand.keypoints.confidence", &[self.confidence])?;
@@ -149,7 +160,11 @@ impl Keypoint {
 }
 
 impl SceneView {
-    fn check(&self) -> Result<(), Flaw> {
+    /// Looks for a field that is not what it can be: the world keeps a scene in its own state, and judges it when it resumes.
+    ///
+    /// # Errors
+    /// The first such field.
+    pub fn check(&self) -> Result<(), Flaw> {
         let (sightings, occluders) = (self.sightings as usize, self.occluders as usize);
         ensure(sightings <= self.sighting.len(), "scene.sightings", "no more than there is room for")?;
         ensure(occluders <= self.occluder.len(), "scene.occluders", "no more than there is room for")?;

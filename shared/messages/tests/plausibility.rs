@@ -116,3 +116,12 @@ fn judging_a_frame_costs_little_of_a_cycle() {
         assert!(spans[1000].as_micros() < 200, "{name}: {:?}", spans[1000]);
     }
 }
+
+#[test]
+fn a_pulse_with_a_count_that_no_run_reaches_is_refused() {
+    let pulse = Pulse { refused_topic: coact_messages::NONE, ..Pulse::default() };
+    assert_eq!(pulse.check(), Ok(()));
+    let header = Header { sequence: u64::MAX, ..Header::default() };
+    assert_eq!(Pulse { header, ..pulse }.check().unwrap_err().field, "counts");
+    assert_eq!(Pulse { missed: u64::MAX, ..pulse }.check().unwrap_err().field, "counts");
+}

@@ -1,7 +1,7 @@
 //! The collision geometry of a URDF as links of a collision model.
 
 use crate::Link;
-use crate::{Capsule, Mechanism, Meshes, Solid};
+use crate::{Capsule, Mechanism, Meshes, Solid, mesh_file};
 use coact_robot::{HAND_JOINTS, Joint, RobotError, Urdf, isometry};
 use nalgebra::{Isometry3, Point3, Vector3};
 use std::path::{Path, PathBuf};
@@ -103,6 +103,7 @@ fn push(
     let hand = finger || carriers == mechanism.joints();
     for shape in &link.collision {
         let place = place * isometry(&shape.origin);
+        check(mechanism, link, &shape.geometry, &place)?;
         let solid = match &shape.geometry {
             urdf_rs::Geometry::Box { size } => Some(Solid::Box(Vector3::from(size.0))),
             urdf_rs::Geometry::Cylinder { radius, length } => {
@@ -120,13 +121,43 @@ fn push(
     Ok(())
 }
 
+/// No form of a link is larger or farther away, m: far beyond any arm. With larger numbers the library for distances fails.
+const LARGEST: f64 = 100.0;
+
+/// Refuses a form of no size or of one that cannot be, and one that lies nowhere.
+fn check(
+    mechanism: &Mechanism,
+    link: &urdf_rs::Link,
+    form: &urdf_rs::Geometry,
+    place: &Isometry3<f64>,
+) -> Result<(), RobotError> {
+    let is_size = |length: &f64| *length > 0.0 && *length <= LARGEST;
+    let (size, expected) = match form {
+        urdf_rs::Geometry::Box { size } => (size.0.to_vec(), "all sides"),
+        urdf_rs::Geometry::Cylinder { radius, length } => (vec![*radius, *length], "radius and length"),
+        urdf_rs::Geometry::Capsule { radius, length } => (vec![*radius, *length], "radius and length"),
+        urdf_rs::Geometry::Sphere { radius } => (vec![*radius], "its radius"),
+        // Its size is known when it is read.
+        urdf_rs::Geometry::Mesh { .. } => (Vec::new(), ""),
+    };
+    if !size.iter().all(is_size) {
+        let problem =
+            format!("has a form of the size {size:?}; expected {expected} above 0 and up to {LARGEST} m");
+        return Err(mechanism.urdf.fault(&link.name, &problem));
+    }
+    let is_near = place.translation.vector.iter().all(|length| length.abs() <= LARGEST);
+    if !is_near || !place.rotation.coords.iter().all(|value| value.is_finite()) {
+        let problem =
+            format!("has a form that lies nowhere near; expected it within {LARGEST} m of the arm's base");
+        return Err(mechanism.urdf.fault(&link.name, &problem));
+    }
+    Ok(())
+}
+
 fn straight(half: f64, radius: f64) -> Solid {
     let end = |sign: f64| Point3::new(0.0, 0.0, sign * half);
     Solid::Capsule(Capsule { start: end(-1.0), end: end(1.0), radius })
 }
-
-/// No mesh of a link is larger, bytes: a hundred times the usual ones.
-const LARGEST_MESH: u64 = 256 << 20;
 
 /// The bounding capsule of a mesh, or what stands in for it, in the frame of its geometry.
 fn mesh(
@@ -140,17 +171,23 @@ fn mesh(
     let file = locate(urdf.path_of(&link.name), filename);
     match (file, mechanism.meshes) {
         (Some(file), _) => {
-            let scene = coact_input_file::read_within(&file, LARGEST_MESH).and_then(|bytes| {
-                mesh_loader::Loader::default().load_from_slice(&bytes, &file)
-            });
-            let scene = scene.map_err(|error| {
+            let scene = mesh_file::read(&file).map_err(|error| {
                 urdf.fault(&link.name, &format!("has a mesh that cannot be read: {}: {error}", file.display()))
             })?;
             let vertices = scene.meshes.iter().flat_map(|mesh| &mesh.vertices);
             let points = vertices.map(|vertex| {
                 Point3::from(Vector3::from(vertex.map(f64::from)).component_mul(&scale))
             });
-            Ok(Capsule::around_points(&points.collect::<Vec<_>>()))
+            let points: Vec<_> = points.collect();
+            // Written so that what is no number is refused as well.
+            if !points.iter().flat_map(|point| point.iter()).all(|length| length.abs() <= LARGEST) {
+                let problem = format!(
+                    "has a mesh with a corner beyond {LARGEST} m or at none: {}; expected metres",
+                    file.display()
+                );
+                return Err(urdf.fault(&link.name, &problem));
+            }
+            Ok(Capsule::around_points(&points))
         }
         (None, Meshes::Required) => Err(urdf.fault(
             &link.name,

@@ -79,6 +79,7 @@ mod line_constraint;
 mod link;
 mod measured_path;
 mod mechanism;
+mod mesh_file;
 mod min_clearance;
 mod minimum_jerk_spline;
 mod numerical_ik;

@@ -149,6 +149,9 @@ fn broken_robots_are_refused_with_the_place_and_the_reason() {
         (six_joints("lower=\"0\" upper=\"0\"", BALL, 2), "lower < upper"),
         (six_joints(WIDE, mesh, 2), "package://six/arm.stl"),
         (six_joints(WIDE, BALL, 0), "expected a hand"),
+        (six_joints(WIDE, "<box size=\"0.1 0.1 -inf\"/>", 2), "expected all sides above 0"),
+        (six_joints(WIDE, "<cylinder radius=\"0\" length=\"1\"/>", 2), "expected radius and length above 0"),
+        (six_joints(WIDE, "<sphere radius=\"1e30\"/>", 2), "expected its radius above 0 and up to 100 m"),
         (six_joints(WIDE, BALL, 2).replace("</robot>", ""), "not a URDF"),
     ];
     for (text, reason) in cases {

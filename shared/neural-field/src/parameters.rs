@@ -30,6 +30,9 @@ pub struct ParameterError {
     pub expected: &'static str,
 }
 
+/// No kernel or input is wider, sites: as many as a field frame holds in all. Memory is taken in proportion.
+const WIDEST: f64 = 1e4;
+
 impl Parameters {
     /// Checks that a field of these constants is well defined.
     ///
@@ -54,6 +57,11 @@ impl Parameters {
                 return Err(ParameterError { name, value, expected: "a finite number, at least 0" });
             }
         }
+        for (name, value) in [("kernel sigma", sigma), ("range", range), ("input_sigma", self.input_sigma)] {
+            if value > WIDEST * self.spacing {
+                return Err(ParameterError { name, value, expected: "at most 10000 times the spacing" });
+            }
+        }
         if !self.threshold.is_finite() {
             return Err(ParameterError {
                 name: "threshold",
@@ -62,5 +70,22 @@ impl Parameters {
             });
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kernel_wider_than_any_field_is_refused_before_memory_is_taken_for_it() {
+        let kernel = Kernel { amplitude: 3.0, sigma: 2.0, inhibition: 1.0, range: Some(6.0) };
+        let good =
+            Parameters { tau: 20.0, slope: 5.0, threshold: 0.0, spacing: 0.5, input_sigma: 2.0, kernel };
+        assert_eq!(good.check(), Ok(()));
+        let far = Parameters { kernel: Kernel { range: Some(4_294_967_296.0), ..kernel }, ..good };
+        assert_eq!(far.check().map_err(|error| error.name), Err("range"));
+        let fine = Parameters { spacing: 1e-9, ..good };
+        assert_eq!(fine.check().map_err(|error| error.name), Err("kernel sigma"));
     }
 }

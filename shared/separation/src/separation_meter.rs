@@ -6,7 +6,7 @@ use coact_safety::SafetyLimits;
 use nalgebra::Point3;
 
 /// Measures the distance of robot and person, tick by tick.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SeparationMeter {
     mechanism: Mechanism,
     /// Arm and hand, the fingers ever farther closed.

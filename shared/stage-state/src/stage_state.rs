@@ -60,6 +60,16 @@ pub trait StageState: CheckedBitPattern + NoUninit + Zeroable {
     }
 }
 
+/// Makes the checksum at `end`, behind a state of any stage, that of the words before it: as [`StageState::seal`], for tests of
+/// what is refused behind the checksum.
+///
+/// # Panics
+/// There is no such word.
+pub fn seal_words(words: &mut [f64], end: usize) {
+    let words: &mut [u64] = bytemuck::cast_slice_mut(words);
+    words[end] = checksum(&words[..end]);
+}
+
 /// Refuses `numbers` when one of them is not finite.
 ///
 /// # Errors

@@ -1,5 +1,6 @@
 //! The studies of `coact`: its commands that no run needs. `coact` starts this program, and has it built at its first use.
 
+mod bench;
 mod completions;
 mod evaluate;
 mod faults;
@@ -33,6 +34,8 @@ enum Command {
     Reaches(reaches::Args),
     /// Evaluate whole assemblies with random partners, and compare with ablations
     Evaluate(evaluate::Args),
+    /// Measure latencies beside an idle thread and iceoryx2 alone, under load and with kills
+    Bench(bench::Args),
     /// Break process sets in every way, and judge what happens
     Faults(faults::Args),
     /// Draw the chapter's figures from runs made now
@@ -49,7 +52,7 @@ fn main() -> ExitCode {
     program::begin();
     let command = Cli::parse().command;
     // In real time there are processes that this program must stop.
-    if !matches!(command, Command::Reaches(_) | Command::Faults(_)) {
+    if !matches!(command, Command::Reaches(_) | Command::Faults(_) | Command::Bench(_)) {
         closed_pipe::ends_the_program();
     }
     program::end(match command {
@@ -57,6 +60,7 @@ fn main() -> ExitCode {
         Command::Learn(args) => learn::run(args),
         Command::Reaches(args) => reaches::run(args),
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Bench(args) => bench::run(args),
         Command::Faults(args) => faults::run(args),
         Command::Figures(args) => figures::run(args),
         Command::Motion(args) => motion::run(args),

@@ -1,6 +1,6 @@
 use bytemuck::{Pod, Zeroable};
 use coact_messages::Sighting;
-use coact_stage_state::{Implausible, ensure, finite};
+use coact_stage_state::{Implausible, bounded, ensure};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// Nobody has the part.
@@ -14,6 +14,11 @@ pub(crate) const BY_PERSON: u32 = 2;
 const MOVED: f64 = 0.012;
 /// Weight of a new sighting in the position of a part that lies still: the mean of about three sightings. Chosen by hand.
 const SMOOTHING: f64 = 0.3;
+
+/// No part is farther away, m, and the square of no quaternion's length farther from 1: what readers take in of a percept, which
+/// tells both.
+const FARTHEST: f64 = 1e3;
+const UNIT: f64 = 0.1;
 
 /// One part that has been sighted, followed from sighting to sighting.
 #[repr(C)]
@@ -55,8 +60,10 @@ impl PartTrack {
     /// Refuses what is no track.
     pub fn check(&self) -> Result<(), Implausible> {
         ensure(self.holder <= BY_ROBOT | BY_PERSON, "parts.holder", "the bits of robot and person")?;
-        finite("parts.position", &self.position)?;
-        finite("parts.orientation", &self.orientation.map(f64::from))
+        bounded("parts.position", &self.position, FARTHEST)?;
+        let [x, y, z, w] = self.orientation.map(f64::from);
+        let square = x * x + y * y + z * z + w * w;
+        ensure(square == 0.0 || (square - 1.0).abs() <= UNIT, "parts.orientation", "a quaternion of length 1")
     }
 
     /// Takes in a new sighting, `cycles` after the last frame.

@@ -1,6 +1,6 @@
 use super::frame_rate::is_frame_due;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
-use coact_messages::{HandView, Keypoint, KeypointName};
+use coact_messages::{Flaw, HandView, Keypoint, KeypointName};
 use coact_random::{RandomStreams, Stream};
 use coact_stage_state::{Flag, Implausible, ensure};
 use glam::DVec3;
@@ -39,6 +39,14 @@ impl TrackerState {
             "tracker: frame",
             "a frame of this run",
         )
+    }
+}
+
+impl TrackerState {
+    /// Refuses keypoints that nobody could take in.
+    pub fn check_views(&self) -> Result<(), Flaw> {
+        self.delivered.check()?;
+        self.pending.check()
     }
 }
 

@@ -1,0 +1,19 @@
+//! What is asked of a run: on its socket, on the command line.
+
+use crate::configuration::{taken, task};
+use coact_supervisor::{Injection, read_request};
+use coact_world::Partner;
+
+pub(crate) fn control_request(bytes: &[u8]) -> bool {
+    std::str::from_utf8(bytes).is_ok_and(|line| taken(read_request(line)).is_some())
+}
+
+pub(crate) fn injection(bytes: &[u8]) -> bool {
+    std::str::from_utf8(bytes).is_ok_and(|text| taken(text.parse::<Injection>()).is_some())
+}
+
+/// Only the words: which files are read, this target must not choose.
+pub(crate) fn partner(bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else { return false };
+    taken(Partner::load(&format!("random:{text}"), task(), 1)).is_some()
+}

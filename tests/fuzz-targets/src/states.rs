@@ -1,0 +1,69 @@
+//! What a replacement resumes from: checkpoints with changes, whose checksum is right all the same.
+//!
+//! The checksum tells what was damaged; these targets ask what lies behind it. A stage need not send what is good then, since its
+//! own numbers were changed to others that could be; but it goes on.
+
+use crate::assembly::{INSTANTS, Instant};
+use crate::messages::Stages;
+use crate::patch::{patched, which};
+use bytemuck::Pod;
+use coact_stage_state::seal_words;
+
+/// How many cycles a stage goes on from what it has taken up.
+const GOES_ON: u64 = 3;
+
+/// The instant, and its message of which the words of the stage's state are changed and sealed again.
+fn damaged<T: Pod>(
+    bytes: &[u8],
+    of: impl Fn(&Instant) -> &T,
+    words: impl Fn(&mut T) -> &mut [f64],
+) -> (&'static Instant, Box<T>) {
+    let instant = &INSTANTS[which(bytes, INSTANTS.len())];
+    let mut message = patched(of(instant), &[]);
+    let state = words(&mut message);
+    // The checksum is the last word that is not zero.
+    let end = state.iter().rposition(|word| word.to_bits() != 0).unwrap_or_default();
+    let changed = state.split_at_mut(end).0;
+    crate::patch::apply(bytemuck::cast_slice_mut(changed), bytes);
+    seal_words(state, end);
+    (instant, message)
+}
+
+pub(crate) fn perception(bytes: &[u8]) -> bool {
+    let (instant, percept) = damaged(bytes, |instant| &*instant.percept, |message| &mut message.state);
+    Stages::with(|stages| {
+        let resumed = stages.perception.resume(&percept).is_ok();
+        let mut out = instant.percept.clone();
+        for tick in instant.tick + 1..=instant.tick + GOES_ON {
+            stages.perception.step(tick, Some(&instant.sample), &mut out);
+        }
+        resumed
+    })
+}
+
+pub(crate) fn control(bytes: &[u8]) -> bool {
+    let (instant, command) = damaged(bytes, |instant| &*instant.command, |message| &mut message.state);
+    Stages::with(|stages| {
+        let resumed = stages.control.resume(&command);
+        let mut out = instant.command.clone();
+        for tick in instant.tick + 1..=instant.tick + GOES_ON {
+            let Instant { sample, percept, frame, .. } = instant;
+            stages.control.step(tick, Some(sample), Some(percept), Some(frame), None, &mut out);
+        }
+        resumed
+    })
+}
+
+pub(crate) fn world(bytes: &[u8]) -> bool {
+    let (instant, state) = damaged(bytes, |instant| &*instant.state, |message| &mut message.state);
+    Stages::with(|stages| {
+        stages.world.resume(&instant.state).unwrap();
+        let resumed = stages.world.resume(&state).is_ok();
+        let Instant { sample, truth, state, .. } = instant;
+        let (mut sample, mut truth, mut state) = (sample.clone(), truth.clone(), state.clone());
+        for tick in instant.tick + 1..=instant.tick + GOES_ON {
+            stages.world.step(tick, Some(&instant.command), &mut sample, &mut truth, &mut state);
+        }
+        resumed
+    })
+}

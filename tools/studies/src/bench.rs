@@ -1,0 +1,31 @@
+//! `coact bench`: what is measured beside what it is to be compared with.
+
+mod latency;
+
+use anyhow::Result;
+use std::process::ExitCode;
+
+/// Measures the pipeline beside what it is to be compared with.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:
+  coact bench latency --load all --out reports/bench")]
+pub struct Args {
+    #[command(subcommand)]
+    bench: Bench,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Bench {
+    /// Latencies of a real set, of an idle thread and of iceoryx2 alone, at the same time
+    Latency(latency::Args),
+}
+
+/// Measures.
+///
+/// # Errors
+/// The configuration is refused, the set cannot be started, or its load is not there.
+pub fn run(args: Args) -> Result<ExitCode> {
+    match args.bench {
+        Bench::Latency(args) => latency::run(args),
+    }
+}
