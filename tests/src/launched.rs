@@ -4,7 +4,10 @@ use rustix::process::{Pid, Signal, kill_process};
 use std::fs::File;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
+
+/// A killed process is dead after this time. Chosen by hand: the kernel gives back its locked memory first, some milliseconds.
+const DYING: Duration = Duration::from_secs(20);
 
 /// A running `coact launch`.
 #[derive(Debug)]
@@ -78,6 +81,10 @@ impl Drop for Launched {
     fn drop(&mut self) {
         // A test that failed leaves no set behind: the supervisor's children die with it.
         self.child.kill().ok();
-        self.child.wait().ok();
+        // Bounded: a process that cannot die must not make a test hang.
+        let begin = Instant::now();
+        while matches!(self.child.try_wait(), Ok(None)) && begin.elapsed() < DYING {
+            std::thread::sleep(Duration::from_millis(5));
+        }
     }
 }

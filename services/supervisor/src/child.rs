@@ -2,11 +2,12 @@ use crate::{ProcessSpec, StderrTail};
 use coact_pipeline::GENERATION_VARIABLE;
 use coact_realtime::{RequestedFault, SchedulingClass};
 use rustix::process::{
-    Pid, PidfdFlags, Signal, pidfd_open, pidfd_send_signal, set_parent_process_death_signal,
+    Pid, PidfdFlags, Signal, WaitId, WaitIdOptions, pidfd_open, pidfd_send_signal,
+    set_parent_process_death_signal, waitid,
 };
 use std::io;
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd, OwnedFd};
-use std::os::unix::process::CommandExt;
+use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
@@ -89,9 +90,13 @@ impl RunningChild {
         }
     }
 
-    /// How it ended, if it did; reaps it.
-    pub fn exit_status(&mut self) -> Option<ExitStatus> {
-        self.child.try_wait().ok().flatten()
+    /// How it ended, if it did. It is reaped when this is dropped.
+    pub fn exit_status(&self) -> Option<ExitStatus> {
+        let ended = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT | WaitIdOptions::NOHANG;
+        let status = waitid(WaitId::PidFd(self.pidfd.as_fd()), ended).ok().flatten()?;
+        // As wait(2) encodes it: a status in the second byte, or a signal in the first.
+        let code = status.exit_status().map(|code| (code & 0xff) << 8);
+        Some(ExitStatus::from_raw(code.or(status.terminating_signal()).unwrap_or_default()))
     }
 
     /// How long the rest of a dead process's standard error may take to arrive. The reader only has to empty a pipe; chosen
@@ -106,10 +111,27 @@ impl RunningChild {
 
 impl Drop for RunningChild {
     fn drop(&mut self) {
-        // Both fail only when it was reaped before.
+        let is_dead = self.exit_status().is_some();
+        // Fails only when it is dead.
         drop(self.child.kill());
-        drop(self.child.wait());
+        let pid = Pid::from_child(&self.child);
+        // The replacement of a dead one does not wait for its reaping.
+        let reaper = std::thread::Builder::new().name("reaper".into());
+        match reaper.spawn(move || reap(pid)) {
+            Ok(reaping) if !is_dead => drop(reaping.join()),
+            Ok(_) => {}
+            Err(_) => reap(pid),
+        }
     }
+}
+
+/// Reaps a process that is dead or dying, as an ordinary thread: the kernel waits, spinning, for whoever reads the process's entries
+/// in /proc just then, and on one core a reader would never get on beside a real-time thread that spins.
+fn reap(pid: Pid) {
+    let before = SchedulingClass::current();
+    let _ = SchedulingClass::Other.apply();
+    let _ = rustix::io::retry_on_intr(|| waitid(WaitId::Pid(pid), WaitIdOptions::EXITED));
+    let _ = before.apply();
 }
 
 /// In the forked child: has it killed when `supervisor` dies, also if it died just now; makes it ordinary unless `realtime`.
