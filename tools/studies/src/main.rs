@@ -7,6 +7,7 @@ mod figures;
 mod learn;
 mod motion;
 mod reaches;
+mod separation;
 mod task;
 mod train;
 
@@ -33,6 +34,8 @@ enum Command {
     Reaches(reaches::Args),
     /// Evaluate whole assemblies with random partners, and compare with ablations
     Evaluate(evaluate::Args),
+    /// Measure the separation of the working robot from recorded people
+    Separation(separation::Args),
     /// Break process sets in every way, and judge what happens
     Faults(faults::Args),
     /// Draw the chapter's figures from runs made now
@@ -57,6 +60,7 @@ fn main() -> ExitCode {
         Command::Learn(args) => learn::run(args),
         Command::Reaches(args) => reaches::run(args),
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Separation(args) => separation::run(args),
         Command::Faults(args) => faults::run(args),
         Command::Figures(args) => figures::run(args),
         Command::Motion(args) => motion::run(args),
