@@ -201,7 +201,8 @@ impl Control {
         let mut goal = position;
         goal[ARM_JOINTS..].copy_from_slice(&self.state.fingers.target);
         let [closure, target] = [position, goal].map(|joints| coact_messages::finger_closure(&joints));
-        self.guard.admits_fingers(&Moving { state: &self.state, grip, closure }, target, person)
+        let moving = Moving { state: &self.state, posture: self.servo.posture(), grip, closure };
+        self.guard.admits_fingers(&moving, target, person)
     }
 
     /// The arm's next step, as fast as the guard admits; none: it brakes.
@@ -250,11 +251,18 @@ impl Control {
         self.admits(progress, person, self.limits.guard.hysteresis)
     }
 
+    /// Whether the guard admits that the arm goes on as it moves; not while nobody knows where the person is.
+    pub(crate) fn can_brake_clear(&mut self, inputs: &Inputs) -> bool {
+        let person = inputs.person(&self.model.part_capsules, &self.limits);
+        person.is_some_and(|person| self.admits(self.state.arm.progress, &person, 0.0))
+    }
+
     fn admits(&mut self, progress: PathProgress, person: &PersonCapsules, spare: f64) -> bool {
         let (grip, closure) = (self.held_in(), coact_messages::finger_closure(&self.servo.position()));
         let Self { servo, guard, state, .. } = self;
         let braking = BrakingPath::from(progress, &state.arm.trajectory, servo.arm_limits());
-        braking.is_some_and(|braking| guard.admits(&Moving { state, grip, closure }, &braking, person, spare))
+        let moving = Moving { state, posture: servo.posture(), grip, closure };
+        braking.is_some_and(|braking| guard.admits(&moving, &braking, person, spare))
     }
 
     /// The grip in which the held part is held: index into the grip table.

@@ -4,7 +4,7 @@ use crate::robot::{CollisionModels, FingerShape, RobotModel};
 use crate::state::ControlState;
 use coact_motion::{Capsule, CollisionModel, Mechanism};
 use coact_period::PERIOD_S;
-use coact_robot::{JointLimits, RobotError};
+use coact_robot::{JointLimits, Posture, RobotError};
 use coact_safety::GuardLimits;
 
 /// Keeps the robot, with what it holds, clear of the person: says whether the arm may go on for another cycle.
@@ -22,7 +22,8 @@ pub(crate) struct Guard {
     holding: Vec<CollisionModel>,
     /// Limits of the fingers' bases.
     bases: JointLimits,
-    /// Capsules of the moving links at the start of a braking path, at one of its points, and at the point before.
+    /// Capsules of the moving links now, at the start of a braking path, at one of its points, and at the point before.
+    now: Vec<Capsule>,
     start: Vec<Capsule>,
     links: Vec<Capsule>,
     before: Vec<Capsule>,
@@ -32,6 +33,8 @@ pub(crate) struct Guard {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moving<'a> {
     pub state: &'a ControlState,
+    /// Where the arm is now, rad.
+    pub posture: Posture,
     /// Grip in which a part is held.
     pub grip: Option<usize>,
     /// Finger closure of an empty hand, rad.
@@ -45,6 +48,11 @@ const SHAPES: usize = 13;
 const BETWEEN_SHAPES: f64 = 0.002;
 /// Distances are computed with errors below this, m.
 const EXACT: f64 = 1e-9;
+/// How much farther along its path the arm comes to a stand than is computed, s of the path: seen 3 ms, one step of the
+/// computation is 6.
+const STOP_ERROR: f64 = 0.006;
+/// Time in which fingers that move come to a stand, s: at half of their usual speed, 1 rad/s, at the joints' acceleration.
+const FINGERS_STOP: f64 = 0.05;
 /// No point of a link moves faster than this for each rad/s of all joints together, m: the arm's length with the hand, and
 /// some.
 const LEVER: f64 = 1.3;
@@ -74,13 +82,15 @@ impl Guard {
             empty,
             holding,
             bases,
+            now: Vec::with_capacity(most),
             start: Vec::with_capacity(most),
             links: Vec::with_capacity(most),
             before: Vec::with_capacity(most),
         })
     }
 
-    /// Whether the arm may begin this braking path in the next cycle. `spare`: so much more room is asked for, m.
+    /// Whether the arm may begin this braking path in the next cycle: neither the step to its beginning nor the braking closes on
+    /// the person. `spare`: so much more room is asked for, m.
     pub fn admits(
         &mut self,
         moving: &Moving,
@@ -88,27 +98,35 @@ impl Guard {
         person: &PersonCapsules,
         spare: f64,
     ) -> bool {
-        let Self { limits, mechanism, start, before, links, .. } = self;
+        let Self { limits, mechanism, now, start, before, links, .. } = self;
         let model = match moving.grip.and_then(|grip| self.holding.get(grip)) {
             Some(holding) => holding,
             None => &self.empty[shape(&self.bases, moving.closure)],
         };
-        let look = |links: &mut Vec<Capsule>, point: &BrakingPoint| {
-            model.moving_bounding_capsules(mechanism, &point.posture, links);
+        let look = |links: &mut Vec<Capsule>, posture: &Posture| {
+            model.moving_bounding_capsules(mechanism, posture, links);
         };
         let kept = limits.protective_separation + BETWEEN_SHAPES + spare;
         let points = braking.points();
-        look(start, &points[0]);
+        look(start, &points[0].posture);
         if is_far(start, points, person, kept) {
             return true;
         }
         let hands = model.moving_hands();
+        look(now, &moving.posture);
+        let touches = moving.state.may_touch_person(points[0].at);
+        let step = Step { now, next: start, hands };
+        if person.parts().any(|part| step.closes_on(part, touches, kept)) {
+            return false;
+        }
         links.clone_from(start);
         points.iter().zip(&points[1..]).all(|(earlier, point)| {
             std::mem::swap(links, before);
-            look(links, point);
+            look(links, &point.posture);
             let robot = Approach { start, before, links, hands, span: point.ahead - earlier.ahead };
-            let touches = moving.state.may_touch_person(point.at);
+            // A stop that is computed is a little shorter than it will be: it ends before the handover does.
+            let touches =
+                [point.at, point.at + STOP_ERROR].into_iter().all(|at| moving.state.may_touch_person(at));
             person.parts().all(|part| robot.is_clear_of(part, point.ahead, touches, kept, limits))
         })
     }
@@ -121,17 +139,22 @@ impl Guard {
         let Self { limits, mechanism, empty, bases, start, links, .. } = self;
         let (progress, kept) = (moving.state.arm.progress, limits.protective_separation);
         let posture = moving.state.arm.trajectory.posture(progress.elapsed);
-        let model = &empty[shape(bases, closure)];
-        empty[shape(bases, moving.closure)].moving_bounding_capsules(mechanism, &posture, start);
-        model.moving_bounding_capsules(mechanism, &posture, links);
-        let robot = Approach { start, before: start, links, hands: model.moving_hands(), span: PERIOD_S };
+        let (present, target) = (shape(bases, moving.closure), shape(bases, closure));
+        empty[present].moving_bounding_capsules(mechanism, &posture, start);
         let touches = moving.state.may_touch_person(progress.elapsed);
-        // Beside a hand that waits they may take their shape: it would wait for them, and they for it.
-        let moving = person.parts().filter(|part| part.moves() && !(touches && part.hands_over));
-        moving.into_iter().all(|part| {
-            let here = part.after(0.0);
-            let nearest = robot.nearest(robot.links, true, &here, kept);
-            nearest >= kept || nearest >= robot.nearest(robot.start, true, &here, kept) - EXACT
+        // Fingers swing out on their way: the shape that they take next counts as well as the last one.
+        let next = if target > present { present + 1 } else { present.saturating_sub(1) };
+        [next.min(present.max(target)).max(present.min(target)), target].into_iter().all(|shape| {
+            let model = &empty[shape];
+            model.moving_bounding_capsules(mechanism, &posture, links);
+            let robot = Approach { start, before: start, links, hands: model.moving_hands(), span: PERIOD_S };
+            // Beside a hand that waits they may take their shape: it would wait for them, and they for it.
+            let mut parts = person.parts().filter(|part| part.moves() && !(touches && part.hands_over));
+            parts.all(|part| {
+                let (here, room) = (part.after(0.0), kept + part.growth(FINGERS_STOP));
+                let nearest = robot.nearest(robot.links, true, &here, room);
+                nearest >= room || nearest >= robot.nearest(robot.start, true, &here, room) - EXACT
+            })
         })
     }
 }
@@ -153,6 +176,33 @@ fn is_far(links: &[Capsule], points: &[BrakingPoint], person: &PersonCapsules, k
         let (here, room) = (part.after(0.0), kept + travel + part.reach(last));
         links.iter().all(|link| link.least_distance(&here) > room)
     })
+}
+
+/// The step that the robot's links are about to take.
+struct Step<'a> {
+    now: &'a [Capsule],
+    next: &'a [Capsule],
+    /// Of each link: whether it belongs to the hand.
+    hands: &'a [bool],
+}
+
+impl Step<'_> {
+    /// Whether it brings any link nearer to where a part of the body may be now, and nearer than `kept` m. In a handover the
+    /// robot's hand may close on the person's.
+    fn closes_on(&self, part: &BodyPart, touches: bool, kept: f64) -> bool {
+        // What is not seen may be anywhere: braking alone is judged.
+        if !part.is_seen {
+            return false;
+        }
+        let (here, room) = (part.after(0.0), kept + part.growth(0.0));
+        let links = self.now.iter().zip(self.next).zip(self.hands);
+        links.filter(|(_, of_hand)| !(touches && **of_hand && part.hands_over)).any(|((now, next), _)| {
+            next.least_distance(&here) < room && {
+                let distance = next.distance(&here);
+                distance < room && distance < now.distance(&here) - EXACT
+            }
+        })
+    }
 }
 
 /// The robot's links on their way to one point of a braking path: where they are at its start, at the point before, and here.
@@ -192,8 +242,19 @@ impl Approach<'_> {
                 self.nearest(self.links, hand, there, room)
                     < self.nearest(self.start, hand, there, room) - EXACT
             };
+            // It may not go away first, and then come nearer to what is near.
+            let returns_to = |there: &Capsule, room: f64| {
+                self.nearest(self.links, hand, there, room)
+                    < self.nearest(self.before, hand, there, room) - EXACT
+            };
             // From somebody who is not seen nobody knows what leads away.
-            let closes = || !part.is_seen || closes_on(&there, room) || closes_on(&here, kept);
+            let closes = || {
+                !part.is_seen
+                    || closes_on(&there, room)
+                    || closes_on(&here, kept)
+                    || returns_to(&there, room)
+                    || returns_to(&here, kept)
+            };
             let is_bound =
                 || self.near(hand, &there, room).all(|link| part.is_bound_away_from(link, kept, ahead));
             (is_handover || !closes() || is_bound()) && is_slow()

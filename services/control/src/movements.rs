@@ -107,7 +107,8 @@ impl Control {
         }
     }
 
-    /// Follows the planned trajectory, if the arm is where that begins.
+    /// Follows the planned trajectory, if the arm is where that begins, and if it can be stopped on it before it closes on the
+    /// person: braking was verified along the present one. Else that goes on, and another one is asked for.
     fn start_planned(&mut self, inputs: &Inputs) {
         let next = self.state.planning.next;
         let (begin, here) = (next.posture(0.0), self.servo.posture());
@@ -115,8 +116,14 @@ impl Control {
             self.ask(inputs);
             return;
         }
-        self.state.planning.query = MovementQuery::NONE;
+        let present = self.state.arm;
         self.state.arm.follow(&next);
+        if !next.begins_at_rest() && !self.can_brake_clear(inputs) {
+            self.state.arm = present;
+            self.ask(inputs);
+            return;
+        }
+        self.state.planning.query = MovementQuery::NONE;
         self.state.arm.blocked = 0;
         self.state.skill.enter(SkillPhase::Move);
         self.state.decisions.note_movement(inputs.tick());

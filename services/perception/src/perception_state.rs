@@ -46,7 +46,7 @@ pub enum ResumeError {
 
 impl StageState for PerceptionState {
     const STAGE: &'static str = "perception";
-    const LAYOUT: u32 = 1;
+    const LAYOUT: u32 = 2;
 
     fn check(&self) -> Result<(), Implausible> {
         self.hand.check()?;

@@ -1,7 +1,8 @@
 use crate::{Scenario, WorldError};
 use coact_joint_task::Task;
-use coact_person::{RandomBehaviour, RecordedReaches};
+use coact_person::{RandomBehaviour, RecordedArm, RecordedReaches};
 use coact_pipeline::WorldMode;
+use coact_recordings::ArmSide;
 use coact_safety::DriveLimits;
 use std::path::Path;
 
@@ -29,13 +30,16 @@ pub enum Partner {
     Script(Scenario),
     /// Chooses like the synthetic one; the hand is that of a recorded person.
     Recorded(RecordedReaches),
+    /// Moves an arm as it was recorded, whatever the robot does, and takes no part in the task.
+    Arm(RecordedArm),
 }
 
 impl Partner {
     /// Reads a partner as it is named on a command line: `synthetic`, `random`,
-    /// `random:KEY=VALUE,...` (see [`RandomBehaviour`]), `script:FILE` or `recorded:DIR`.
+    /// `random:KEY=VALUE,...` (see [`RandomBehaviour`]), `script:FILE`, `recorded:DIR`, `left-arm:FILE` or `right-arm:FILE`.
     ///
-    /// A folder of recordings holds several people: each seed takes another one, in turn.
+    /// A folder of recordings holds several people: each seed takes another one, in turn. An arm of motion capture is put
+    /// elsewhere by each seed.
     ///
     /// # Errors
     /// [`WorldError`] for another word, or for what is wrong in the file or folder.
@@ -46,7 +50,13 @@ impl Partner {
             Some(("random", settings)) => Ok(Self::Random(RandomBehaviour::parse(settings)?)),
             Some(("script", file)) => Scenario::load(Path::new(file), task).map(Self::Script),
             Some(("recorded", folder)) => Ok(Self::Recorded(RecordedReaches::load(Path::new(folder), seed)?)),
+            Some(("left-arm", file)) => Self::arm(file, ArmSide::Left, task, seed),
+            Some(("right-arm", file)) => Self::arm(file, ArmSide::Right, task, seed),
             _ => Err(WorldError::Partner { name: name.to_owned() }),
         }
+    }
+
+    fn arm(file: &str, side: ArmSide, task: &Task, seed: u64) -> Result<Self, WorldError> {
+        Ok(Self::Arm(RecordedArm::load(Path::new(file), side, &task.scene, seed)?))
     }
 }

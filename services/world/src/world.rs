@@ -59,6 +59,7 @@ impl World {
             Partner::Synthetic => (Policy::Synthetic, None, Staging::default()),
             Partner::Random(behaviour) => (Policy::Random(behaviour), None, Staging::default()),
             Partner::Script(scenario) => (Policy::Script(scenario.script), None, scenario.staging),
+            Partner::Arm(arm) => (Policy::Arm(arm), None, Staging::default()),
             Partner::Recorded(recorded) => (Policy::Synthetic, Some(recorded), Staging::default()),
         };
         let mut task = task.clone();

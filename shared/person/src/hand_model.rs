@@ -80,21 +80,16 @@ impl HandModel {
 
     /// All keypoints in the order of [`KeypointName`], m.
     pub fn keypoints(&self, pose: &HandPose) -> [DVec3; 9] {
-        let (ahead, thumb, wrist) = (self.direction(pose), self.thumb_side(pose), pose.wrist());
-        let on_hand = |along: f64, aside: f64| wrist + along * ahead + aside * thumb;
-        let (thumb_tip, index_tip) = (pose.aside + pose.aperture / 2.0, pose.aside - pose.aperture / 2.0);
-        let mut points = [DVec3::ZERO; 9];
+        let (thumb, wrist) = (self.thumb_side(pose), pose.wrist());
+        let mut points = hand_points(wrist, self.direction(pose), thumb, pose);
         points[KeypointName::Shoulder as usize] = self.shoulder;
         points[KeypointName::Elbow as usize] = self.elbow(wrist, thumb);
-        points[KeypointName::Wrist as usize] = wrist;
-        points[KeypointName::PalmBase as usize] = on_hand(0.020, 0.020);
-        points[KeypointName::ThumbTip as usize] = on_hand(pose.extension, thumb_tip);
-        points[KeypointName::IndexKnuckle as usize] = on_hand(0.092, 0.025);
-        points[KeypointName::IndexTip as usize] = on_hand(pose.extension, index_tip);
-        points[KeypointName::MiddleTip as usize] =
-            on_hand(pose.extension + 0.012, index_tip - 0.08 * pose.aperture);
-        points[KeypointName::LittleKnuckle as usize] = on_hand(0.080, -0.040);
         points
+    }
+
+    /// Direction on the table plane in which the person faces, rad.
+    pub(crate) fn facing(&self) -> f64 {
+        self.facing
     }
 
     /// The elbow of an arm of two links, bent downwards and outwards.
@@ -110,4 +105,21 @@ impl HandModel {
         let pull = DVec3::NEG_Z - 0.4 * thumb_side;
         self.shoulder + foot * along + bend * pull.reject_from_normalized(along).normalize_or_zero()
     }
+}
+
+/// The keypoints of a hand whose knuckles are `ahead` of the wrist and whose thumb is on the side `thumb`; shoulder and elbow are
+/// left to the caller.
+pub(crate) fn hand_points(wrist: DVec3, ahead: DVec3, thumb: DVec3, pose: &HandPose) -> [DVec3; 9] {
+    let on_hand = |along: f64, aside: f64| wrist + along * ahead + aside * thumb;
+    let (thumb_tip, index_tip) = (pose.aside + pose.aperture / 2.0, pose.aside - pose.aperture / 2.0);
+    let mut points = [DVec3::ZERO; 9];
+    points[KeypointName::Wrist as usize] = wrist;
+    points[KeypointName::PalmBase as usize] = on_hand(0.020, 0.020);
+    points[KeypointName::ThumbTip as usize] = on_hand(pose.extension, thumb_tip);
+    points[KeypointName::IndexKnuckle as usize] = on_hand(0.092, 0.025);
+    points[KeypointName::IndexTip as usize] = on_hand(pose.extension, index_tip);
+    points[KeypointName::MiddleTip as usize] =
+        on_hand(pose.extension + 0.012, index_tip - 0.08 * pose.aperture);
+    points[KeypointName::LittleKnuckle as usize] = on_hand(0.080, -0.040);
+    points
 }

@@ -82,13 +82,16 @@ impl Person {
         match &self.policy {
             Policy::Script(script) => script.sentence(index),
             Policy::Random(_) => task.chains.get(state.chain.get()?)?.says.get(index).map(String::as_str),
-            Policy::Synthetic => None,
+            Policy::Synthetic | Policy::Arm(_) => None,
         }
     }
 
-    /// The keypoints of arm and hand in the order of [`KeypointName`](coact_messages::KeypointName), m.
-    pub fn keypoints(&self, state: &PersonState) -> [DVec3; 9] {
-        self.model.keypoints(&state.hand)
+    /// The keypoints of arm and hand at `tick`, in the order of [`KeypointName`](coact_messages::KeypointName), m.
+    pub fn keypoints(&self, state: &PersonState, tick: u64) -> [DVec3; 9] {
+        match &self.policy {
+            Policy::Arm(arm) => arm.keypoints(tick),
+            _ => self.model.keypoints(&state.hand),
+        }
     }
 
     /// The middle between the finger tips, m.

@@ -1,5 +1,6 @@
 use crate::{
-    Choice, Intention, PersonState, RandomBehaviour, Script, Surroundings, random_policy, synthetic_policy,
+    Choice, Intention, PersonState, RandomBehaviour, RecordedArm, Script, Surroundings, random_policy,
+    synthetic_policy,
 };
 use coact_period::cycles;
 use coact_random::{RandomStreams, Stream};
@@ -19,6 +20,8 @@ pub enum Policy {
     Random(RandomBehaviour),
     /// Written down beforehand.
     Script(Script),
+    /// None: the person moves an arm as it was recorded, and takes no part in the task.
+    Arm(RecordedArm),
 }
 
 impl Policy {
@@ -34,6 +37,7 @@ impl Policy {
             Self::Synthetic => synthetic_policy::choose(around, rng),
             Self::Random(behaviour) => random_policy::choose(behaviour, around, can_hide, rng),
             Self::Script(script) => script.next(around, state),
+            Self::Arm(_) => Choice::Rest(PAUSE.end),
         }
     }
 
@@ -42,6 +46,7 @@ impl Policy {
         match self {
             Self::Synthetic | Self::Random(_) => random.at(Stream::Choice, tick).random_range(PAUSE),
             Self::Script(_) => 1,
+            Self::Arm(_) => PAUSE.end,
         }
     }
 
@@ -49,7 +54,7 @@ impl Policy {
     pub(crate) fn behaviour(&self) -> Option<&RandomBehaviour> {
         match self {
             Self::Random(behaviour) => Some(behaviour),
-            Self::Synthetic | Self::Script(_) => None,
+            Self::Synthetic | Self::Script(_) | Self::Arm(_) => None,
         }
     }
 }

@@ -36,6 +36,8 @@ pub enum Stream {
     Dropout = 7,
     /// When a random partner withdraws from a handover, or comes late.
     Handover = 8,
+    /// Where a recorded arm is put.
+    Placement = 9,
 }
 
 /// The random generators of one run.

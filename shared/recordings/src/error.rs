@@ -1,3 +1,4 @@
+use crate::ArmSide;
 use std::path::PathBuf;
 
 /// Why a recording was refused.
@@ -53,4 +54,30 @@ pub enum RecordingError {
         /// What was found and what was expected.
         message: String,
     },
+    /// An arm was nowhere recorded for long enough.
+    #[error(
+        "{path}: the {side} arm is nowhere recorded for {shortest} s without a break; expected shoulder, elbow and hand, seen together",
+        path = path.display(), side = side.name()
+    )]
+    Unseen {
+        /// The file.
+        path: PathBuf,
+        /// Which arm.
+        side: ArmSide,
+        /// How long it must be, s.
+        shortest: f64,
+    },
+    /// There is no motion capture in the folder.
+    #[error("{path}: no .csv file in it, nor in a folder in it; expected motion capture, one file for each recording", path = path.display())]
+    NoArms {
+        /// The folder.
+        path: PathBuf,
+    },
+}
+
+impl RecordingError {
+    /// Whether the recording is sound, and only shows an arm for too short a time.
+    pub fn is_unseen(&self) -> bool {
+        matches!(self, Self::Unseen { .. })
+    }
 }

@@ -20,13 +20,21 @@
 //! `rtg` (1 within the reach), then `x`, `y` (pixels) and `p` (the detector's confidence, 0 = joint lost) of each of
 //! [`JOINTS`]. Rows of one reach stand together, in the order of time. Size, `mt_s` and `rtg` are labels: truth.
 //!
+//! Beside them, whole arms by motion capture: [`ArmRecording`], one arm of a file; [`arm_files`] finds those of a folder.
+//!
 //! A file is read whole or refused: every row ends up in a [`Reach`], or an error names file and line.
 
+mod arm_files;
+mod arm_recording;
+mod arm_side;
 mod error;
 mod order;
 mod reach;
 mod read;
 
+pub use arm_files::arm_files;
+pub use arm_recording::{ArmRecording, ArmSample};
+pub use arm_side::ArmSide;
 pub use error::RecordingError;
 pub use order::Order;
 pub use reach::{Frame, ImagePoint, Reach, Size};

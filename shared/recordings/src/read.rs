@@ -78,7 +78,7 @@ pub fn read_file(path: &Path) -> Result<Vec<Reach>, RecordingError> {
 }
 
 /// The whole text of a file, decompressed if need be.
-fn read_text(path: &Path) -> Result<Vec<u8>, RecordingError> {
+pub(crate) fn read_text(path: &Path) -> Result<Vec<u8>, RecordingError> {
     let io = |reason| RecordingError::Io { path: path.to_path_buf(), reason };
     let file = coact_input_file::open(path).map_err(io)?;
     let is_compressed = path.extension().is_some_and(|extension| extension == "gz");
@@ -92,11 +92,11 @@ fn read_text(path: &Path) -> Result<Vec<u8>, RecordingError> {
     Ok(text)
 }
 
-fn at(path: &Path, line: u64, message: String) -> RecordingError {
+pub(crate) fn at(path: &Path, line: u64, message: String) -> RecordingError {
     RecordingError::Line { path: path.to_path_buf(), line, message }
 }
 
-fn broken(path: &Path, error: &csv::Error) -> RecordingError {
+pub(crate) fn broken(path: &Path, error: &csv::Error) -> RecordingError {
     let line = error.position().map_or(1, csv::Position::line);
     at(path, line, format!("{error}; expected as many comma-separated fields as the header has"))
 }
@@ -208,7 +208,7 @@ impl Columns {
     }
 }
 
-fn number(text: &str, name: &str, low: f64, high: f64) -> Result<f64, String> {
+pub(crate) fn number(text: &str, name: &str, low: f64, high: f64) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (low..=high).contains(&value) => Ok(value),
         _ => Err(format!("{name}: expected a number from {low} to {high}, found \"{text}\"")),

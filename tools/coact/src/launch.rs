@@ -22,6 +22,7 @@ use std::time::Duration;
   coact launch --duration 600 --report reports/long   ten minutes, one assembly after another
   coact launch --inject fields:kill@20s               what if fields is killed after 20 s?
   coact launch --partner recorded                     hands of real people; recorded:DIR for others
+  coact launch --partner right-arm:FILE               an arm of motion capture, that takes no part
   coact launch --lockstep --world kinematic --json    as fast as the machine can
 
 Exit status: 0 the work was done (with --strict: in time, too), 1 it was not, 2 bad usage or configuration.")]
@@ -29,7 +30,8 @@ pub struct Args {
     /// The task [default: the toy vehicle]
     #[arg(long, value_name = "FILE")]
     task: Option<PathBuf>,
-    /// Who works with the robot: synthetic, random[:KEY=VALUE,...], script:FILE, recorded or recorded:DIR
+    /// Who works with the robot: synthetic, random[:KEY=VALUE,...], script:FILE, recorded,
+    /// recorded:DIR, left-arm:FILE or right-arm:FILE
     #[arg(long, default_value = "synthetic")]
     partner: String,
     /// Seed of everything random

@@ -5,10 +5,12 @@ use std::path::Path;
 pub fn setting(partner: &str, reaches: &Path) -> String {
     match partner.split_once(':') {
         None if partner == "recorded" => format!("recorded:{}", reaches.display()),
-        Some((kind @ ("script" | "recorded"), path)) => match std::path::absolute(Path::new(path)) {
-            Ok(path) => format!("{kind}:{}", path.display()),
-            Err(_) => partner.to_owned(),
-        },
+        Some((kind @ ("script" | "recorded" | "left-arm" | "right-arm"), path)) => {
+            match std::path::absolute(Path::new(path)) {
+                Ok(path) => format!("{kind}:{}", path.display()),
+                Err(_) => partner.to_owned(),
+            }
+        }
         _ => partner.to_owned(),
     }
 }
@@ -26,6 +28,7 @@ mod tests {
     fn paths_become_absolute_and_all_else_stays() {
         let here = std::env::current_dir().unwrap();
         assert_eq!(absolute("recorded:reaches"), format!("recorded:{}/reaches", here.display()));
+        assert_eq!(absolute("right-arm:a.csv"), format!("right-arm:{}/a.csv", here.display()));
         assert_eq!(absolute("script:/a/b"), "script:/a/b");
         for other in ["synthetic", "random:goal=0.1", "human", "script:", ""] {
             assert_eq!(absolute(other), other);

@@ -10,12 +10,13 @@ use std::process::{Command, Stdio};
 use std::time::SystemTime;
 
 /// Name and description of each study.
-pub const STUDIES: [(&str, &str); 10] = [
+pub const STUDIES: [(&str, &str); 11] = [
     ("task", "Show what is made of a task file"),
     ("learn", "Learn connections of the network: a plan from demonstrations, what acts show"),
     ("reaches", "Measure anticipation on recorded reaches of real people"),
     ("evaluate", "Evaluate whole assemblies with random partners, and compare with ablations"),
     ("bench", "Measure latencies beside an idle thread and iceoryx2 alone, under load and with kills"),
+    ("separation", "Measure the separation of the working robot from recorded people"),
     ("faults", "Break process sets in every way, and judge what happens"),
     ("figures", "Draw the chapter's figures from runs made now"),
     ("motion", "Plan a movement of the arm, or measure the planner"),

@@ -1,9 +1,9 @@
+use crate::parallel::in_parallel;
 use crate::trial_recorder::TrialRecorder;
 use crate::{NetworkVariant, Trial};
 use coact_lockstep::{Lockstep, LockstepError};
 use coact_period::cycles;
 use coact_pipeline::RunSettings;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 /// An assembly without a new subgoal for so long is given up, ticks: about as long as the toy vehicle takes as a whole.
@@ -29,26 +29,11 @@ pub struct Campaign<'a> {
 /// # Errors
 /// A file or setting that a stage refuses.
 pub fn run(campaign: &Campaign, done: impl Fn() + Sync) -> Result<Vec<Trial>, LockstepError> {
-    let next = AtomicU64::new(0);
-    let work = || {
-        let mut trials = Vec::new();
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            if index >= campaign.trials {
-                return Ok(trials);
-            }
-            trials.push(assemble(campaign, campaign.settings.seed.wrapping_add(index))?);
-            done();
-        }
-    };
-    let gathered: Result<Vec<Vec<Trial>>, LockstepError> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..campaign.threads.max(1)).map(|_| scope.spawn(work)).collect();
-        let joined = workers.into_iter().map(|worker| worker.join());
-        joined.map(|trials| trials.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
-    });
-    let mut trials: Vec<Trial> = gathered?.into_iter().flatten().collect();
-    trials.sort_by_key(|trial| trial.seed.wrapping_sub(campaign.settings.seed));
-    Ok(trials)
+    in_parallel(campaign.trials, campaign.threads, |index| {
+        let trial = assemble(campaign, campaign.settings.seed.wrapping_add(index))?;
+        done();
+        Ok(trial)
+    })
 }
 
 /// One assembly, until it is complete, nothing is achieved for a minute, or ten minutes are over.

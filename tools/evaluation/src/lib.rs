@@ -3,13 +3,18 @@
 //!
 //! A [`Trial`] is what one assembly was like. [`run`] makes many of them, an [`EvaluationReport`] counts them, and a
 //! [`Comparison`] sets two [`NetworkVariant`]s side by side that had the same partners.
+//!
+//! An [`Encounter`] is the working robot beside a recorded person's arm, to measure how near they come.
 
 mod active_agents;
 mod campaign;
 mod comparison;
+mod encounter;
+mod encounters;
 mod evaluation_report;
 mod fluency;
 mod network_variant;
+mod parallel;
 mod plots;
 mod statistics;
 mod trial;
@@ -17,6 +22,8 @@ mod trial_recorder;
 
 pub use campaign::{Campaign, run};
 pub use comparison::Comparison;
+pub use encounter::Encounter;
+pub use encounters::{Encounters, encounter};
 pub use evaluation_report::{ErrorCounts, EvaluationReport};
 pub use fluency::Fluency;
 pub use network_variant::{Ablation, NetworkVariant};

@@ -6,7 +6,9 @@ use crate::trial::Record;
 use crate::{Cell, FaultKind, Moment, Outcome, Target};
 use coact_messages::{Refusal, topic};
 use coact_monitor::Rules;
-use coact_run_records::{Event, FaultReport, MotionReport, SupervisorEvent, SupervisorEventKind};
+use coact_run_records::{
+    Event, FaultReport, JointMoment, MotionReport, SupervisorEvent, SupervisorEventKind,
+};
 
 /// So many samples nobody may have seen for the joints' motion to be judged by the others: beside a working pipeline a viewer
 /// is late now and then, and while a process is replaced, none are sent. Chosen by hand.
@@ -75,11 +77,17 @@ impl Case<'_> {
     fn motion(&self, motion: &MotionReport) -> Vec<String> {
         let Rules { joint_speed_fraction, joint_acceleration_fraction, joint_beyond_rad, .. } = *self.rules;
         let stale_ms = self.rules.moved_on_stale_data_ms as f64;
+        let of =
+            |what, JointMoment { joint, s }| format!("{what} of joint {joint} over its limit at {s:.2} s:");
         [
-            ("a joint's speed over its limit:", motion.speed, joint_speed_fraction),
-            ("a joint's acceleration over its limit:", motion.acceleration, joint_acceleration_fraction),
-            ("a joint beyond its limit of position, rad:", motion.beyond_position_rad, joint_beyond_rad),
-            ("moved on stale data, ms:", motion.on_stale_data_ms as f64, stale_ms),
+            (of("speed", motion.speed_at), motion.speed, joint_speed_fraction),
+            (of("acceleration", motion.acceleration_at), motion.acceleration, joint_acceleration_fraction),
+            (
+                "a joint beyond its limit of position, rad:".into(),
+                motion.beyond_position_rad,
+                joint_beyond_rad,
+            ),
+            ("moved on stale data, ms:".into(), motion.on_stale_data_ms as f64, stale_ms),
         ]
         .into_iter()
         .filter(|(_, found, limit)| found > limit)

@@ -2,7 +2,8 @@ use coact_control::Control;
 use coact_fields::Network;
 use coact_joint_task::{NetworkPlan, Task};
 use coact_messages::{
-    Command, FieldFrame, Header, HoldReason, LAYOUT, LayerKind, Percept, SensorSample, Truth, WorldState,
+    Command, Decision, FieldFrame, Header, HoldReason, LAYOUT, LayerKind, NONE, Percept, SensorSample, Truth,
+    WorldState,
 };
 use coact_perception::Perception;
 use coact_period::PERIOD_NS;
@@ -36,6 +37,8 @@ pub struct Lockstep {
     pub state: Box<WorldState>,
     previous_frame: Box<FieldFrame>,
     previous_command: Box<Command>,
+    /// What is decided in the network's place, if anything is.
+    decision: Option<Decision>,
 }
 
 /// Why the stages could not be made.
@@ -113,6 +116,7 @@ impl Lockstep {
             frame,
             command: bytemuck::zeroed_box(),
             previous_command: bytemuck::zeroed_box(),
+            decision: None,
             truth: bytemuck::zeroed_box(),
             state: bytemuck::zeroed_box(),
         })
@@ -143,6 +147,15 @@ impl Lockstep {
         self.world.hold(reason);
     }
 
+    /// From now on control gets this decision in the place of the network's: an action of the task, or none. So the robot is
+    /// kept busy whatever the person does.
+    pub fn decide(&mut self, action: Option<u32>) {
+        let action = action.unwrap_or(NONE);
+        if self.decision.is_none_or(|decision| decision.action != action) {
+            self.decision = Some(Decision { action, reserved: 0, since: self.tick });
+        }
+    }
+
     /// Runs one period of every stage.
     pub fn step(&mut self) {
         self.step_watched(&mut |_, stage| stage());
@@ -166,6 +179,7 @@ impl Lockstep {
         percept.header = stamp(tick);
         watch("fields", &mut || network.step(tick, Some(percept), &self.previous_frame, frame));
         frame.header = stamp(tick);
+        frame.decision = self.decision.unwrap_or(frame.decision);
         watch("control", &mut || {
             control.step(tick, Some(sample), Some(percept), Some(frame), previous, command);
         });

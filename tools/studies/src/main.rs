@@ -8,6 +8,7 @@ mod figures;
 mod learn;
 mod motion;
 mod reaches;
+mod separation;
 mod task;
 mod train;
 
@@ -36,6 +37,8 @@ enum Command {
     Evaluate(evaluate::Args),
     /// Measure latencies beside an idle thread and iceoryx2 alone, under load and with kills
     Bench(bench::Args),
+    /// Measure the separation of the working robot from recorded people
+    Separation(separation::Args),
     /// Break process sets in every way, and judge what happens
     Faults(faults::Args),
     /// Draw the chapter's figures from runs made now
@@ -61,6 +64,7 @@ fn main() -> ExitCode {
         Command::Reaches(args) => reaches::run(args),
         Command::Evaluate(args) => evaluate::run(args),
         Command::Bench(args) => bench::run(args),
+        Command::Separation(args) => separation::run(args),
         Command::Faults(args) => faults::run(args),
         Command::Figures(args) => figures::run(args),
         Command::Motion(args) => motion::run(args),

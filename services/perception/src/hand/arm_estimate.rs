@@ -1,7 +1,7 @@
 use super::TrackedHand;
+use super::tracked_joint::TrackedJoint;
 use coact_messages::{KeypointName, PersonArm, TrackedPoint};
 use coact_period::seconds;
-use nalgebra::Vector3;
 
 /// Scatter of a keypoint, m. Recorded ones lie 0.7 pixels (median; 6 mm) off the line between their neighbours in time,
 /// simulated ones scatter by 2 mm along each axis.
@@ -12,35 +12,25 @@ const SCATTER: f64 = 0.005;
 const ACCELERATION: f64 = 5.0;
 /// Speed of a hand that ISO 13855 reckons with, m/s.
 const HAND_SPEED: f64 = 2.0;
-/// How far the elbow follows a movement of the wrist: it lies between the wrist and a shoulder that rests.
-const ELBOW_FOLLOWS: f64 = 0.5;
 
 impl TrackedHand {
-    /// The person's arm at `tick`: the wrist filtered and extrapolated, the other joints moved along with it from where
-    /// they were found last.
+    /// The person's arm at `tick`: each joint filtered and extrapolated by itself. One that was never found is where the
+    /// next one is.
     pub fn arm_at(&self, tick: u64) -> PersonArm {
-        let (wrist, velocity) = (self.wrist_at(tick), self.velocity());
-        let shift = wrist - self.point(KeypointName::Wrist);
-        let elbow = match self.is_known(KeypointName::Elbow) {
-            true => self.point(KeypointName::Elbow) + ELBOW_FOLLOWS * shift,
-            false => wrist,
-        };
-        let shoulder = match self.is_known(KeypointName::Shoulder) {
-            true => self.point(KeypointName::Shoulder),
-            false => elbow,
-        };
-        let fingertip = self.point(KeypointName::MiddleTip) + shift;
-        let point = |name, position: Vector3<f64>, velocity: Vector3<f64>| TrackedPoint {
-            position: position.into(),
-            velocity: velocity.into(),
-            deviation: self.deviation(name, velocity.norm(), tick),
+        let [shoulder, elbow, wrist, fingertip] = self.joints();
+        let elbow = if self.is_known(KeypointName::Elbow) { elbow } else { wrist };
+        let shoulder = if self.is_known(KeypointName::Shoulder) { shoulder } else { elbow };
+        let point = |name, joint: &TrackedJoint| TrackedPoint {
+            position: joint.at(tick).into(),
+            velocity: joint.velocity().into(),
+            deviation: self.deviation(name, joint.velocity().norm(), tick),
             age: self.age_of(name, tick).unwrap_or(u64::MAX),
         };
         PersonArm {
-            shoulder: point(KeypointName::Shoulder, shoulder, Vector3::zeros()),
-            elbow: point(KeypointName::Elbow, elbow, ELBOW_FOLLOWS * velocity),
-            wrist: point(KeypointName::Wrist, wrist, velocity),
-            fingertip: point(KeypointName::MiddleTip, fingertip, velocity),
+            shoulder: point(KeypointName::Shoulder, shoulder),
+            elbow: point(KeypointName::Elbow, elbow),
+            wrist: point(KeypointName::Wrist, wrist),
+            fingertip: point(KeypointName::MiddleTip, fingertip),
             age: self.age(tick),
             tracked: u32::from(self.is_tracked(tick)),
             reserved: 0,
@@ -53,7 +43,7 @@ impl TrackedHand {
     fn deviation(&self, name: KeypointName, speed: f64, tick: u64) -> f64 {
         let Some(age) = self.age_of(name, tick) else { return f64::INFINITY };
         let (time, unnoticed) =
-            (seconds(age), seconds(age.saturating_sub(super::tracked_hand::EXTRAPOLATED)));
+            (seconds(age), seconds(age.saturating_sub(super::tracked_joint::EXTRAPOLATED)));
         let accelerated = 0.5 * ACCELERATION * time * time + speed * unnoticed;
         SCATTER.hypot(accelerated.min(HAND_SPEED.max(speed) * time))
     }

@@ -1,8 +1,9 @@
-//! The person's hand: keypoints bridged over drop-outs, filtered, and its movement from stillness to stillness.
+//! The person's hand: keypoints bridged over drop-outs, joints filtered, and its movement from stillness to stillness.
 
 mod arm_estimate;
 mod hand_movement;
 mod tracked_hand;
+mod tracked_joint;
 mod view_frame;
 
 pub(crate) use hand_movement::HandMovement;

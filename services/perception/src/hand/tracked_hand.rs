@@ -1,3 +1,4 @@
+use super::tracked_joint::{LONGEST_GAP, SHORTEST_GAP, TrackedJoint};
 use super::{HandMovement, ViewFrame};
 use crate::plausible_cycle::cycle;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
@@ -21,22 +22,20 @@ const AVERAGED: usize = 3;
 const BELIEVED: f64 = 0.2;
 /// How far a keypoint may lie from the origin, m: no hand beyond it concerns the robot, the tracker is mistaken.
 const FARTHEST: f64 = 10.0;
-/// Jump of the wrist from frame to frame, m, that shows another hand, or the same one after a long gap: at 60 Hz, a hand
-/// would have to move at 15 m/s.
-const JUMP: f64 = 0.25;
-/// Longest gap between two frames that is bridged: after it, the filter starts anew. Chosen by hand: half a reach.
-const LONGEST_GAP: u64 = cycles(Duration::from_millis(350));
-/// How far ahead of the newest frame the wrist is extrapolated: three frames at 60 Hz. Chosen by hand: farther
-/// ahead, a reaching hand has changed its velocity too much.
-pub(super) const EXTRAPOLATED: u64 = cycles(Duration::from_millis(50));
 /// Age up to which the newest frame tells where the hand is now: nine frames at 60 Hz, so that dropped ones are bridged.
 pub(crate) const USABLE: u64 = cycles(Duration::from_millis(150));
-/// Gains of the wrist's alpha-beta filter (position, velocity): between the tracker's scatter and lag. Chosen by hand.
-const GAINS: (f64, f64) = (0.7, 0.35);
-/// Shortest time between frames that velocities are computed with, s: two frames with nearly the same stamp would make an
-/// absurd one. A tracker of 200 frames a second still keeps it.
-const SHORTEST_GAP: f64 = 0.005;
-/// The same for a velocity over [`AVERAGED`] frames, s.
+/// The joints of the arm that are followed each by itself, and the gains of their alpha-beta filters (position, velocity):
+/// between the tracker's scatter and lag. Chosen by hand, about what Kalata's tracking index (1984) gives for the scatter of
+/// 2 mm: the nearer to the body, the slower a joint changes its velocity.
+const JOINTS: [(KeypointName, (f64, f64)); 4] = [
+    (KeypointName::Shoulder, (0.4, 0.1)),
+    (KeypointName::Elbow, (0.6, 0.25)),
+    (KeypointName::Wrist, (0.7, 0.35)),
+    (KeypointName::MiddleTip, (0.7, 0.35)),
+];
+/// Place of the wrist among them.
+const WRIST: usize = 2;
+/// Shortest time that velocities are computed with a velocity over [`AVERAGED`] frames, s.
 const SHORTEST_SPAN: f64 = 0.01;
 /// Weight of a new frame in the rate at which the pitch changes. Chosen by hand.
 const PITCH_GAIN: f64 = 0.4;
@@ -84,10 +83,8 @@ pub(crate) struct TrackedHand {
     found: [u64; KEYPOINTS],
     /// Where each keypoint was found last, m.
     keypoint: [[f64; 3]; KEYPOINTS],
-    /// Filtered wrist position, m, at the newest frame.
-    wrist: [f64; 3],
-    /// Filtered wrist velocity, m/s.
-    velocity: [f64; 3],
+    /// Shoulder, elbow, wrist and fingertip.
+    joints: [TrackedJoint; JOINTS.len()],
     /// How fast the hand's pitch changes, rad/s, filtered.
     pitch_rate: f64,
     /// Pitch at the newest frame, rad.
@@ -116,6 +113,7 @@ impl TrackedHand {
             self.merge(view, &UPPER_ARM);
             return None;
         }
+        let before = self.joints[WRIST];
         if !self.merge(view, &ALL) {
             return None;
         }
@@ -127,11 +125,8 @@ impl TrackedHand {
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;
         let found = self.point(KeypointName::Wrist);
-        let jumped = (found - Vector3::from(self.wrist)).norm() > JUMP;
-        if self.frames == 0 || gap > LONGEST_GAP || jumped {
+        if self.frames == 0 || gap > LONGEST_GAP || before.has_jumped_to(found) {
             self.start_over(found);
-        } else {
-            self.filter(found, gap);
         }
         self.remember();
         let wrist = self.averaged(2).wrist.into();
@@ -148,6 +143,11 @@ impl TrackedHand {
             if plausible && point.confidence > BELIEVED {
                 self.keypoint[index] = point.position;
                 self.found[index] = view.captured_cycle.saturating_add(1);
+                for (joint, (name, gains)) in self.joints.iter_mut().zip(JOINTS) {
+                    if name as usize == index {
+                        joint.observe(point.position.into(), view.captured_cycle, gains);
+                    }
+                }
                 any = true;
             }
         }
@@ -157,19 +157,10 @@ impl TrackedHand {
     }
 
     fn start_over(&mut self, found: Vector3<f64>) {
-        self.wrist = found.into();
-        self.velocity = [0.0; 3];
+        self.joints[WRIST] = TrackedJoint::standing_at(found, self.captured);
         self.pitch_rate = 0.0;
         self.frames = 0;
         self.movement = HandMovement::still_at(found);
-    }
-
-    fn filter(&mut self, found: Vector3<f64>, gap: u64) {
-        let time = seconds(gap);
-        let predicted = Vector3::from(self.wrist) + Vector3::from(self.velocity) * time;
-        let miss = found - predicted;
-        self.wrist = (predicted + GAINS.0 * miss).into();
-        self.velocity = (Vector3::from(self.velocity) + miss * (GAINS.1 / time.max(SHORTEST_GAP))).into();
     }
 
     fn remember(&mut self) {
@@ -264,13 +255,17 @@ impl TrackedHand {
 
     /// Filtered wrist position, extrapolated to `tick`, m.
     pub fn wrist_at(&self, tick: u64) -> Vector3<f64> {
-        let ahead = seconds(self.age(tick).min(EXTRAPOLATED));
-        Vector3::from(self.wrist) + Vector3::from(self.velocity) * ahead
+        self.joints[WRIST].at(tick)
     }
 
     /// Filtered wrist velocity, m/s.
     pub fn velocity(&self) -> Vector3<f64> {
-        self.velocity.into()
+        self.joints[WRIST].velocity()
+    }
+
+    /// Shoulder, elbow, wrist and fingertip, each by itself.
+    pub(super) fn joints(&self) -> &[TrackedJoint; JOINTS.len()] {
+        &self.joints
     }
 
     /// Age of the newest usable frame, cycles; `u64::MAX` before the first.
@@ -284,8 +279,7 @@ impl TrackedHand {
         ensure(near, "hand.keypoint", "positions near the robot")?;
         ensure(self.frames as usize <= FRAMES, "hand.frames", "no more frames than are kept")?;
         cycle("hand.captured", self.captured)?;
-        finite("hand.wrist", &self.wrist)?;
-        finite("hand.velocity", &self.velocity)?;
+        self.joints.iter().try_for_each(TrackedJoint::check)?;
         finite("hand.pitch", &[self.pitch, self.pitch_rate])?;
         self.recent.iter().try_for_each(ViewFrame::check)?;
         self.movement.check()

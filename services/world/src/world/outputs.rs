@@ -24,7 +24,7 @@ impl World {
             _ if staging.is_blind(Sense::Hand, tick) => Capture::Nothing,
             Some(keypoints) => Capture::Recorded(keypoints),
             None if person.is_lost(tick) => Capture::Nothing,
-            None => Capture::Simulated(person.keypoints(moved)),
+            None => Capture::Simulated(person.keypoints(moved, tick)),
         };
         track(tick, last, random, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
         out.hand = simulation.tracker.delivered;
@@ -76,7 +76,7 @@ impl World {
         let person = &self.simulation.person;
         let points = match self.person.recorded_keypoints(person, self.simulation.tick) {
             Some(recorded) => recorded.map(|point| point.position),
-            None => self.person.keypoints(person).map(|point| point.to_array()),
+            None => self.person.keypoints(person, self.simulation.tick).map(|point| point.to_array()),
         };
         [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist, KeypointName::MiddleTip]
             .map(|name| points[name as usize])

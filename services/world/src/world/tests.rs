@@ -12,6 +12,7 @@ mod partner;
 mod physics;
 mod profiles;
 mod recorded;
+mod recorded_arm;
 mod resume;
 mod script;
 mod spoken;

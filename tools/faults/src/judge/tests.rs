@@ -107,7 +107,10 @@ fn each_rule_that_is_broken_is_a_reason() {
     let summary =
         |evidence: &mut Evidence, change: fn(&mut Summary)| evidence.summary.iter_mut().for_each(change);
     let cases: [(Evidence, &str); 9] = [
-        (changed(|it| summary(it, |it| it.motion.acceleration = 1.2)), "acceleration over its limit: 1.200"),
+        (
+            changed(|it| summary(it, |it| it.motion.acceleration = 1.2)),
+            "acceleration of joint 0 over its limit at 0.00 s: 1.200",
+        ),
         (changed(|it| summary(it, |it| it.motion.on_stale_data_ms = 400)), "stale data, ms: 400"),
         (changed(|it| summary(it, |it| it.faults.clear())), "the summary has no fault of fields"),
         (changed(|it| summary(it, |it| it.faults[0].recovered_ms = None)), "fields did not recover"),
@@ -129,7 +132,7 @@ fn each_rule_that_is_broken_is_a_reason() {
 #[test]
 fn what_the_viewer_saw_counts_though_the_monitor_saw_nothing_of_it() {
     let fast = Record { motion: MotionReport { speed: 1.3, ..seen() }, ..kill() };
-    assert!(red(&fast, &evidence()).contains("speed over its limit: 1.300"));
+    assert!(red(&fast, &evidence()).contains("speed of joint 0 over its limit at 0.00 s: 1.300"));
 }
 
 #[test]

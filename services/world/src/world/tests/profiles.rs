@@ -26,7 +26,7 @@ fn reaches(seeds: std::ops::Range<u64>) -> Vec<Reach> {
                 && let Some(part) = person.part.get()
                 && person.activity() != Activity::Receive
             {
-                let points = world.person.keypoints(person);
+                let points = world.person.keypoints(person, tick);
                 let at = |name: KeypointName| points[name as usize];
                 let reach = now.get_or_insert_with(|| Reach {
                     width: world.task.kinds[world.parts.kind(part)].width,
