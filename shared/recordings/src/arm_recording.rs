@@ -21,8 +21,11 @@ pub struct ArmSample {
     /// Time of the recording, s.
     pub time: f64,
     /// Shoulder, elbow, wrist, m: x to the right of the recorded person, y ahead, z up.
-    pub joints: [[f64; 3]; 3],
+    pub joints: Joints,
 }
+
+/// Shoulder, elbow, wrist, m.
+type Joints = [[f64; 3]; 3];
 
 /// The bodies that an arm is made of, as the columns name them after `left_` or `right_`. What is called hand is its
 /// joint: it was 0.25 m from the elbow (median of 40 arms), as wrists are (0.26 m at 1.70 m of stature, Winter 2009).
@@ -117,9 +120,6 @@ fn acceleration(samples: &[ArmSample]) -> f64 {
     (0..BODIES.len()).map(of).fold(0.0, f64::max)
 }
 
-/// Shoulder, elbow and hand, m.
-type ArmJoints = [[f64; 3]; 3];
-
 /// Where each column stands.
 struct Columns {
     time: usize,
@@ -149,7 +149,7 @@ impl Columns {
     }
 
     /// Time, and the joints where none of them was lost.
-    fn row(&self, record: &StringRecord) -> Result<(f64, Option<ArmJoints>), String> {
+    fn row(&self, record: &StringRecord) -> Result<(f64, Option<Joints>), String> {
         let field = |column: usize| record.get(column).unwrap_or_default();
         let time = number(field(self.time), "t_s", -LONGEST, LONGEST)?;
         let mut joints = [[0.0; 3]; 3];

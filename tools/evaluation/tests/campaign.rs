@@ -91,3 +91,13 @@ fn without_common_subgoals_nothing_is_achieved_and_that_is_reported_as_a_deadloc
     assert_eq!(found[0].ended_ms, 60_000);
     assert!(found[0].actions.is_empty());
 }
+
+/// In this assembly the robot closed on the hand that it had given a part to, when the handover was over.
+#[test]
+fn a_robot_that_leaves_a_handover_closes_on_nobody() {
+    let (settings, network) = (RunSettings { seed: 51, ..settings("random") }, NetworkVariant::default());
+    let trials =
+        run(&Campaign { settings: &settings, network: &network, trials: 1, threads: 1 }, || {}).unwrap();
+    assert!(trials[0].completed_ms.is_some());
+    assert_eq!(trials[0].separation.robot_closing_ms, 0, "{:?}", trials[0].separation);
+}

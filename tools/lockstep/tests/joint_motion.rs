@@ -1,0 +1,35 @@
+//! Whole assemblies in the physics world: no contact throws a joint beyond its limits.
+#![allow(clippy::unwrap_used)]
+
+use coact_lockstep::Lockstep;
+use coact_messages::ARM_JOINTS;
+use coact_monitor::JointMotion;
+use coact_period::CYCLES_PER_SECOND;
+use coact_pipeline::{RunSettings, WorldMode};
+use coact_robot::Robot;
+use std::path::Path;
+use std::time::Duration;
+
+/// An assembly takes one minute, and is given two.
+const LONGEST: u64 = 120 * CYCLES_PER_SECOND;
+/// What `rt-config/verdict.toml` allows in real time, of the acceleration limit.
+const ACCELERATION: f64 = 1.05;
+
+/// A wheel that met the end of its axle was pressed against it, until it gave way: 14 times the wrist's limit.
+#[test]
+fn parts_are_put_into_their_places_within_the_joints_limits() {
+    let config = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
+    for seed in [1, 5] {
+        let settings = RunSettings { seed, world: WorldMode::Physics, ..RunSettings::shipped(&config) };
+        let limits = Robot::load(&settings.robot).unwrap().limits()[..ARM_JOINTS].to_vec();
+        let mut motion = JointMotion::new(limits, Duration::from_secs(1));
+        let mut stages = Lockstep::new(&settings).unwrap();
+        while !stages.complete() {
+            stages.step();
+            motion.sample(&stages.sample);
+            assert!(stages.ticks() < LONGEST, "seed {seed}: not assembled after {LONGEST} ticks");
+        }
+        let report = motion.report();
+        assert!(report.speed <= 1.0 && report.acceleration <= ACCELERATION, "seed {seed}: {report:?}");
+    }
+}
