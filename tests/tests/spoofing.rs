@@ -129,6 +129,7 @@ fn what_is_not_good_is_counted_and_the_assembly_goes_on() {
     assert!(summary.task.achieved >= 1, "{}", finished.stderr);
     for process in ["world", "perception", "fields", "control"] {
         let cycles = finished.cycles(process);
-        assert!((20_000..=25_100).contains(&cycles), "{process}: {cycles} cycles in 25 s");
+        // The world goes on until the arm has come to rest, up to some tenths of a second.
+        assert!((20_000..=25_500).contains(&cycles), "{process}: {cycles} cycles in 25 s");
     }
 }
