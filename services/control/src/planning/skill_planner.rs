@@ -28,7 +28,8 @@ const SEARCH_AT_REST: u32 = 4_000;
 /// The same where the person waits for the hand: a movement that is found late is better than a hand that goes as far as it
 /// can and stops there.
 const SEARCH_FOR_PERSON: u32 = 10_000;
-/// How deep parts go into their sockets at most, m: a wheel on its axle. On this length the hand keeps to a straight line.
+/// How much of a part fingers leave free for what it goes into, and the least length on which the hand puts a part down along a
+/// straight line, m. Sockets that are deeper, or axles that stick out farther, ask for more of the latter.
 pub(crate) const INSERTION_DEPTH: f64 = 0.03;
 /// Fraction of a withdrawal that is a straight line: the rest rounds the corner to its end.
 const STRAIGHT_WITHDRAWAL: f64 = 0.9;
