@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_pipeline::Pipeline;
-use coact_run_records::{Event, SupervisorEventKind};
-use coact_tests::{Launched, checkout, coact, left_behind, wait_for};
+use coact_run_records::{Event, SupervisorEvent, SupervisorEventKind};
+use coact_tests::{Finished, Launched, checkout, coact, left_behind, wait_for};
 use std::process::{Command, Output};
 
 #[test]
@@ -23,8 +23,18 @@ fn each_process_is_killed_once_and_the_assembly_is_finished() {
     let forgotten = finished.events.iter().filter(|event| matches!(event, Event::Forgotten { .. })).count();
     assert_eq!(forgotten, 0, "{:?}", finished.events);
     for name in &names {
-        assert_eq!(finished.count(SupervisorEventKind::Died, name), 1, "{name}\n{:?}", finished.supervisor);
-        assert_eq!(finished.count(SupervisorEventKind::Ready, name), 2, "{name}\n{:?}", finished.supervisor);
+        assert_eq!(
+            killed(&finished, SupervisorEventKind::Died, name),
+            1,
+            "{name}\n{:?}",
+            finished.supervisor
+        );
+        assert_eq!(
+            killed(&finished, SupervisorEventKind::Ready, name),
+            1,
+            "{name}\n{:?}",
+            finished.supervisor
+        );
         let fault = summary.faults.iter().find(|fault| fault.process == *name).unwrap();
         assert_eq!(fault.fault, "kill");
         assert!(fault.detected_ms.is_some() && fault.recovered_ms.is_some(), "{fault:?}");
@@ -71,6 +81,15 @@ fn a_run_that_does_not_exist_is_refused() {
     let refused = inject(&["fields", "kill", "--run", "no-such-run"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(String::from_utf8(refused.stderr).unwrap().contains("no-such-run"));
+}
+
+/// Events of `kind` that the injected kill of `name` led to: a shared machine that stalls a stage for more than
+/// 100 ms adds deaths by hanging, which are not this test's.
+fn killed(finished: &Finished, kind: SupervisorEventKind, name: &str) -> usize {
+    let of_the_kill = |event: &&SupervisorEvent| {
+        event.event == kind && event.process == name && event.fault.as_deref() == Some("kill")
+    };
+    finished.supervisor.iter().filter(of_the_kill).count()
 }
 
 fn inject(arguments: &[&str]) -> Output {

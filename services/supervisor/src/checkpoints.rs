@@ -3,6 +3,9 @@ pub trait Checkpoints {
     /// Publishes the checkpoint of `process`, and frees what is reserved for its replacement: that is about to be started.
     fn publish(&mut self, process: &str);
 
+    /// What is published next for `process` is spoiled: an injected fault.
+    fn poison(&mut self, _process: &str) {}
+
     /// The checkpoint of `process` ended a replacement that took it up: it is never published again. In words, what is lost;
     /// `None` when there was none.
     fn drop_newest(&mut self, _process: &str) -> Option<String> {

@@ -2,8 +2,8 @@ use crate::{ProcessSpec, StderrTail};
 use coact_pipeline::GENERATION_VARIABLE;
 use coact_realtime::{RequestedFault, SchedulingClass};
 use rustix::process::{
-    Pid, PidfdFlags, Signal, WaitId, WaitIdOptions, pidfd_open, pidfd_send_signal,
-    set_parent_process_death_signal, waitid,
+    Pid, PidfdFlags, Resource, Rlimit, Signal, WaitId, WaitIdOptions, getrlimit, pidfd_open,
+    pidfd_send_signal, prlimit, set_parent_process_death_signal, waitid,
 };
 use std::io;
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd, OwnedFd};
@@ -87,6 +87,19 @@ impl RunningChild {
         let error = io::Error::last_os_error();
         if sent != 0 && error.raw_os_error() != Some(libc::ESRCH) {
             tracing::warn!("process {}: cannot request {fault:?}: {error}", self.pid());
+        }
+    }
+
+    /// Lets the kernel grant it no file handle any more; those that it has stay. As with [`RunningChild::signal`], it may be dead.
+    pub(crate) fn refuse_handles(&self) {
+        let limited = Pid::from_raw(self.pid() as i32).map(|pid| {
+            let maximum = getrlimit(Resource::Nofile).maximum;
+            prlimit(Some(pid), Resource::Nofile, Rlimit { current: Some(0), maximum })
+        });
+        if let Some(Err(error)) = limited
+            && error != rustix::io::Errno::SRCH
+        {
+            tracing::warn!("process {}: cannot limit its file handles: {error}", self.pid());
         }
     }
 

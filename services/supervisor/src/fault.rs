@@ -37,6 +37,16 @@ pub enum Fault {
     StuckOnStart,
     /// Its planner, a thread of its own, stands still from its next query on.
     FreezePlanner,
+    /// SIGKILL, and what it left for its replacement is spoiled.
+    PoisonedResume,
+    /// Its cameras show nothing for 0.1 s.
+    DropOutShort,
+    /// Its cameras show nothing for a second.
+    DropOut,
+    /// Its cameras show nothing for ten seconds.
+    DropOutLong,
+    /// It gets no file handles any more.
+    NoHandles,
 }
 
 /// By what a fault is injected.
@@ -48,11 +58,13 @@ pub(crate) enum Means {
     Pause(Duration),
     /// The process does it to itself.
     Request(RequestedFault),
+    /// The kernel grants it no file handles from now on.
+    NoHandles,
 }
 
 impl Fault {
     /// Every fault, in the order in which messages name them.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 20] = [
         Self::Kill,
         Self::Stop,
         Self::StopShort,
@@ -68,6 +80,11 @@ impl Fault {
         Self::CrashLoop,
         Self::StuckOnStart,
         Self::FreezePlanner,
+        Self::PoisonedResume,
+        Self::DropOutShort,
+        Self::DropOut,
+        Self::DropOutLong,
+        Self::NoHandles,
     ];
 
     /// The name that the command line uses.
@@ -88,6 +105,11 @@ impl Fault {
             Self::CrashLoop => "crash-loop",
             Self::StuckOnStart => "stuck-on-start",
             Self::FreezePlanner => "freeze-planner",
+            Self::PoisonedResume => "poisoned-resume",
+            Self::DropOutShort => "drop-out-100ms",
+            Self::DropOut => "drop-out-1s",
+            Self::DropOutLong => "drop-out-10s",
+            Self::NoHandles => "no-handles",
         }
     }
 
@@ -109,12 +131,17 @@ impl Fault {
             Self::CrashLoop => "SIGKILL, and again while each replacement starts",
             Self::StuckOnStart => "SIGKILL, and its replacement stands still while it starts",
             Self::FreezePlanner => "of control: its planner stands still from the next query on",
+            Self::PoisonedResume => "SIGKILL, and what it left for its replacement is spoiled",
+            Self::DropOutShort => "of world: its cameras show nothing for 0.1 s",
+            Self::DropOut => "of world: its cameras show nothing for a second",
+            Self::DropOutLong => "of world: its cameras show nothing for ten seconds",
+            Self::NoHandles => "it gets no file handles any more",
         }
     }
 
     pub(crate) fn means(self) -> Means {
         match self {
-            Self::Kill | Self::CrashOnStart | Self::CrashLoop | Self::StuckOnStart => {
+            Self::Kill | Self::CrashOnStart | Self::CrashLoop | Self::StuckOnStart | Self::PoisonedResume => {
                 Means::Signal(Signal::KILL)
             }
             Self::Abort => Means::Signal(Signal::ABORT),
@@ -128,12 +155,20 @@ impl Fault {
             Self::Slow => Means::Request(RequestedFault::Slow),
             Self::SlowByFive => Means::Request(RequestedFault::SlowByFive),
             Self::FreezePlanner => Means::Request(RequestedFault::FreezePlanner),
+            Self::DropOutShort => Means::Request(RequestedFault::DropOutShort),
+            Self::DropOut => Means::Request(RequestedFault::DropOut),
+            Self::DropOutLong => Means::Request(RequestedFault::DropOutLong),
+            Self::NoHandles => Means::NoHandles,
         }
     }
 
     /// The only process to which it can be done; none when it can be done to each.
     pub fn only_of(self) -> Option<&'static str> {
-        (self == Self::FreezePlanner).then_some("control")
+        match self {
+            Self::FreezePlanner => Some("control"),
+            Self::DropOutShort | Self::DropOut | Self::DropOutLong => Some("world"),
+            _ => None,
+        }
     }
 
     /// Whether it takes effect later, when what it breaks is needed.
@@ -143,7 +178,16 @@ impl Fault {
 
     /// Whether the process does not live on after it; where it may, the watchdog decides.
     pub(crate) fn is_recovered_from_by_a_replacement(self) -> bool {
-        !matches!(self, Self::SlowByHalf | Self::Slow | Self::SlowByFive)
+        !matches!(
+            self,
+            Self::SlowByHalf
+                | Self::Slow
+                | Self::SlowByFive
+                | Self::DropOutShort
+                | Self::DropOut
+                | Self::DropOutLong
+                | Self::NoHandles
+        )
     }
 }
 

@@ -11,6 +11,7 @@ use coact_pipeline::RestartPolicy;
 use coact_realtime::monotonic_time;
 use coact_run_records::{SupervisorEvent, SupervisorEventKind};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::io::Errno;
 use rustix::process::Signal;
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -184,6 +185,7 @@ impl ProcessSet {
                 running.continue_at = Some(monotonic_time() + pause);
             }
             Means::Request(request) => running.child.request(request),
+            Means::NoHandles => running.child.refuse_handles(),
         }
         if !fault.is_recovered_from_by_a_replacement() {
             target.fault = None;
@@ -288,7 +290,7 @@ impl ProcessSet {
         self.schedule_restart(index, pid, &reason, || child.stderr_tail())
     }
 
-    /// Schedules a replacement that was kept out by others: however often that happens, the set is not given up for it.
+    /// Schedules a replacement that was kept out by others, or by what the system lacks: however often that happens, the set is not given up for it.
     fn wait_for_place(&mut self, index: usize) {
         let now = monotonic_time();
         let process = &mut self.processes[index];
@@ -360,6 +362,9 @@ impl ProcessSet {
         let Supervised { spec, begins_anew, .. } = &self.processes[index];
         let (begins_anew, name) = (*begins_anew, spec.name.clone());
         let lost = if begins_anew { checkpoints.drop_newest(&name) } else { None };
+        if self.processes[index].fault == Some(Fault::PoisonedResume) {
+            checkpoints.poison(&name);
+        }
         checkpoints.publish(&name);
         let process = &mut self.processes[index];
         process.generation += 1;
@@ -388,6 +393,10 @@ impl ProcessSet {
             Err(error) => {
                 let reason = format!("cannot start {}: {error}", process.spec.program.display());
                 self.record(index, SupervisorEventKind::Died, Some(0), Some(reason.clone()));
+                if kind == SupervisorEventKind::Restarted && is_shortage(&error) {
+                    self.wait_for_place(index);
+                    return Ok(());
+                }
                 self.schedule_restart(index, 0, &reason, Vec::new)
             }
         }
@@ -415,4 +424,10 @@ impl ProcessSet {
         self.log.write(event.clone());
         self.new_events.push(event);
     }
+}
+
+/// Whether the system lacks something that it may have again later: that is no fault of the process.
+fn is_shortage(error: &std::io::Error) -> bool {
+    let shortages = [Errno::MFILE, Errno::NFILE, Errno::AGAIN, Errno::NOMEM, Errno::NOSPC];
+    shortages.iter().any(|shortage| error.raw_os_error() == Some(shortage.raw_os_error()))
 }

@@ -140,6 +140,10 @@ impl Checkpoints for RunTopics {
         self.warn_once(outcome);
     }
 
+    fn poison(&mut self, process: &str) {
+        self.store.poison(process);
+    }
+
     fn drop_newest(&mut self, process: &str) -> Option<String> {
         let outcome = self.store.drop_newest(process);
         let dropped = outcome.as_ref().ok().copied().flatten();

@@ -6,6 +6,7 @@ use crate::watchdog::Silence;
 use crate::{Fault, ProcessSpec, RestartHistory, RunningChild};
 use coact_pipeline::Ready;
 use rustix::process::Signal;
+use std::io::ErrorKind;
 use std::time::Duration;
 
 /// One process of the set, in all its generations.
@@ -27,6 +28,8 @@ pub(crate) struct Supervised {
     pub(crate) begins_anew: bool,
     /// How long the first start took until it was ready.
     pub(crate) first_start: Option<Duration>,
+    /// The supervisor itself cannot see whether it is ready: for want of a file handle.
+    cannot_look: bool,
 }
 
 /// What state a process is in.
@@ -70,6 +73,7 @@ impl Supervised {
             resumed: false,
             begins_anew: false,
             first_start: None,
+            cannot_look: false,
         }
     }
 
@@ -125,7 +129,9 @@ impl Supervised {
         if self.running().is_none_or(|running| running.ready) {
             return false;
         }
-        let Ok(report) = std::fs::read(self.spec.ready_file(self.generation)) else { return false };
+        let report = std::fs::read(self.spec.ready_file(self.generation));
+        self.cannot_look = report.as_ref().is_err_and(|error| error.kind() != ErrorKind::NotFound);
+        let Ok(report) = report else { return false };
         let is_first = self.generation == 0;
         let Some(running) = self.running_mut() else { return false };
         if running.at_start.is_some() || running.kill_reason.is_some() {
@@ -185,7 +191,7 @@ impl Supervised {
     /// Kills it when it is not ready in time; does what an injected fault does to one that starts; continues it when its injected pause is
     /// over.
     pub(crate) fn look(&mut self, now: Duration) {
-        let ready_within = self.start_limit();
+        let (ready_within, cannot_look) = (self.start_limit(), self.cannot_look);
         let Lifecycle::Running(running) = &mut self.lifecycle else { return };
         if running.continue_at.is_some_and(|due| now >= due) {
             running.continue_at = None;
@@ -198,7 +204,7 @@ impl Supervised {
                 StartFault::Stuck => running.child.signal(Signal::STOP),
             }
         }
-        if !running.ready && now.saturating_sub(running.since) > ready_within {
+        if !running.ready && !cannot_look && now.saturating_sub(running.since) > ready_within {
             running.kill(KillReason::NotReadyInTime(ready_within));
         }
     }

@@ -34,12 +34,19 @@ impl TopicReader {
     }
 
     fn read(&mut self, set: &mut ProcessSet, progress: &mut RunProgress) -> Result<(), PortError> {
+        let mut outcome = Ok(());
         for (process, input) in &mut self.pulses {
-            if input.refresh()?
-                && let Some(pulse) = input.latest()
-            {
-                set.pulse(process);
-                progress.pulse(process, pulse);
+            match input.refresh() {
+                Ok(true) => {
+                    set.pulse(process);
+                    input.latest().into_iter().for_each(|pulse| progress.pulse(process, pulse));
+                }
+                Ok(false) => {}
+                // What the supervisor itself cannot read says nothing about the process: it does not hang for that.
+                Err(error) => {
+                    set.pulse(process);
+                    outcome = Err(error);
+                }
             }
         }
         if self.frame.refresh()?
@@ -48,6 +55,6 @@ impl TopicReader {
             progress.frame(frame);
         }
         self.speech.each(|speech| progress.speech(speech))?;
-        Ok(())
+        outcome
     }
 }

@@ -7,7 +7,7 @@ use anyhow::Context;
 use coact_joint_task::Task;
 use coact_messages::{Command, Header, HoldReason, SensorSample, Truth, WorldState, topic};
 use coact_pipeline::RunSettings;
-use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick, now};
+use coact_realtime::{Cycle, DropOuts, Input, Output, PortError, Process, Tick, now};
 use coact_recordings::{Order, read_folder};
 use coact_robot::Robot;
 use coact_safety::{DriveLimits, SafetyLimits};
@@ -28,6 +28,7 @@ struct Hardware {
     state: Output<WorldState>,
     heard: SpeechInput,
     stop: StopInput,
+    drop_outs: DropOuts,
     /// The process is told to end.
     ends: bool,
     /// Actions of the script of which it is known that they could not be done.
@@ -53,6 +54,9 @@ impl Cycle for Hardware {
             (false, false) => HoldReason::None,
         };
         self.world.hold(hold);
+        if let Some(time) = self.drop_outs.take() {
+            self.world.drop_out(time);
+        }
         if let Some(speech) = self.heard.next() {
             self.world.hear(speech.sentence());
         }
@@ -144,8 +148,19 @@ fn simulate(mut process: Process) -> anyhow::Result<()> {
     }
     let (heard, skipped) =
         (SpeechInput::open(process.run(), process.bus().refusals().clone())?, world.skipped());
-    let ends = false;
-    Ok(process.run_cycles(Hardware { world, command, sample, truth, state, heard, stop, ends, skipped })?)
+    let (drop_outs, ends) = (process.drop_outs(), false);
+    Ok(process.run_cycles(Hardware {
+        world,
+        command,
+        sample,
+        truth,
+        state,
+        heard,
+        stop,
+        drop_outs,
+        ends,
+        skipped,
+    })?)
 }
 
 fn world(run: &RunSettings, drive: DriveLimits) -> anyhow::Result<World> {

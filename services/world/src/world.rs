@@ -40,6 +40,8 @@ pub struct World {
     drive: Drive,
     /// Why the joints may not move now.
     hold: HoldReason,
+    /// The cameras show nothing before this tick.
+    blind_until: u64,
     robot: SimulatedRobot,
     joints: Joints,
     parts: Parts,
@@ -76,6 +78,7 @@ impl World {
             person: Person::new(&task.scene, policy, random, recorded),
             drive: Drive::new(joint_limits(robot), settings.drive),
             hold: HoldReason::None,
+            blind_until: 0,
             robot: SimulatedRobot::new(settings.mode, &task, robot, &joints, &parts)?,
             joints,
             parts,
@@ -85,7 +88,9 @@ impl World {
         })
     }
 
-    /// Advances the world to `tick`. The joints follow the drive, which follows `command` if it is good.
+    /// Advances the world to `tick`. The joints follow the drive, which follows `command` if it is good. A body does not wait for
+    /// a world that is late: drive, joints and loose parts take a step for each tick since the last one, at most for a second. With dynamics, where a step may
+    /// take longer than a period, they take one: the world goes slower instead.
     pub fn step(
         &mut self,
         tick: u64,
@@ -94,22 +99,18 @@ impl World {
         truth: &mut Truth,
         checkpoint: &mut WorldState,
     ) {
-        self.drive.step(tick, command, self.hold, &self.joints.position);
-        if let Some(setpoints) = self.drive.setpoints() {
-            let position = setpoints.map(|joint| joint.position);
-            self.simulation.robot.commanded_closure = coact_messages::finger_closure(&position);
+        let passed = self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, CYCLES_PER_SECOND));
+        let steps = self.robot.steps(passed);
+        let first = tick - (steps - 1).min(tick);
+        // A command takes effect in the tick after the sample that it answers.
+        let due = command.map_or(tick, |command| (command.header.cycle + 1).clamp(first, tick));
+        for now in first..=tick {
+            match now == due {
+                true => self.drive.step(now, command, self.hold, &self.joints.position),
+                false => self.drive.make_up(now, &self.joints.position),
+            }
+            self.move_robot();
         }
-        let influence = Influence {
-            elapsed: self.last_tick().map_or(1, |last| tick.saturating_sub(last).clamp(1, CYCLES_PER_SECOND)),
-            setpoints: self.drive.setpoints(),
-            task: &self.task,
-            stop: FingerStop { hand: self.hand.stop(&self.simulation.robot, &self.parts) },
-            person: self.simulation.person.hand.wrist(),
-            held: self.simulation.robot.held.get(),
-            slipped: self.simulation.robot.slipped.get(),
-            pull: self.simulation.person.force.into(),
-        };
-        self.robot.advance(&influence, &mut self.joints, &mut self.parts);
         let palm = self.hand.palm(&self.joints.position);
         self.live(tick, &palm);
         self.sense(tick, out);
@@ -121,9 +122,32 @@ impl World {
         self.write(checkpoint);
     }
 
+    /// Joints and loose parts follow the drive for a tick.
+    fn move_robot(&mut self) {
+        if let Some(setpoints) = self.drive.setpoints() {
+            let position = setpoints.map(|joint| joint.position);
+            self.simulation.robot.commanded_closure = coact_messages::finger_closure(&position);
+        }
+        let influence = Influence {
+            setpoints: self.drive.setpoints(),
+            task: &self.task,
+            stop: FingerStop { hand: self.hand.stop(&self.simulation.robot, &self.parts) },
+            person: self.simulation.person.hand.wrist(),
+            held: self.simulation.robot.held.get(),
+            slipped: self.simulation.robot.slipped.get(),
+            pull: self.simulation.person.force.into(),
+        };
+        self.robot.advance(&influence, &mut self.joints, &mut self.parts);
+    }
+
     /// Says why the joints may not move from now on, if there is a reason: they brake and stand.
     pub fn hold(&mut self, reason: HoldReason) {
         self.hold = reason;
+    }
+
+    /// The cameras show nothing from now on, for so long: a drop-out. Encoders and force sensor go on.
+    pub fn drop_out(&mut self, time: Duration) {
+        self.blind_until = self.last_tick().map_or(0, |last| last + 1) + cycles(time);
     }
 
     /// Whether the joints' setpoints stand still.

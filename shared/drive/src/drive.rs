@@ -72,6 +72,27 @@ impl Drive {
         self.state.setpoints.iter().all(MotionState::is_at_rest)
     }
 
+    /// Makes up for the cycle of `tick`, which the driver itself has missed: the arm goes on along its path for a while, then the
+    /// joints brake. An arm's own controller does so, which is not late. The fingers wait for the while: what they are to do next
+    /// no command tells, and a movement of theirs that had to begin anew at each delay would never end.
+    pub fn make_up(&mut self, tick: u64, measured: &[f64; JOINTS]) {
+        if self.setpoints().is_none() {
+            return;
+        }
+        self.state.tick = tick;
+        self.watch(measured);
+        self.state.late = self.state.late.saturating_add(1);
+        let goes_on = self.was_moved()
+            && self.state.late <= cycles(self.settings.driver_late_after)
+            && self.state.hold == HoldReason::None;
+        if goes_on {
+            self.bridge_arm();
+            self.state.mode = DriveMode::Bridging;
+        } else {
+            self.go_on(1);
+        }
+    }
+
     /// Takes one step, to `tick`: as the newest `command` says if it is good, else on its own. While there is a reason to
     /// `hold` the joints, they brake and stand. `measured`: where the joints are, rad.
     ///
@@ -124,7 +145,8 @@ impl Drive {
                 self.state.setpoints = setpoints;
                 self.state.path.take(command);
                 self.state.last = FollowedCommand::of(&command.header);
-                (self.state.silent, self.state.mode) = (0, DriveMode::Following);
+                (self.state.silent, self.state.late) = (0, 0);
+                self.state.mode = DriveMode::Following;
                 true
             }
             Err(refusal) => {
@@ -157,10 +179,11 @@ impl Drive {
     /// Without a command to follow: for a moment the joints go on as they move, then they brake.
     fn go_on(&mut self, passed: u64) {
         self.state.silent = self.state.silent.saturating_add(passed);
-        let was_moved = matches!(self.state.mode, DriveMode::Following | DriveMode::Bridging);
+        let was_moved = self.was_moved();
         let bridges = self.state.silent < cycles(self.settings.command_after);
         if was_moved && bridges && self.state.hold == HoldReason::None {
-            self.bridge();
+            self.bridge_arm();
+            self.bridge_fingers();
             self.state.mode = DriveMode::Bridging;
         } else {
             self.brake_along_path();
@@ -169,11 +192,19 @@ impl Drive {
         }
     }
 
-    /// The arm goes on along its path, the fingers with the acceleration that they have; what cannot brakes.
-    fn bridge(&mut self) {
+    fn was_moved(&self) -> bool {
+        matches!(self.state.mode, DriveMode::Following | DriveMode::Bridging)
+    }
+
+    /// The arm goes on along its path, or brakes where it cannot.
+    fn bridge_arm(&mut self) {
         if !self.take(self.state.path.next()) {
             self.brake_along_path();
         }
+    }
+
+    /// The fingers go on with the acceleration that they have; what cannot brakes.
+    fn bridge_fingers(&mut self) {
         for joint in ARM_JOINTS..JOINTS {
             let MotionState { position, velocity, acceleration } = self.state.setpoints[joint];
             let next = position + PERIOD_S * (velocity + PERIOD_S * acceleration);

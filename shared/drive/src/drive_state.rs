@@ -18,6 +18,8 @@ pub struct DriveState {
     pub(crate) tick: u64,
     /// Cycles without a command that was followed.
     pub(crate) silent: u64,
+    /// Cycles since then that the driver itself has missed.
+    pub(crate) late: u64,
     /// Cycles for which the arm has been too far from its setpoints.
     pub(crate) deviating: u64,
     /// Positions of the arm's joints when they were measured last, rad.

@@ -8,11 +8,18 @@ pub(crate) struct Checkpoint<T: Message> {
     resume: Output<T>,
     /// Of a message that is not to be published: its readers die of it.
     dropped: Option<Header>,
+    /// What is published next is spoiled: an injected fault.
+    is_poisoned: bool,
 }
 
 impl<T: Message> Checkpoint<T> {
     pub(crate) fn new(bus: &Bus, topic: &str) -> Result<Self, PortError> {
-        Ok(Self { newest: bus.input(topic)?, resume: bus.output(&topic::resume(topic))?, dropped: None })
+        Ok(Self {
+            newest: bus.input(topic)?,
+            resume: bus.output(&topic::resume(topic))?,
+            dropped: None,
+            is_poisoned: false,
+        })
     }
 
     /// Takes in the newest message; a reader that joined since gets what was published last.
@@ -28,6 +35,11 @@ impl<T: Message> Checkpoint<T> {
         Ok(self.dropped)
     }
 
+    /// What is published next is spoiled.
+    pub(crate) fn poison(&mut self) {
+        self.is_poisoned = true;
+    }
+
     /// Publishes the newest message on the topic's resume topic; returns its header.
     pub(crate) fn publish(&mut self) -> Result<Option<Header>, PortError> {
         self.newest.refresh()?;
@@ -37,6 +49,11 @@ impl<T: Message> Checkpoint<T> {
             Some(message) => *loan = *message,
             // Says at once that there is no checkpoint, instead of letting the replacement wait.
             None => *loan.header_mut() = Header::zeroed(),
+        }
+        if std::mem::take(&mut self.is_poisoned) {
+            let bytes = bytemuck::bytes_of_mut(&mut *loan);
+            let half = bytes.len() / 2;
+            bytes[half..].iter_mut().for_each(|byte| *byte = !*byte);
         }
         loan.send_as_is()?;
         Ok(usable.map(|message| *message.header()))

@@ -56,6 +56,17 @@ impl CheckpointStore {
         }
     }
 
+    /// The checkpoint of `process` that is published next is spoiled: an injected fault.
+    pub fn poison(&mut self, process: &str) {
+        match topic::state_of(process) {
+            Some(topic::WORLD_STATE) => self.world.poison(),
+            Some(topic::PERCEPT) => self.perception.poison(),
+            Some(topic::FIELDS) => self.fields.poison(),
+            Some(topic::COMMAND) => self.control.poison(),
+            _ => {}
+        }
+    }
+
     /// The checkpoint of `process` is not published any more: replacements die of it. The process begins anew, and what it
     /// sends then is its checkpoint. Returns the dropped one's header, as [`CheckpointStore::publish`] does.
     ///

@@ -1,5 +1,6 @@
 use crate::cycle_accounting::{CycleAccounting, CycleTimes, misses_deadline};
-use crate::monotonic_clock::{now, timespec};
+use crate::monotonic_clock::{now, thread_time, timespec};
+use crate::overload::Overload;
 use crate::signals::Signals;
 use crate::{Cycle, Output, PortError, ProcessError, Refusals, Schedule, Tick};
 use coact_messages::{Header, Pulse};
@@ -22,6 +23,7 @@ pub(crate) struct Executor {
     /// Offset from the release up to which a cycle waits for its input; `None`: it starts at the release.
     latest_start_ns: Option<u64>,
     accounting: CycleAccounting,
+    overload: Overload,
     pulse: Output<Pulse>,
     refusals: Arc<Refusals>,
     slowed_cycles: u32,
@@ -52,6 +54,7 @@ impl Executor {
             schedule,
             latest_start_ns: waits_for_topic.then_some(entry.latest_start.as_nanos() as u64),
             accounting: CycleAccounting::default(),
+            overload: Overload::default(),
             pulse,
             refusals,
             slowed_cycles: 0,
@@ -60,7 +63,10 @@ impl Executor {
     }
 
     /// Runs until a signal stops it and the stage may end.
-    pub(crate) fn run(&mut self, work: &mut impl Cycle, signals: &Signals) -> Result<(), PortError> {
+    ///
+    /// # Errors
+    /// A port that failed; [`ProcessError::Overload`] when the stage, which was fast enough, is too slow for the others.
+    pub(crate) fn run(&mut self, work: &mut impl Cycle, signals: &Signals) -> Result<(), ProcessError> {
         let mut cycle = self.schedule.next_after(now());
         let mut last = None;
         loop {
@@ -76,7 +82,11 @@ impl Executor {
             if let Some(slowdown) = signals.take_slowdown() {
                 (self.slowed_cycles, self.slowdown) = (SLOWED_CYCLES, slowdown);
             }
+            let started_ns = now();
             self.run_cycle(cycle, scheduled_ns, work)?;
+            if self.overload.is_reached(now() - started_ns, thread_time) {
+                return Err(ProcessError::Overload);
+            }
             cycle = self.schedule.following(cycle, now());
         }
     }

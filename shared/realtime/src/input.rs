@@ -4,6 +4,9 @@ use crate::refusals::topic_index;
 use crate::run_view::RunView;
 use crate::{Judge, Message, Origin, PortError, Refusals};
 use coact_messages::{Header, Refusal, topic};
+use rustix::io::Errno;
+use std::fs::File;
+use std::io;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -17,8 +20,14 @@ pub struct Input<T: Message> {
     port: Box<dyn Reader>,
     bench: Bench,
     received_ns: u64,
+    /// Looks in a row that found nothing.
+    silent: u32,
     message: PhantomData<T>,
 }
+
+/// A topic whose messages come again and again has fallen silent when so many looks in a row found nothing; some hundred of them
+/// are what a usual restart takes. Chosen by hand.
+const SILENT: u32 = 500;
 
 /// The judge of one topic, with what judgement needs.
 #[derive(Debug)]
@@ -28,6 +37,10 @@ struct Bench {
     refusals: Arc<Refusals>,
     writer: Option<String>,
     topic_index: u32,
+    /// Whether its messages come again and again.
+    is_steady: bool,
+    /// A message came of somebody who is not known as the writer.
+    met_stranger: bool,
 }
 
 impl<T: Message> Input<T> {
@@ -43,14 +56,16 @@ impl<T: Message> Input<T> {
             refusals,
             writer: topic::writer(topic).map(str::to_owned),
             topic_index: topic_index(topic),
+            is_steady: topic::find(topic).is_some_and(|entry| entry.lifetime.is_some()),
+            met_stranger: false,
         };
-        Self { topic: topic.to_owned(), port, bench, received_ns: 0, message: PhantomData }
+        Self { topic: topic.to_owned(), port, bench, received_ns: 0, silent: 0, message: PhantomData }
     }
 
     /// Takes in what has arrived, keeps the newest good message, and returns whether there was any.
     ///
     /// # Errors
-    /// [`PortError::Refused`].
+    /// [`PortError::Refused`]; [`PortError::NoHandles`] where a new writer cannot be looked up: it would be ignored for ever.
     pub fn refresh(&mut self) -> Result<bool, PortError> {
         Ok(self.each(|_| {})? > 0)
     }
@@ -74,6 +89,11 @@ impl<T: Message> Input<T> {
         })?;
         if unreadable {
             bench.refusals.count(bench.topic_index, Refusal::Unreadable);
+        }
+        self.silent = if count > 0 { 0 } else { self.silent.saturating_add(1) };
+        let fell_silent = self.received_ns > 0 && bench.is_steady && self.silent == SILENT;
+        if unreadable || fell_silent || std::mem::take(&mut bench.met_stranger) {
+            expect_handles(&self.topic)?;
         }
         if count > 0 {
             self.received_ns = now();
@@ -125,7 +145,7 @@ impl<T: Message> Input<T> {
 impl Bench {
     /// Judges a message, and counts it when it is not good.
     fn is_good<T: Message>(&mut self, message: &T, origin: Origin) -> bool {
-        let Self { judge, run, refusals, writer, topic_index } = self;
+        let Self { judge, run, refusals, writer, topic_index, met_stranger, .. } = self;
         let now_ns = now();
         let time = (run.tick_at(now_ns), now_ns);
         let is_writer =
@@ -135,8 +155,23 @@ impl Bench {
             .and_then(|()| message.check().map_err(|_| Refusal::Implausible));
         match verdict {
             Ok(()) => judge.accept(message.header()),
-            Err(refusal) => refusals.count(*topic_index, refusal),
+            Err(refusal) => {
+                *met_stranger |= refusal == Refusal::Writer;
+                refusals.count(*topic_index, refusal);
+            }
         }
         verdict.is_ok()
     }
+}
+
+/// Whether the process may still open something.
+fn expect_handles(topic: &str) -> Result<(), PortError> {
+    match File::open("/dev/null") {
+        Err(cause) if is_shortage(&cause) => Err(PortError::NoHandles { topic: topic.to_owned(), cause }),
+        _ => Ok(()),
+    }
+}
+
+fn is_shortage(error: &io::Error) -> bool {
+    [Errno::MFILE, Errno::NFILE].iter().any(|shortage| error.raw_os_error() == Some(shortage.raw_os_error()))
 }

@@ -14,6 +14,12 @@ pub fn monotonic_time() -> Duration {
     Duration::new(tv_sec as u64, tv_nsec as u32)
 }
 
+/// What this thread has computed so far, ns of a core's time.
+pub(crate) fn thread_time() -> u64 {
+    let Timespec { tv_sec, tv_nsec } = clock_gettime(ClockId::ThreadCPUTime);
+    Duration::new(tv_sec as u64, tv_nsec as u32).as_nanos() as u64
+}
+
 /// An instant or a span in ns, as the kernel takes it.
 pub(crate) fn timespec(ns: u64) -> Timespec {
     let span = Duration::from_nanos(ns);

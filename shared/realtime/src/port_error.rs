@@ -46,6 +46,16 @@ pub enum PortError {
         /// How many read it.
         viewers: usize,
     },
+    /// The process may open nothing any more, and so never again hear a writer that is new. The message contains the cause.
+    #[error(
+        "topic {topic}: its writer cannot be looked up: {cause}; expected file handles to be left (ulimit -n)"
+    )]
+    NoHandles {
+        /// The topic.
+        topic: String,
+        /// The system's reason.
+        cause: std::io::Error,
+    },
 }
 
 impl PortError {

@@ -1,7 +1,7 @@
 use crate::executor::Executor;
 use crate::signals::Signals;
 use crate::{
-    Arguments, Bus, Cycle, Heartbeat, LogStyle, Message, Output, PortError, ProcessError, Schedule,
+    Arguments, Bus, Cycle, DropOuts, Heartbeat, LogStyle, Message, Output, PortError, ProcessError, Schedule,
     memory_lock, scheduling,
 };
 use clap::Parser;
@@ -175,6 +175,11 @@ impl Process {
     /// Set once an injected fault requests that the background work stands still; the work itself does it.
     pub fn background_freezes(&self) -> Arc<AtomicBool> {
         self.signals.background_freezes()
+    }
+
+    /// Requests of injected faults that the sensors drop out; the process itself does that.
+    pub fn drop_outs(&self) -> DropOuts {
+        self.signals.drop_outs()
     }
 
     /// Becomes real time as far as the process table wants and the machine grants, and reports readiness.

@@ -42,4 +42,9 @@ pub enum ProcessError {
     /// A signal handler cannot be installed. The message contains the cause.
     #[error("signals cannot be handled: {0}; expected a system that lets a process handle SIGTERM")]
     Signals(std::io::Error),
+    /// Its cycles, which were fast enough, last longer than their period, and keep others from the core.
+    #[error(
+        "its cycles compute for longer than their period, again and again: expected what they took before"
+    )]
+    Overload,
 }

@@ -18,11 +18,17 @@ pub enum RequestedFault {
     SlowByFive,
     /// Its planner stands still.
     FreezePlanner,
+    /// Its cameras show nothing for 0.1 s.
+    DropOutShort,
+    /// Its cameras show nothing for a second.
+    DropOut,
+    /// Its cameras show nothing for ten seconds.
+    DropOutLong,
 }
 
 impl RequestedFault {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 10] = [
         Self::Panic,
         Self::ExitSuccess,
         Self::ExitFailure,
@@ -30,7 +36,15 @@ impl RequestedFault {
         Self::Slow,
         Self::SlowByFive,
         Self::FreezePlanner,
+        Self::DropOutShort,
+        Self::DropOut,
+        Self::DropOutLong,
     ];
+
+    /// The fault of this number; 0 is none.
+    pub(crate) fn numbered(number: usize) -> Option<Self> {
+        Self::ALL.get(number.wrapping_sub(1)).copied()
+    }
 
     /// The signal that requests it: real-time signals, which nothing else of ours uses. The first stays free for debuggers
     /// and tools such as valgrind.
@@ -41,10 +55,20 @@ impl RequestedFault {
     /// By how much each of the next cycles takes longer; none where the process ends, or its cycles are not concerned.
     pub(crate) fn slowdown(self) -> Option<Duration> {
         match self {
-            Self::Panic | Self::ExitSuccess | Self::ExitFailure | Self::FreezePlanner => None,
             Self::SlowByHalf => Some(PERIOD / 2),
             Self::Slow => Some(PERIOD * 2),
             Self::SlowByFive => Some(PERIOD * 5),
+            _ => None,
+        }
+    }
+
+    /// For how long its cameras show nothing; none where it is something else.
+    pub(crate) fn drop_out(self) -> Option<Duration> {
+        match self {
+            Self::DropOutShort => Some(Duration::from_millis(100)),
+            Self::DropOut => Some(Duration::from_secs(1)),
+            Self::DropOutLong => Some(Duration::from_secs(10)),
+            _ => None,
         }
     }
 
@@ -54,7 +78,7 @@ impl RequestedFault {
             Self::Panic => panic!("injected fault: panic"),
             Self::ExitSuccess => std::process::exit(0),
             Self::ExitFailure => std::process::exit(1),
-            Self::SlowByHalf | Self::Slow | Self::SlowByFive | Self::FreezePlanner => {}
+            _ => {}
         }
     }
 }

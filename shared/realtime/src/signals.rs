@@ -1,4 +1,4 @@
-use crate::RequestedFault;
+use crate::{DropOuts, RequestedFault};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 use std::io;
@@ -42,6 +42,11 @@ impl Signals {
         Arc::clone(&self.background_freezes)
     }
 
+    /// Requests that the sensors drop out.
+    pub(crate) fn drop_outs(&self) -> DropOuts {
+        DropOuts { fault: Arc::clone(&self.fault) }
+    }
+
     /// Once for each request to be slow: by how much.
     pub(crate) fn take_slowdown(&self) -> Option<Duration> {
         let slowdown = self.fault()?.slowdown()?;
@@ -50,6 +55,6 @@ impl Signals {
     }
 
     fn fault(&self) -> Option<RequestedFault> {
-        RequestedFault::ALL.get(self.fault.load(Ordering::Relaxed).wrapping_sub(1)).copied()
+        RequestedFault::numbered(self.fault.load(Ordering::Relaxed))
     }
 }

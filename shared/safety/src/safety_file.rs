@@ -72,6 +72,7 @@ struct StaleTable {
 #[serde(deny_unknown_fields)]
 struct DriveTable {
     command_after_ms: Spanned<u64>,
+    driver_late_after_ms: Spanned<u64>,
     tracking_error_rad: Spanned<f64>,
     tracking_error_after_ms: Spanned<u64>,
     stop_unheard_after_ms: Spanned<u64>,
@@ -165,6 +166,7 @@ impl DriveTable {
     fn limits(&self) -> Result<DriveLimits, Fault> {
         Ok(DriveLimits {
             command_after: milliseconds("command_after_ms", &self.command_after_ms, 1..=4)?,
+            driver_late_after: milliseconds("driver_late_after_ms", &self.driver_late_after_ms, 1..=20)?,
             tracking_error: within("tracking_error_rad", &self.tracking_error_rad, 0.01..=1.0)?,
             tracking_error_after: milliseconds(
                 "tracking_error_after_ms",

@@ -101,6 +101,8 @@ pub struct StaleLimits {
 pub struct DriveLimits {
     /// Without a good command for so long, the joints brake.
     pub command_after: Duration,
+    /// So long the joints go on while the driver itself is late, which nobody could tell anything meanwhile; then they brake.
+    pub driver_late_after: Duration,
     /// A joint of the arm may be so far from its setpoint, rad ...
     pub tracking_error: f64,
     /// ... and farther only for so long.

@@ -1,6 +1,6 @@
 use crate::judge::judge;
 use crate::trial::Trial;
-use crate::{Cell, JudgedCell, Outcome, Setup, matrix};
+use crate::{Cell, JudgedCell, Outcome, Setup, Trouble, matrix};
 use std::collections::VecDeque;
 use std::time::Instant;
 
@@ -62,7 +62,14 @@ impl<'a> Campaign<'a> {
     }
 
     fn outcomes(&self, cells: &[Cell]) -> Vec<JudgedCell> {
-        let (records, evidence) = match Trial::run(self.setup, cells) {
+        // A thread of its own: what it mounts goes with it.
+        let run = std::thread::scope(|scope| {
+            scope
+                .spawn(|| Trial::run(self.setup, cells))
+                .join()
+                .unwrap_or_else(|_| Err(Trouble("it panicked".into())))
+        });
+        let (records, evidence) = match run {
             Ok(run) => run,
             Err(trouble) => return cells.iter().map(|cell| not_judged(cell, &trouble.0)).collect(),
         };

@@ -1,4 +1,5 @@
 use crate::{FaultKind, Moment, Target};
+use coact_supervisor::Fault;
 use serde::Serialize;
 use std::fmt;
 
@@ -18,7 +19,18 @@ impl Cell {
     pub(crate) fn needs_own_run(&self) -> bool {
         matches!(self.moment, Moment::StartUp | Moment::Shutdown)
             || self.fault.ends_the_set()
+            || self.fault.fills()
             || self.kills_supervisor()
+    }
+
+    /// Who dies while the supervisor gets no file handles.
+    pub(crate) const WHILE_STARVED: &str = "perception";
+
+    /// The processes to which something is done.
+    pub(crate) fn struck(&self) -> Vec<&'static str> {
+        let starves_supervisor =
+            self.target == Target::Supervisor && self.fault == FaultKind::Process(Fault::NoHandles);
+        if starves_supervisor { vec![Self::WHILE_STARVED] } else { self.target.processes() }
     }
 
     pub(crate) fn kills_supervisor(&self) -> bool {

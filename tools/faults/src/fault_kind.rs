@@ -2,6 +2,7 @@ use crate::MessageFault;
 use coact_supervisor::Fault;
 use serde::{Serialize, Serializer};
 use std::fmt;
+use std::time::Duration;
 
 /// What happens in a cell of the matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -14,6 +15,10 @@ pub enum FaultKind {
     Message(MessageFault),
     /// Viewers take every place on the topics of the chain, and a process is killed meanwhile.
     ViewerFlood,
+    /// No shared memory is left, and a process is killed meanwhile.
+    MemoryFull,
+    /// No room is left for the report, for a while.
+    ReportFull,
     /// Another set is started on the same machine.
     SecondSet,
     /// Somebody puts the description of a living run where dead ones are found and removed.
@@ -33,9 +38,13 @@ impl FaultKind {
                     | Fault::Slow
                     | Fault::SlowByFive
                     | Fault::FreezePlanner
+                    | Fault::DropOutShort
+                    | Fault::DropOut
+                    | Fault::DropOutLong
+                    | Fault::NoHandles
             ),
-            Self::ViewerFlood => true,
-            Self::Nothing | Self::Message(_) | Self::SecondSet | Self::PlantedRun => false,
+            Self::ViewerFlood | Self::MemoryFull => true,
+            Self::Nothing | Self::Message(_) | Self::ReportFull | Self::SecondSet | Self::PlantedRun => false,
         }
     }
 
@@ -43,19 +52,57 @@ impl FaultKind {
     pub(crate) fn may_be_survived(self) -> bool {
         matches!(
             self,
-            Self::Process(Fault::StopShort | Fault::SlowByHalf | Fault::Slow | Fault::SlowByFive)
-                | Self::Nothing
+            Self::Process(
+                Fault::StopShort
+                    | Fault::SlowByHalf
+                    | Fault::Slow
+                    | Fault::SlowByFive
+                    | Fault::DropOutShort
+                    | Fault::DropOut
+                    | Fault::DropOutLong
+                    | Fault::NoHandles
+            ) | Self::Nothing
                 | Self::Message(_)
+                | Self::ReportFull
                 | Self::SecondSet
                 | Self::PlantedRun
         )
+    }
+
+    /// Whether it fills a file system: then the run gets one of its own.
+    pub(crate) fn fills(self) -> bool {
+        matches!(self, Self::MemoryFull | Self::ReportFull)
+    }
+
+    /// Whether what the process remembered is spoiled: it is to begin anew, and not with that.
+    pub(crate) fn spoils_state(self) -> bool {
+        self == Self::Process(Fault::PoisonedResume)
+    }
+
+    /// Whether the process goes on with its cycles, so that no outage tells of it.
+    pub(crate) fn keeps_output(self) -> bool {
+        matches!(
+            self,
+            Self::Process(Fault::DropOutShort | Fault::DropOut | Fault::DropOutLong | Fault::NoHandles)
+        )
+    }
+
+    /// How long it goes on.
+    pub(crate) fn lasts(self) -> Duration {
+        match self {
+            Self::Process(Fault::DropOutShort) => Duration::from_millis(100),
+            Self::Process(Fault::DropOut) => Duration::from_secs(1),
+            Self::Process(Fault::DropOutLong) => Duration::from_secs(10),
+            _ => Duration::ZERO,
+        }
     }
 
     /// So many starts of a process it takes until one lives.
     pub(crate) fn restarts(self) -> usize {
         match self {
             Self::Process(Fault::CrashOnStart | Fault::StuckOnStart) => 2,
-            kind if kind.may_be_survived() && kind != Self::Process(Fault::StopShort) => 0,
+            Self::Process(Fault::StopShort | Fault::Slow | Fault::SlowByFive | Fault::NoHandles) => 1,
+            kind if kind.may_be_survived() => 0,
             _ => 1,
         }
     }
@@ -73,6 +120,8 @@ impl fmt::Display for FaultKind {
             Self::Process(fault) => fault.name(),
             Self::Message(fault) => fault.name(),
             Self::ViewerFlood => "viewer-flood",
+            Self::MemoryFull => "memory-full",
+            Self::ReportFull => "report-full",
             Self::SecondSet => "second-set",
             Self::PlantedRun => "planted-run",
         })

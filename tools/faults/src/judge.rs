@@ -38,6 +38,7 @@ pub(crate) fn judge(record: &Record, evidence: &Evidence, rules: &Rules, alone: 
     let mut of_the_run = case.end();
     of_the_run.extend(case.forgotten());
     of_the_run.extend(case.progress());
+    of_the_run.extend(case.separation());
     if let Some(summary) = evidence.summary.as_ref().filter(|_| reasons.is_empty()) {
         of_the_run.extend(case.motion(&summary.motion));
     }
@@ -95,6 +96,14 @@ impl Case<'_> {
         .collect()
     }
 
+    /// The robot does not come nearer, by its own motion, to a person who is near already.
+    fn separation(&self) -> Option<String> {
+        let summary = self.evidence.summary.as_ref()?;
+        let (found, most) = (summary.separation.robot_closing_ms, self.rules.robot_closing_ms);
+        (found > most)
+            .then(|| format!("the robot closed on the person for {found} ms, at most {most} may be"))
+    }
+
     /// Whoever drives the joints brings them to rest before it ends.
     fn rest(&self) -> Option<String> {
         let speed = self.evidence.last_speed;
@@ -136,7 +145,7 @@ impl Case<'_> {
 
     /// Those that died though nobody struck them.
     fn dead_bystanders(&self) -> impl Iterator<Item = &SupervisorEvent> {
-        let struck = self.cell.target.processes();
+        let struck = self.cell.struck();
         let may_die = self.cell.fault.restarts() > 0;
         let deaths = self.noted(SupervisorEventKind::Died);
         deaths.filter(move |event| !(may_die && struck.contains(&event.process.as_str())))
@@ -165,7 +174,7 @@ impl Case<'_> {
         if !self.goes_on() || self.cell.moment == Moment::StartUp {
             return Vec::new();
         }
-        let processes = self.cell.target.processes();
+        let processes = self.cell.struck();
         processes.into_iter().flat_map(|process| self.recovery_of(process)).collect()
     }
 
@@ -176,7 +185,8 @@ impl Case<'_> {
             return vec![format!("{process} was not replaced")];
         }
         // Of what has no cycles and was not replaced, nothing tells the recovery.
-        let is_told = died || CHAIN.contains(&process) && self.is_injected();
+        let is_interrupted = self.is_injected() && !self.cell.fault.keeps_output();
+        let is_told = died || CHAIN.contains(&process) && is_interrupted;
         if !is_told {
             return Vec::new();
         }
@@ -209,7 +219,7 @@ impl Case<'_> {
     fn survivors(&self, fault: &FaultReport) -> Vec<String> {
         let machine = self.evidence.summary.as_ref().and_then(|summary| summary.environment.machine);
         let limit = self.rules.longest_outage_ms + machine.unwrap_or_default().late;
-        let struck = self.cell.target.processes();
+        let struck = self.cell.struck();
         let others = fault.survivors_missed_by.iter().filter(|(name, _)| !struck.contains(&name.as_str()));
         let too_long = others.filter(|(_, missed)| **missed > limit);
         too_long
@@ -219,6 +229,9 @@ impl Case<'_> {
 
     /// No achieved subgoal that was remembered is gone.
     fn forgotten(&self) -> Vec<String> {
+        if self.cell.fault.spoils_state() {
+            return Vec::new();
+        }
         let from_ms = self.evidence.run_ms(self.record.from_ns);
         let forgotten = self.evidence.events.iter().filter_map(|event| match event {
             Event::Forgotten { at_ms, name } if *at_ms >= from_ms => Some(name),
@@ -229,6 +242,9 @@ impl Case<'_> {
 
     /// Each replacement goes on from its predecessor's state.
     fn lost(&self) -> Vec<String> {
+        if self.cell.fault.spoils_state() {
+            return Vec::new();
+        }
         let mut reasons = Vec::new();
         let dropped = self.noted(SupervisorEventKind::StateDropped);
         reasons.extend(dropped.map(|event| format!("{} begins without its state", event.process)));
@@ -244,7 +260,7 @@ impl Case<'_> {
         let FaultKind::Message(fault) = self.cell.fault else { return Vec::new() };
         let Some(summary) = &self.evidence.summary else { return Vec::new() };
         let mut reasons = Vec::new();
-        for process in self.cell.target.processes() {
+        for process in self.cell.struck() {
             let topic = topic::state_of(process).filter(|_| process != "world").unwrap_or(topic::SENSORS);
             let readers = topic::find(topic).map_or(&[][..], |entry| entry.readers);
             for reader in readers.iter().filter(|reader| CHAIN.contains(reader) || **reader == "monitor") {

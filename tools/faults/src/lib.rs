@@ -16,6 +16,7 @@ mod message_fault;
 mod moment;
 mod outcome;
 mod page;
+mod private_mounts;
 mod running_set;
 mod selection;
 mod setup;

@@ -17,13 +17,8 @@ const CELLS_OF_A_RUN: usize = 8;
 const RESTARTS_OF_A_RUN: usize = 4;
 
 /// What the issue of faults knows and no cell does yet, with the reason.
-pub const NOT_COVERED: [(&str, &str); 5] = [
-    ("poisoned resume", "a message that only the supervisor may send; services/supervisor/tests has it"),
-    ("sensor drop-out of 0.1, 1, 10 s", "the simulated sensors cannot be switched off yet"),
-    ("/dev/shm full, with a death", "it would strike every other program of the machine"),
-    ("report disk full", "it needs a file system of its own"),
-    ("no file handles", "it needs another limit than the run's own"),
-];
+pub const NOT_COVERED: [(&str, &str); 1] =
+    [("poisoned resume of world", "the simulated body would begin at its start, where no real one is")];
 
 /// Every cell.
 pub fn whole() -> Vec<Cell> {
@@ -49,6 +44,12 @@ pub fn whole() -> Vec<Cell> {
     for fault in [Fault::Kill, Fault::Abort, Fault::Stop, Fault::StopShort] {
         cells.extend(WORKING.map(|moment| cell(fault, Target::Supervisor, moment)));
     }
+    for (starved, killed) in
+        [("perception", "world"), ("fields", "perception"), ("control", "fields"), ("world", "control")]
+    {
+        cells.push(cell(Fault::NoHandles, Target::Two(starved, killed), Moment::Moving));
+    }
+    cells.push(cell(Fault::NoHandles, Target::Supervisor, Moment::Moving));
     for fault in MessageFault::ALL {
         for process in CHAIN {
             let fault = FaultKind::Message(fault);
@@ -60,13 +61,17 @@ pub fn whole() -> Vec<Cell> {
         let target = Target::Process(process);
         cells.push(Cell { fault: FaultKind::ViewerFlood, target, moment: Moment::Moving });
     }
-    for fault in [FaultKind::SecondSet, FaultKind::PlantedRun] {
+    for process in CHAIN {
+        let target = Target::Process(process);
+        cells.push(Cell { fault: FaultKind::MemoryFull, target, moment: Moment::Moving });
+    }
+    for fault in [FaultKind::SecondSet, FaultKind::PlantedRun, FaultKind::ReportFull] {
         cells.push(Cell { fault, target: Target::Set, moment: Moment::Moving });
     }
     cells
 }
 
-/// Some of them, each fault at least once where it is worst: what takes three minutes.
+/// Some of them, each fault at least once where it is worst: what takes four minutes.
 pub fn quick() -> Vec<Cell> {
     let moving = |fault, process| cell(fault, Target::Process(process), Moment::Moving);
     let message = |fault, process, moment| Cell {
@@ -96,6 +101,9 @@ pub fn quick() -> Vec<Cell> {
         moving(Fault::SlowByHalf, "world"),
         message(MessageFault::Garbage, "world", Moment::Moving),
         message(MessageFault::Stale, "perception", Moment::Moving),
+        moving(Fault::PoisonedResume, "control"),
+        moving(Fault::DropOut, "world"),
+        moving(Fault::NoHandles, "perception"),
         moving(Fault::Kill, "monitor"),
         moving(Fault::CrashOnStart, "perception"),
         moving(Fault::StuckOnStart, "fields"),
@@ -129,9 +137,7 @@ fn goes_with(cell: &Cell, run: &[Cell]) -> bool {
     }
     let cells = || run.iter().chain([cell]);
     let mut restarts: BTreeMap<&str, usize> = BTreeMap::new();
-    for (cell, process) in
-        cells().flat_map(|cell| cell.target.processes().into_iter().map(move |p| (cell, p)))
-    {
+    for (cell, process) in cells().flat_map(|cell| cell.struck().into_iter().map(move |p| (cell, p))) {
         *restarts.entry(process).or_default() += cell.fault.restarts();
     }
     // What was refused is counted over the whole run: each reason belongs to one cell.
@@ -163,7 +169,10 @@ fn applies(fault: Fault, process: &str) -> bool {
     let of_the_chain =
         matches!(fault, Fault::SlowByHalf | Fault::Slow | Fault::SlowByFive | Fault::CrashLoop);
     let can_be_done = fault.only_of().is_none_or(|only| only == process);
-    can_be_done && (!of_the_chain || CHAIN.contains(&process))
+    let has_state = CHAIN.contains(&process) && process != "world";
+    can_be_done
+        && (!of_the_chain || CHAIN.contains(&process))
+        && (fault != Fault::PoisonedResume || has_state)
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 use crate::evidence::Ending;
+use crate::private_mounts::PrivateMounts;
 use crate::{Setup, Trouble};
 use coact_pipeline::Run;
 use coact_run_records::{LogFollower, SupervisorEvent, SupervisorEventKind};
-use rustix::process::{Pid, Signal, kill_process};
+use rustix::process::{Pid, Resource, Rlimit, Signal, getrlimit, kill_process, prlimit};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -12,6 +13,8 @@ use std::time::{Duration, Instant};
 #[derive(Debug)]
 pub(crate) struct RunningSet {
     child: Child,
+    // Before the folder, for one of them may lie there.
+    _mounts: Option<PrivateMounts>,
     folder: tempfile::TempDir,
     run: Run,
     log: LogFollower<SupervisorEvent>,
@@ -30,10 +33,16 @@ const GONE_WITHIN: Duration = Duration::from_secs(3);
 const DURATION_S: &str = "900";
 
 impl RunningSet {
-    /// `coact launch`, as soon as its run has a directory.
-    pub(crate) fn launch(setup: &Setup) -> Result<Self, Trouble> {
+    /// `coact launch`, as soon as its run has a directory; with shared memory and a place for the report that nobody else sees,
+    /// if they are to be `private`: the calling thread then sees nothing else either, as long as it lives.
+    pub(crate) fn launch(setup: &Setup, private: bool) -> Result<Self, Trouble> {
+        let folder = tempfile::tempdir().map_err(|error| Trouble::because("no folder was made")(&error))?;
+        let mut mounts = if private { Some(PrivateMounts::of_this_thread()?) } else { None };
+        if let Some(mounts) = &mut mounts {
+            mounts.mount(Path::new("/dev/shm"))?;
+            mounts.mount(folder.path())?;
+        }
         let begin = || -> std::io::Result<_> {
-            let folder = tempfile::tempdir()?;
             let file = |name: &str| File::create(folder.path().join(name)).map(Stdio::from);
             let (stdout, stderr) = (file("stdout")?, file("stderr")?);
             let report = report_of(folder.path());
@@ -48,21 +57,25 @@ impl RunningSet {
                 &setup.seed.to_string(),
             ]);
             let child = command.stdin(Stdio::null()).stdout(stdout).stderr(stderr).spawn()?;
-            Ok((child, folder, report))
+            Ok((child, report))
         };
-        let (mut child, folder, report) =
-            begin().map_err(|error| Trouble::because("no set was started")(&error))?;
+        let (mut child, report) = begin().map_err(|error| Trouble::because("no set was started")(&error))?;
         let Some(run) = find(&report) else {
             child.kill().ok();
             child.wait().ok();
             let said = std::fs::read_to_string(folder.path().join("stderr")).unwrap_or_default();
             return Err(Trouble(format!("no run was made within {} s: {said}", MADE_WITHIN.as_secs())));
         };
-        Ok(Self { child, folder, run, log: LogFollower::new(&report), seen: Vec::new() })
+        Ok(Self { child, _mounts: mounts, folder, run, log: LogFollower::new(&report), seen: Vec::new() })
     }
 
     pub(crate) fn run(&self) -> &Run {
         &self.run
+    }
+
+    /// Where the run reports to, and nothing else is.
+    pub(crate) fn folder(&self) -> &Path {
+        self.folder.path()
     }
 
     pub(crate) fn report(&self) -> PathBuf {
@@ -95,6 +108,15 @@ impl RunningSet {
     pub(crate) fn signal(&self, signal: Signal) -> Result<(), Trouble> {
         let refused = |_| Trouble("the supervisor did not run when the fault was due".into());
         kill_process(Pid::from_child(&self.child), signal).map_err(refused)
+    }
+
+    /// The kernel grants the supervisor at most so many file handles from now on; returns how many before.
+    pub(crate) fn limit_handles(&self, most: u64) -> Result<u64, Trouble> {
+        let pid = Pid::from_child(&self.child);
+        let maximum = getrlimit(Resource::Nofile).maximum;
+        let limited = prlimit(Some(pid), Resource::Nofile, Rlimit { current: Some(most), maximum });
+        let before = limited.map_err(|error| Trouble::because("the supervisor's file handles")(&error))?;
+        Ok(before.current.unwrap_or(u64::MAX))
     }
 
     /// Whether the process was started for this run: it was told the run's directory.

@@ -1,4 +1,5 @@
 use crate::evidence::Evidence;
+use crate::private_mounts::Filler;
 use crate::running_set::{POLL, RunningSet};
 use crate::stranger::Stranger;
 use crate::viewer::Viewer;
@@ -8,6 +9,7 @@ use coact_run_records::{Event, LogFollower, MotionReport};
 use coact_supervisor::{Fault, request_fault};
 use rustix::process::Signal;
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// What happened in one cell.
@@ -48,6 +50,10 @@ const SPOOFED: Duration = Duration::from_millis(300);
 const GOES_ON_WITHIN: Duration = Duration::from_secs(90);
 /// The samples of a dead set have ended when none came for so long.
 const SILENCE: Duration = Duration::from_millis(300);
+/// So long there is no room for the report: longer than it takes the monitor to write what it has.
+const REPORT_FULL: Duration = Duration::from_secs(6);
+/// So long a supervisor gets no file handles.
+const STARVED: Duration = Duration::from_millis(500);
 /// How long the second set lives.
 const SECOND_SET_S: &str = "2";
 
@@ -57,7 +63,7 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// There was no run, or it left nothing that can be read: none of the cells can be judged.
     pub(crate) fn run(setup: &'a Setup, cells: &[Cell]) -> Result<(Vec<Record>, Evidence), Trouble> {
-        let set = RunningSet::launch(setup)?;
+        let set = RunningSet::launch(setup, cells.iter().any(|cell| cell.fault.fills()))?;
         let mut trial = Self { setup, set, viewer: None };
         let records: Vec<_> = cells.iter().map(|cell| trial.perform(cell)).collect();
         let start_ns = trial.set.run().start_ns().ok().flatten();
@@ -203,7 +209,7 @@ impl<'a> Trial<'a> {
             let of_it = events.iter().filter(|event| event.process == process);
             (process, of_it.map(|event| event.generation).max().unwrap_or(0))
         };
-        cell.target.processes().into_iter().map(newest).collect()
+        cell.struck().into_iter().map(newest).collect()
     }
 
     fn strike(&mut self, cell: &Cell) -> Result<(), Trouble> {
@@ -212,6 +218,20 @@ impl<'a> Trial<'a> {
             FaultKind::Process(fault) => self.injure(cell, fault),
             FaultKind::Message(fault) => self.spoof(cell.target.processes()[0], fault),
             FaultKind::ViewerFlood => self.flood(cell.target.processes()[0]),
+            FaultKind::MemoryFull => {
+                let filler = Filler::fill(Path::new("/dev/shm"), || self.look().map(drop))?;
+                self.request(cell.target.processes()[0], Fault::Kill)?;
+                self.look_for(SURVIVES_WITHIN)?;
+                drop(filler);
+                Ok(())
+            }
+            FaultKind::ReportFull => {
+                let folder = self.set.folder().to_owned();
+                let filler = Filler::fill(&folder, || self.look().map(drop))?;
+                self.look_for(REPORT_FULL)?;
+                drop(filler);
+                Ok(())
+            }
             FaultKind::SecondSet => self.start_second_set(),
             FaultKind::PlantedRun => self.plant(),
         }
@@ -221,6 +241,11 @@ impl<'a> Trial<'a> {
         let by_signal = matches!(cell.moment, Moment::StartUp | Moment::Shutdown);
         if cell.target == Target::Supervisor {
             return self.injure_supervisor(fault);
+        }
+        if let (Target::Two(starved, killed), Fault::NoHandles) = (&cell.target, fault) {
+            // Who reads the other's messages has to open what its replacement sends.
+            self.request(starved, Fault::NoHandles)?;
+            return self.request(killed, Fault::Kill);
         }
         for process in cell.target.processes() {
             match by_signal {
@@ -241,12 +266,22 @@ impl<'a> Trial<'a> {
         let pause = match fault {
             Fault::StopShort => Duration::from_millis(50),
             Fault::Stop => Duration::from_secs(2),
+            Fault::NoHandles => return self.starve_supervisor(),
             fault => return self.set.signal(signal_of(fault)),
         };
         self.set.signal(Signal::STOP)?;
         let looked = self.look_for(pause);
         self.set.signal(Signal::CONT)?;
         looked
+    }
+
+    /// The supervisor gets no file handles for a while, in which a process dies that has to be replaced.
+    fn starve_supervisor(&mut self) -> Result<(), Trouble> {
+        let before = self.set.limit_handles(0)?;
+        let died = self.set.signal_process(Cell::WHILE_STARVED, Signal::KILL);
+        let looked = self.look_for(STARVED);
+        self.set.limit_handles(before)?;
+        died.and(looked)
     }
 
     fn spoof(&mut self, process: &str, fault: MessageFault) -> Result<(), Trouble> {
@@ -308,6 +343,7 @@ impl<'a> Trial<'a> {
         record: &mut Record,
     ) -> Result<(), Trouble> {
         let limit = if cell.fault.may_be_survived() { SURVIVES_WITHIN } else { REPLACED_WITHIN };
+        let limit = limit + cell.fault.lasts();
         let begin = Instant::now();
         while begin.elapsed() < limit && record.resumed.len() < generations.len() {
             self.look()?;

@@ -23,6 +23,7 @@ pub struct Lockstep {
     network: Network,
     control: Control,
     tick: u64,
+    control_hangs_until: u64,
     /// The newest sensor sample.
     pub sample: Box<SensorSample>,
     /// The newest percept.
@@ -110,6 +111,7 @@ impl Lockstep {
             network,
             task,
             tick: 0,
+            control_hangs_until: 0,
             sample: bytemuck::zeroed_box(),
             percept: bytemuck::zeroed_box(),
             previous_frame: frame.clone(),
@@ -156,6 +158,16 @@ impl Lockstep {
         }
     }
 
+    /// Control hangs: it does nothing for so many ticks, and its last command stays the newest.
+    pub fn hang_control(&mut self, ticks: u64) {
+        self.control_hangs_until = self.tick + ticks;
+    }
+
+    /// The machine stands still: the next period of every stage comes so many ticks late.
+    pub fn stall(&mut self, ticks: u64) {
+        self.tick += ticks;
+    }
+
     /// Runs one period of every stage.
     pub fn step(&mut self) {
         self.step_watched(&mut |_, stage| stage());
@@ -180,10 +192,14 @@ impl Lockstep {
         watch("fields", &mut || network.step(tick, Some(percept), &self.previous_frame, frame));
         frame.header = stamp(tick);
         frame.decision = self.decision.unwrap_or(frame.decision);
-        watch("control", &mut || {
-            control.step(tick, Some(sample), Some(percept), Some(frame), previous, command);
-        });
-        command.header = stamp(tick);
+        if tick < self.control_hangs_until {
+            command.clone_from(&self.previous_command);
+        } else {
+            watch("control", &mut || {
+                control.step(tick, Some(sample), Some(percept), Some(frame), previous, command);
+            });
+            command.header = stamp(tick);
+        }
         self.tick += 1;
     }
 

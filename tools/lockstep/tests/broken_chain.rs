@@ -3,9 +3,11 @@
 
 use coact_lockstep::Lockstep;
 use coact_messages::{ARM_JOINTS, Command, DriveMode, HoldReason, JOINTS};
-use coact_period::PERIOD_S;
+use coact_period::{PERIOD_S, seconds};
 use coact_pipeline::{RunSettings, WorldMode};
 use coact_robot::{JointLimits, Robot};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 use std::collections::VecDeque;
 use std::path::Path;
 
@@ -37,9 +39,10 @@ enum Break {
 struct Watched {
     stages: Lockstep,
     limits: [JointLimits; JOINTS],
-    /// Positions of the joints in the tick before, rad, and velocities in the last ones, rad/s.
-    position: [f64; JOINTS],
-    velocities: VecDeque<[f64; JOINTS]>,
+    /// The last step's tick, and the joints' positions, rad, and velocities, rad/s.
+    last: (u64, [f64; JOINTS], [f64; JOINTS]),
+    /// The joints' velocities in the last ticks that there were, rad/s.
+    velocities: VecDeque<(u64, [f64; JOINTS])>,
     /// Greatest fraction of the limits of speed and acceleration that the joints have used since the chain broke.
     used: [f64; 2],
 }
@@ -52,26 +55,36 @@ impl Watched {
         Self {
             stages,
             limits: coact_drive::joint_limits(&robot),
-            position: [0.0; JOINTS],
+            last: (0, [0.0; JOINTS], [0.0; JOINTS]),
             velocities: VecDeque::new(),
             used: [0.0; 2],
         }
     }
 
     fn step(&mut self) {
+        let tick = self.stages.ticks();
         self.stages.step();
         let (position, velocity) = (self.stages.state.position, self.stages.state.velocity);
-        if self.velocities.len() == MEAN {
-            let before = self.velocities.pop_front().unwrap();
+        let (last, from, before) = self.last;
+        if tick > last + 1 && last > 0 {
             for (joint, limits) in self.limits[..ARM_JOINTS].iter().enumerate() {
-                let speed = (position[joint] - self.position[joint]) / PERIOD_S;
-                let acceleration = (velocity[joint] - before[joint]) / (MEAN as f64 * PERIOD_S);
+                // From the middle of the last tick seen to the middle of those unseen.
+                let speed = (position[joint] - from[joint]) / seconds(tick - last);
+                let acceleration = (speed - before[joint]) / (seconds(tick - last + 1) / 2.0);
+                self.used[1] = self.used[1].max(acceleration.abs() / limits.acceleration);
+            }
+        }
+        if self.velocities.len() == MEAN {
+            let (since, before) = self.velocities.pop_front().unwrap();
+            for (joint, limits) in self.limits[..ARM_JOINTS].iter().enumerate() {
+                let speed = (position[joint] - from[joint]) / seconds(tick - last);
+                let acceleration = (velocity[joint] - before[joint]) / seconds(tick - since);
                 self.used[0] = self.used[0].max(speed.abs() / limits.velocity);
                 self.used[1] = self.used[1].max(acceleration.abs() / limits.acceleration);
             }
         }
-        self.position = position;
-        self.velocities.push_back(velocity);
+        self.last = (tick, position, velocity);
+        self.velocities.push_back((tick, velocity));
     }
 
     /// Runs until a joint of the arm is fast.
@@ -177,6 +190,59 @@ fn the_joints_keep_their_limits_when_control_dies_hangs_or_garbles() {
     for how in [Break::Silent, Break::NotFinite, Break::Ahead, Break::Jumping] {
         let [speed, acceleration] = break_chain(WorldMode::Kinematic, how);
         assert!(speed <= 1.0 && acceleration <= 1.05, "{how:?}: {speed}, {acceleration} of the limits");
+    }
+}
+
+/// The joints' motion on a machine that stands still with this probability after each tick, for up to so many ticks; and how many
+/// subgoals are achieved within a minute.
+fn stall(probability: f64, most: u64) -> ([f64; 2], u32) {
+    let mut watched = Watched::new(WorldMode::Kinematic);
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    while watched.stages.ticks() < 60_000 {
+        watched.step();
+        if random.random_bool(probability) {
+            watched.stages.stall(random.random_range(1..most));
+        }
+    }
+    (watched.used, watched.stages.truth.achieved.count_ones())
+}
+
+/// A body goes on while the machine stands still: the joints neither stop at once nor jump.
+#[test]
+fn the_joints_keep_their_limits_on_a_machine_that_stands_still_again_and_again() {
+    let ([speed, acceleration], achieved) = stall(0.01, 60);
+    assert!(speed <= 1.0 && acceleration <= 1.05, "{speed}, {acceleration} of the limits");
+    assert!(achieved > 0, "nothing was achieved");
+}
+
+/// A fifth of all cycles is missing, never more than nine at a time.
+#[test]
+fn the_assembly_goes_on_at_its_pace_on_a_machine_that_is_often_late() {
+    let ([speed, acceleration], achieved) = stall(0.05, 10);
+    assert!(speed <= 1.0 && acceleration <= 1.05, "{speed}, {acceleration} of the limits");
+    assert!(achieved >= 4, "only {achieved} subgoals were achieved");
+}
+
+#[test]
+fn the_assembly_goes_on_when_control_hangs_for_moments_while_the_arm_moves() {
+    for seed in 0..8 {
+        let mut watched = Watched::new(WorldMode::Kinematic);
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        watched.until_fast();
+        for _ in 0..random.random_range(0..300) {
+            watched.step();
+        }
+        watched.used = [0.0; 2];
+        watched.stages.hang_control(random.random_range(1..120));
+        let before = watched.stages.truth.achieved.count_ones();
+        let progress = |watched: &Watched| watched.stages.truth.achieved.count_ones() > before;
+        let found = (0..40_000).any(|_| {
+            watched.step();
+            progress(&watched)
+        });
+        assert!(found, "seed {seed}: nothing is achieved afterwards");
+        let [speed, acceleration] = watched.used;
+        assert!(speed <= 1.0 && acceleration <= 1.05, "seed {seed}: {speed}, {acceleration} of the limits");
     }
 }
 

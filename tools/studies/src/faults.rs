@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 #[derive(Debug, clap::Args)]
 #[command(after_help = after_help())]
 pub struct Args {
-    /// Each fault where it is worst, within three minutes
+    /// Each fault where it is worst, within four minutes
     #[arg(long)]
     quick: bool,
     /// These cells only, with commas between: TARGET:FAULT@MOMENT, parts of which may be left out
@@ -34,12 +34,12 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
-/// After this time the quick part begins no run any more: what is left of its three minutes is enough to end one.
-const QUICK: Duration = Duration::from_secs(150);
+/// After this time the quick part begins no run any more: what is left of its four minutes is enough to end one.
+const QUICK: Duration = Duration::from_secs(200);
 
 fn after_help() -> String {
     let examples = "Examples:
-  coact faults --quick                     three minutes
+  coact faults --quick                     four minutes
   coact faults --only kill@moving          SIGKILL of each process while the arm moves
   coact faults --only control:,@shutdown   all of control, and all at the end of a run
   coact faults --out reports/faults        the whole matrix, as a page; more than an hour";

@@ -7,8 +7,6 @@ use glam::DVec3;
 /// What robot and parts are moved by in one step.
 #[derive(Clone, Copy)]
 pub(crate) struct Influence<'a> {
-    /// Ticks since the step before.
-    pub elapsed: u64,
     /// What the joints follow; none before the drive has started.
     pub setpoints: Option<&'a [MotionState; JOINTS]>,
     pub stop: FingerStop,

@@ -1,7 +1,7 @@
 use super::influence::Influence;
 use super::joints::Joints;
 use crate::parts::Parts;
-use coact_period::{PERIOD_S, seconds};
+use coact_period::PERIOD_S;
 use coact_robot::ROBOT_JOINTS;
 
 /// Time constant of the servo, s: joints follow their setpoints with this lag. Chosen by hand, of the
@@ -21,17 +21,15 @@ impl KinematicRobot {
     }
 
     pub fn advance(&self, influence: &Influence, joints: &mut Joints, parts: &mut Parts) {
-        let Influence { elapsed, setpoints, stop, .. } = *influence;
+        let Influence { setpoints, stop, .. } = *influence;
         let before = joints.position;
         if let Some(setpoints) = setpoints {
-            let gain = if elapsed == 1 { self.gain } else { 1.0 - (1.0 - self.gain).powi(elapsed as i32) };
             for (joint, setpoint) in setpoints[..ROBOT_JOINTS].iter().enumerate() {
                 let goal = setpoint.position.min(stop.limit(joint));
-                joints.position[joint] += gain * (goal - joints.position[joint]);
+                joints.position[joint] += self.gain * (goal - joints.position[joint]);
             }
         }
-        let seconds = seconds(elapsed);
-        joints.velocity = std::array::from_fn(|joint| (joints.position[joint] - before[joint]) / seconds);
+        joints.velocity = std::array::from_fn(|joint| (joints.position[joint] - before[joint]) / PERIOD_S);
         parts.rest_free(influence.task);
     }
 }

@@ -36,6 +36,14 @@ impl SimulatedRobot {
         })
     }
 
+    /// So many steps are taken when so many ticks have passed.
+    pub fn steps(&self, passed: u64) -> u64 {
+        match self {
+            Self::Kinematic(_) => passed,
+            Self::Physics(_) => 1,
+        }
+    }
+
     /// Moves joints and loose parts by one step.
     pub fn advance(&mut self, influence: &Influence, joints: &mut Joints, parts: &mut Parts) {
         match self {

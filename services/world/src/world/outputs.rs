@@ -13,7 +13,7 @@ impl World {
     /// Reads all sensors.
     pub(super) fn sense(&mut self, tick: u64, out: &mut SensorSample) {
         let last = self.last_tick();
-        let forces = self.forces();
+        let (forces, blind) = (self.forces(), tick < self.blind_until);
         let Self { task, random, person, joints, parts, simulation, staging, .. } = self;
         read_joints(tick, random, joints, forces, &mut out.joints);
         let (eye, (blocks, count)) =
@@ -21,14 +21,14 @@ impl World {
         let occluders = &blocks[..count];
         let SimulationState { person: moved, tracker, .. } = simulation;
         let capture = || match person.recorded_keypoints(moved, tick) {
-            _ if staging.is_blind(Sense::Hand, tick) => Capture::Nothing,
+            _ if blind || staging.is_blind(Sense::Hand, tick) => Capture::Nothing,
             Some(keypoints) => Capture::Recorded(keypoints),
             None if person.is_lost(tick) => Capture::Nothing,
             None => Capture::Simulated(person.keypoints(moved, tick)),
         };
         track(tick, last, random, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
         out.hand = simulation.tracker.delivered;
-        if !staging.is_blind(Sense::Objects, tick) {
+        if !blind && !staging.is_blind(Sense::Objects, tick) {
             recognise(tick, last, random, parts, (eye, occluders), &mut simulation.scene);
         }
         out.scene = simulation.scene;
