@@ -47,7 +47,10 @@ impl Control {
     /// [`ControlError::Ungraspable`] when its hand cannot grasp a part, [`ControlError::Robot`] when its collision geometry
     /// cannot be used.
     pub fn new(robot: Robot, task: &Task, limits: &SafetyLimits) -> Result<Self, ControlError> {
-        Ok(Self::with(robot, task, limits, |planner| (PlannerLink::within(planner), ()))?.0)
+        Ok(Self::with(robot, task, limits, reachability::check, |planner| {
+            (PlannerLink::within(planner), ())
+        })?
+        .0)
     }
 
     /// Control for real time: its movements are planned by the thread that is returned, beside the servo.
@@ -59,13 +62,27 @@ impl Control {
         task: &Task,
         limits: &SafetyLimits,
     ) -> Result<(Self, PlanningThread), ControlError> {
-        Self::with(robot, task, limits, PlannerLink::beside)
+        Self::with(robot, task, limits, reachability::check, PlannerLink::beside)
+    }
+
+    /// The same for a process whose predecessor has found all places of the task within reach: to look for that again would take
+    /// half of its start.
+    ///
+    /// # Errors
+    /// As [`Control::new`], but for [`ControlError::Unreachable`].
+    pub fn of_replacement(
+        robot: Robot,
+        task: &Task,
+        limits: &SafetyLimits,
+    ) -> Result<(Self, PlanningThread), ControlError> {
+        Self::with(robot, task, limits, |_, _, _| Ok(()), PlannerLink::beside)
     }
 
     fn with<T>(
         robot: Robot,
         task: &Task,
         limits: &SafetyLimits,
+        check: impl FnOnce(&SkillPlanner, &HandGoals, &Task) -> Result<(), ControlError>,
         link: impl FnOnce(SkillPlanner) -> (PlannerLink, T),
     ) -> Result<(Self, T), ControlError> {
         let model = RobotModel::new(robot, task)?;
@@ -73,7 +90,7 @@ impl Control {
         let models = CollisionModels::new(&model.robot, task)?;
         let guard = Guard::new(&model, &models, limits.guard)?;
         let planner = SkillPlanner::new(model.clone(), models, goals.clone(), task, *limits);
-        reachability::check(&planner, &goals, task)?;
+        check(&planner, &goals, task)?;
         let park = model.park();
         let (planner, thread) = link(planner);
         let control = Self {

@@ -3,15 +3,14 @@
 use coact_fields::Network;
 use coact_joint_task::NetworkPlan;
 use coact_messages::{FieldFrame, Header, Percept, topic};
-use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick};
+use coact_realtime::{Cycle, Input, PortError, Process, StandIn, Tick};
 
 struct Fields {
     network: Network,
     percept: Input<Percept>,
     /// What the first frame is computed from: the network at rest, or the frame that a predecessor left.
     start: Box<FieldFrame>,
-    previous: Input<FieldFrame>,
-    frame: Output<FieldFrame>,
+    frame: StandIn<FieldFrame>,
 }
 
 impl Cycle for Fields {
@@ -22,10 +21,12 @@ impl Cycle for Fields {
     }
 
     fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
-        let Self { network, percept, start, previous, frame } = self;
-        previous.refresh()?;
-        let mut out = frame.loan()?;
-        network.step(tick.cycle, percept.latest(), previous.latest().unwrap_or(start), &mut out);
+        let Self { network, percept, start, frame } = self;
+        if let Some(sent) = frame.sent_by_other(tick)? {
+            return Ok(sent);
+        }
+        let (previous, mut out) = frame.prepare()?;
+        network.step(tick.cycle, percept.latest(), previous.unwrap_or(start), &mut out);
         out.send(tick.cycle, percept.header().map_or(0, |header| header.sensor_ns))
     }
 }
@@ -35,9 +36,8 @@ fn main() -> anyhow::Result<()> {
     let (task, plan) = NetworkPlan::load(&process.run().settings().task)?;
     let network = Network::new(plan, task.fingerprint, process.run().settings().seed)?;
     let percept = process.bus().trigger(topic::PERCEPT)?;
-    let previous = process.bus().input(topic::FIELDS)?;
-    let mut frame: Output<FieldFrame> = process.bus().output(topic::FIELDS)?;
-    let start = match process.checkpoint(&mut frame)? {
+    let mut frame: StandIn<FieldFrame> = process.stand_in(topic::FIELDS)?;
+    let start = match process.checkpoint(frame.output())? {
         Some(last) if network.fits(&last) => last,
         Some(last) => {
             let cycle = last.header.cycle;
@@ -48,7 +48,7 @@ fn main() -> anyhow::Result<()> {
         }
         None => at_rest(&network),
     };
-    Ok(process.run_cycles(Fields { network, percept, start, previous, frame })?)
+    Ok(process.run_cycles(Fields { network, percept, start, frame })?)
 }
 
 fn at_rest(network: &Network) -> Box<FieldFrame> {

@@ -45,12 +45,17 @@ impl Metrics {
         Self { nodes, fresh_ns: fresh.as_nanos() as u64, ..self }
     }
 
-    /// Adds one cycle of a process and gives what it tells; nothing for one that was added before.
+    /// Adds one cycle of a process and gives what it tells; nothing for one that was added before. Of a standby only what its
+    /// stage's readers got by it, and its own counters: to be added after the pulses of its stage.
     pub fn pulse(&mut self, process: &str, pulse: &Pulse) -> CycleFindings {
         if self.counters.get(process).is_some_and(|counters| !counters.is_new(pulse)) {
             return CycleFindings::default();
         }
         let node = self.nodes.iter().find(|node| node.process == process);
+        if let Some(stage) = node.and_then(|node| node.standby_of.clone()) {
+            self.counters.entry(stage).or_default().add_of_standby(pulse, self.fresh_ns);
+            return self.counters.entry(process.to_owned()).or_default().add(pulse, self.fresh_ns);
+        }
         let from = node.and_then(|node| node.input_from.clone());
         let last = node.is_some_and(|node| node.last);
         let published = pulse.header.published_ns;

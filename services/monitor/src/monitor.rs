@@ -6,7 +6,7 @@ use crate::{
     TaskWatch, Tracking, Watched,
 };
 use coact_joint_task::Task;
-use coact_messages::{Command, FieldFrame, NONE, Pulse, Refusal, SensorSample, Speech, Truth};
+use coact_messages::{Command, FieldFrame, NONE, Pulse, Refusal, SensorSample, Speech, Truth, topic};
 use coact_period::cycles;
 use coact_run_records::{
     Environment, Event, LogFollower, OperatorStopReport, Record, RunLog, Snapshot, Summary, SupervisorEvent,
@@ -46,6 +46,8 @@ pub struct Monitor {
     newest_command: Option<Box<Command>>,
     /// Name of the process that commands the arm.
     commanding: Option<String>,
+    /// Cycle of the newest command that it, or its standby, told of.
+    commanded: u64,
     /// When each process was requested to end, ns of `CLOCK_MONOTONIC`.
     stop_requested: BTreeMap<String, u64>,
     /// What operators did.
@@ -122,6 +124,7 @@ impl Monitor {
             separation,
             newest_command: None,
             commanding,
+            commanded: 0,
             stop_requested: BTreeMap::new(),
             operators: Vec::new(),
             tracking: Tracking::new(),
@@ -162,7 +165,9 @@ impl Monitor {
         let found = self.latencies.pulse(process, pulse);
         self.faults.pulse(process, pulse, found.outage);
         self.blindness.lost(pulse.header.cycle, found.unseen);
-        if self.commanding.as_deref() == Some(process) {
+        let commands = self.commanding.as_deref() == Some(topic::stage(process));
+        if commands && pulse.header.cycle > self.commanded {
+            self.commanded = pulse.header.cycle;
             self.motion.commanded(pulse);
         }
     }

@@ -26,6 +26,9 @@ pub struct ProcessCounters {
     /// Messages that it ignored, by the number of their [`Refusal`].
     #[serde(default)]
     pub refused: [u64; Refusal::COUNT],
+    /// Sequence of the newest output that is accounted for, whoever told of it.
+    #[serde(default)]
+    newest_output: Option<u64>,
     /// Misses at the end of what was seen so far, without a timely cycle in between.
     run: u64,
     /// PulseCounters of the newest pulse.
@@ -94,25 +97,40 @@ impl ProcessCounters {
         self.run = if missed == 0 { 0 } else { self.run + missed };
         self.longest_miss_run = self.longest_miss_run.max(self.run);
         self.last = Some(now);
+        self.newest_output = Some(now.sequence);
+        CycleFindings { outage: self.account(pulse, timely, fresh_ns), unseen }
+    }
+
+    /// Adds a cycle of the process's standby, which tells of the same outputs: those that the process did not make itself.
+    pub fn add_of_standby(&mut self, pulse: &Pulse, fresh_ns: u64) {
+        let sequence = pulse.header.sequence;
+        let outputs = self.newest_output.map_or(1, |newest| sequence.saturating_sub(newest));
+        self.newest_output = self.newest_output.max(Some(sequence));
+        let timely = outputs.saturating_sub(u64::from(!is_timely(pulse)));
+        self.account(pulse, timely, fresh_ns);
+    }
+
+    /// Accounts for the cycles up to that of `pulse`, `timely` of which had a timely output; returns how many had none.
+    fn account(&mut self, pulse: &Pulse, timely: u64, fresh_ns: u64) -> u64 {
         let header = &pulse.header;
-        let is_timely = header.published_ns <= pulse.released_ns + PERIOD_NS;
+        let is_timely = is_timely(pulse);
         let is_good = is_timely && header.published_ns.saturating_sub(header.sensor_ns) <= fresh_ns;
         let good = if is_good { timely } else { 0 };
         self.outage_on_fresh_data.report(header.cycle, good, is_good);
-        CycleFindings { outage: self.outage.report(header.cycle, timely, is_timely), unseen }
+        self.outage.report(header.cycle, timely, is_timely)
     }
 
     /// Timely outputs since the newest pulse, that of `now` included. A replacement counts its sequence on from its
     /// predecessor's checkpoint, or from 0 without one.
     fn timely_outputs(&self, now: PulseCounters) -> u64 {
-        let (outputs, missed) = match self.last {
-            Some(last) if last.generation == now.generation => {
-                (now.sequence.saturating_sub(last.sequence), now.missed.saturating_sub(last.missed))
+        let (outputs, missed) = match (self.last, self.newest_output) {
+            (Some(last), Some(newest)) if last.generation == now.generation => {
+                (now.sequence.saturating_sub(newest), now.missed.saturating_sub(last.missed))
             }
-            Some(last) if now.sequence > last.sequence => (now.sequence - last.sequence, now.missed),
+            (Some(_), Some(newest)) if now.sequence > newest => (now.sequence - newest, now.missed),
             // Of a replacement that counts from further back, no more is known than this one output.
-            Some(_) => (1, now.missed),
-            None => (now.sequence + 1, now.missed),
+            (Some(_), _) => (1, now.missed),
+            (None, _) => (now.sequence + 1, now.missed),
         };
         outputs.saturating_sub(missed)
     }
@@ -125,4 +143,8 @@ impl ProcessCounters {
             _ => 0,
         }
     }
+}
+
+fn is_timely(pulse: &Pulse) -> bool {
+    pulse.header.published_ns <= pulse.released_ns + PERIOD_NS
 }

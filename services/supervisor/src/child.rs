@@ -5,6 +5,7 @@ use rustix::process::{
     Pid, PidfdFlags, Resource, Rlimit, Signal, WaitId, WaitIdOptions, getrlimit, pidfd_open,
     pidfd_send_signal, prlimit, set_parent_process_death_signal, waitid,
 };
+use rustix::thread::{sched_getaffinity, sched_setaffinity};
 use std::io;
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd, OwnedFd};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
@@ -101,6 +102,35 @@ impl RunningChild {
         {
             tracing::warn!("process {}: cannot limit its file handles: {error}", self.pid());
         }
+    }
+
+    /// Makes it an ordinary process, on the supervisor's own cores: killed, it then gives back its memory, which takes
+    /// milliseconds, without keeping others from theirs. Not granted, it keeps its class.
+    pub(crate) fn demote(&self) {
+        let (pid, ordinary) = (self.pid() as i32, libc::sched_param { sched_priority: 0 });
+        // SAFETY: a system call that reads the parameters it is given.
+        unsafe { libc::sched_setscheduler(pid, libc::SCHED_OTHER, &raw const ordinary) };
+        if let (Some(pid), Ok(cores)) = (Pid::from_raw(pid), sched_getaffinity(None)) {
+            sched_setaffinity(Some(pid), &cores).ok();
+        }
+    }
+
+    /// Whether a signal has stopped it (SIGSTOP, SIGTTIN): it does nothing until somebody continues it.
+    pub fn is_stopped(&self) -> bool {
+        let stopped = WaitIdOptions::STOPPED | WaitIdOptions::NOWAIT | WaitIdOptions::NOHANG;
+        waitid(WaitId::PidFd(self.pidfd.as_fd()), stopped).is_ok_and(|status| status.is_some())
+    }
+
+    /// The time that it has computed for; `None` when it is dead.
+    pub fn computed(&self) -> Option<Duration> {
+        let mut clock = 0;
+        let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+        // SAFETY: system calls that write only to the two variables that they are given.
+        let failed = unsafe {
+            libc::clock_getcpuclockid(self.pid() as i32, &raw mut clock) != 0
+                || libc::clock_gettime(clock, &raw mut time) != 0
+        };
+        (!failed).then(|| Duration::new(time.tv_sec as u64, time.tv_nsec as u32))
     }
 
     /// How it ended, if it did. It is reaped when this is dropped.

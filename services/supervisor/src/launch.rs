@@ -5,9 +5,11 @@ use crate::{
     SupervisorLog, Terminal,
 };
 use coact_joint_task::Task;
+use coact_messages::topic;
 use coact_pipeline::{Pipeline, ProcessEntry, Run, RunSettings, Trigger};
 use coact_run_records::{Event, RunLog, Summary, TaskReport};
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -99,6 +101,10 @@ impl Launch {
             if !program.is_file() {
                 return Err(LaunchError::MissingProgram { process: entry.name.clone(), program });
             }
+            let stage = entry.standby_of.as_deref();
+            if let Some(stage) = stage.filter(|stage| topic::standby(stage).as_ref() != Some(&entry.name)) {
+                return Err(LaunchError::NoStandby { process: stage.to_owned() });
+            }
         }
         for injection in &self.injections {
             self.pipeline.process(&injection.process)?;
@@ -146,7 +152,7 @@ impl Launch {
             needed: entry.needed,
             realtime: entry.realtime,
             program: self.program(entry),
-            arguments: vec!["--run".into(), run.directory().into()],
+            arguments: arguments(run, entry),
             ready_directory: run.directory().join("ready"),
             ready_within: entry.ready_within,
             heartbeat_file: run.heartbeat_file(&entry.name),
@@ -159,6 +165,12 @@ impl Launch {
         });
         ProcessSet::new(specs, self.pipeline.restart, log, on_line)
     }
+}
+
+fn arguments(run: &Run, entry: &ProcessEntry) -> Vec<OsString> {
+    let mut arguments = vec!["--run".into(), run.directory().into()];
+    arguments.extend(entry.standby_of.as_ref().map(|_| "--standby".into()));
+    arguments
 }
 
 /// Raises the limit of open files as far as that is allowed, for itself and for all that it starts: the usual soft limit of

@@ -1,4 +1,5 @@
 use crate::GaveUp;
+use coact_messages::topic;
 use coact_pipeline::{PipelineError, RunError};
 use coact_realtime::PortError;
 use coact_run_records::RecordError;
@@ -15,6 +16,12 @@ pub enum LaunchError {
         process: String,
         /// Where its program was expected.
         program: PathBuf,
+    },
+    /// The process table wants a standby of a stage that can have none.
+    #[error("process {process}: standby = true in the process table; expected it only of {}", topic::WITH_STANDBY.join(" and "))]
+    NoStandby {
+        /// Name of the process.
+        process: String,
     },
     /// An injection names no process of the table.
     #[error(transparent)]

@@ -128,9 +128,9 @@ impl ProcessSet {
         }
         let due_since = *self.pulses_due_since.get_or_insert(watched);
         let silent =
-            |(index, process): (usize, &Supervised)| Some((index, process.silence(watched, due_since)?));
+            |(index, process): (usize, &mut Supervised)| Some((index, process.silence(watched, due_since)?));
         let (indices, silences): (Vec<_>, Vec<_>) =
-            self.processes.iter().enumerate().filter_map(silent).unzip();
+            self.processes.iter_mut().enumerate().filter_map(silent).unzip();
         for (index, limit) in indices.into_iter().zip(watchdog::hung(&silences)) {
             if let (Some(limit), Some(running)) = (limit, self.processes[index].running_mut()) {
                 running.kill(KillReason::Hung(limit));
@@ -149,8 +149,7 @@ impl ProcessSet {
         let running =
             self.processes.iter_mut().find(|p| p.spec.name == process).and_then(Supervised::running_mut);
         if let Some(running) = running {
-            running.last_sign = watched;
-            running.has_pulsed = true;
+            running.pulse(watched);
         }
     }
 

@@ -1,4 +1,5 @@
 use crate::Checkpoints;
+use coact_messages::topic;
 use coact_pipeline::{MemoryReserve, Pipeline, Run, RunError};
 use coact_realtime::{Bus, CheckpointStore, PortError, Reservation, TopicAnchors, monotonic_time};
 use std::collections::{BTreeMap, BTreeSet};
@@ -164,7 +165,7 @@ impl Checkpoints for RunTopics {
 
 /// What a process knows only from its checkpoint.
 fn lost(process: &str) -> &'static str {
-    match process {
+    match topic::stage(process) {
         "world" => "where the simulated parts and the person were",
         "perception" => "what was seen of parts and of the person's hand",
         "fields" => "remembered parts, achieved subgoals and the decision",

@@ -1,8 +1,12 @@
 use crate::RunningChild;
 use crate::kill_reason::KillReason;
 use crate::start_fault::StartFault;
+use crate::watchdog;
 use rustix::process::Signal;
 use std::time::{Duration, SystemTime};
+
+/// Who computes for this fraction of the time has its core for itself. Chosen by hand: interrupts take the rest.
+const BUSY: f64 = 0.8;
 
 /// What is known of a running process. Times are of `CLOCK_MONOTONIC`.
 #[derive(Debug)]
@@ -14,6 +18,8 @@ pub(crate) struct Running {
     pub(crate) last_sign: Duration,
     /// It has sent a pulse.
     pub(crate) has_pulsed: bool,
+    /// Since when it has been watched more closely because it is silent: by the watch clock, and the time that it had computed for.
+    watched_closely: Option<(Duration, Duration)>,
     /// It has real-time scheduling, by its own report.
     pub(crate) is_realtime: bool,
     /// Its newest heartbeat, if it has any.
@@ -35,6 +41,7 @@ impl Running {
             ready: false,
             last_sign: Duration::ZERO,
             has_pulsed: false,
+            watched_closely: None,
             is_realtime: false,
             heartbeat: None,
             kill_reason: None,
@@ -43,10 +50,33 @@ impl Running {
         }
     }
 
+    /// It published a pulse: it is not hung.
+    pub(crate) fn pulse(&mut self, watched: Duration) {
+        self.last_sign = watched;
+        self.has_pulsed = true;
+        self.watched_closely = None;
+    }
+
+    /// Whether it certainly hangs, after a `silence`: it is stopped, or it computes without end. One that waits for its core or
+    /// for another process does neither.
+    pub(crate) fn hangs_for_certain(&mut self, silence: Duration, watched: Duration) -> bool {
+        if silence < watchdog::CERTAIN / 2 {
+            return false;
+        }
+        if self.child.is_stopped() {
+            return true;
+        }
+        let Some(computed) = self.child.computed() else { return false };
+        let (since, before) = *self.watched_closely.get_or_insert((watched, computed));
+        let (span, busy) = (watched.saturating_sub(since), computed.saturating_sub(before));
+        self.has_pulsed && span >= watchdog::CERTAIN / 2 && busy >= span.mul_f64(BUSY)
+    }
+
     /// Kills it, once, for this reason.
     pub(crate) fn kill(&mut self, reason: KillReason) {
         if self.kill_reason.is_none() {
             self.kill_reason = Some(reason);
+            self.child.demote();
             self.child.signal(Signal::KILL);
         }
     }

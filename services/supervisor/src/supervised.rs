@@ -178,13 +178,15 @@ impl Supervised {
     }
 
     /// How long it has been silent, if it is one that sends pulses in each cycle.
-    pub(crate) fn silence(&self, watched: Duration, pulses_from: Duration) -> Option<Silence> {
+    pub(crate) fn silence(&mut self, watched: Duration, pulses_from: Duration) -> Option<Silence> {
         let limit = self.spec.hung_after?;
-        let running = self.running().filter(|running| running.ready)?;
+        let running = self.running_mut().filter(|running| running.ready)?;
+        let for_time = watched.saturating_sub(running.last_sign.max(pulses_from));
         Some(Silence {
-            for_time: watched.saturating_sub(running.last_sign.max(pulses_from)),
+            for_time,
             limit,
             is_steady: running.has_pulsed && running.is_realtime,
+            is_certain: running.hangs_for_certain(for_time, watched),
         })
     }
 

@@ -9,7 +9,13 @@ pub(crate) struct Silence {
     pub(crate) limit: Duration,
     /// It is real time and has sent a pulse already: others' load does not delay it, and what it does once is done.
     pub(crate) is_steady: bool,
+    /// It is stopped, or computes without end: no late machine explains its silence.
+    pub(crate) is_certain: bool,
 }
+
+/// How long a process may be silent that certainly hangs. Chosen by hand: more than the longest cycle that a machine's stall or an
+/// injected slowness makes, of some periods.
+pub(crate) const CERTAIN: Duration = Duration::from_millis(10);
 
 /// How long a process may be silent that is not real time, has not sent its first pulse yet, or is silent together with all
 /// others: then the machine may be late. Chosen by hand.
@@ -17,11 +23,12 @@ pub(crate) const MACHINE_LATE: Duration = Duration::from_millis(500);
 
 /// Which of the watched processes hang, with the limit that each has exceeded.
 ///
-/// One that is silent while another one goes on, hangs. When all are silent together, their core stands still, or one
+/// One that certainly hangs is not waited for. One that is silent while another one goes on, hangs. When all are silent together, their core stands still, or one
 /// keeps it from the others: that is waited for as long as machines are late.
 pub(crate) fn hung(watched: &[Silence]) -> Vec<Option<Duration>> {
     let all_silent = watched.len() > 1 && watched.iter().all(|silence| silence.for_time > silence.limit);
     let limit = |silence: &Silence| match silence.is_steady && !all_silent {
+        _ if silence.is_certain => silence.limit.min(CERTAIN),
         true => silence.limit,
         false => silence.limit.max(MACHINE_LATE),
     };
@@ -35,7 +42,7 @@ mod tests {
     const LIMIT: Duration = Duration::from_millis(10);
 
     fn silent(ms: u64) -> Silence {
-        Silence { for_time: Duration::from_millis(ms), limit: LIMIT, is_steady: true }
+        Silence { for_time: Duration::from_millis(ms), limit: LIMIT, is_steady: true, is_certain: false }
     }
 
     #[test]
@@ -58,6 +65,16 @@ mod tests {
         assert_eq!(hung(&[silent(1), beginning]), [None, None]);
         let too_long = Silence { is_steady: false, ..silent(501) };
         assert_eq!(hung(&[silent(1), too_long]), [None, Some(MACHINE_LATE)]);
+    }
+
+    #[test]
+    fn one_that_certainly_hangs_is_not_waited_for() {
+        let limit = Duration::from_millis(100);
+        let stopped = |ms| Silence { limit, is_certain: true, ..silent(ms) };
+        let waits = |ms| Silence { limit, ..silent(ms) };
+        assert_eq!(hung(&[stopped(10), stopped(11), waits(99)]), [None, Some(CERTAIN), None]);
+        let all = Silence { is_steady: false, ..stopped(11) };
+        assert_eq!(hung(&[all, waits(101)]), [Some(CERTAIN), None], "whatever the others do");
     }
 
     #[test]

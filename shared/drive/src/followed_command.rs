@@ -23,15 +23,16 @@ impl FollowedCommand {
         }
     }
 
-    /// Whether a command comes after this one: of the same writer, with no more messages between than cycles; or of its
-    /// replacement, which there is only when the writer `is_silent`. A replacement may begin to count anew.
+    /// Whether a command comes after this one: with no more messages between than cycles, whether it is of the same writer, of its
+    /// replacement or of its standby, which count on; or of a replacement that counts anew, which there is only when the writer
+    /// `is_silent`.
     pub fn is_before(&self, header: &Header, is_silent: bool) -> bool {
         if !self.exists.is_set() {
             return true;
         }
         let cycles = header.cycle.saturating_sub(self.cycle);
         let messages = header.sequence.saturating_sub(self.sequence);
-        let goes_on = self.generation == header.generation.into() && (1..=cycles).contains(&messages);
+        let goes_on = (1..=cycles).contains(&messages);
         let replaces = self.generation < header.generation.into() && cycles > 0 && is_silent;
         goes_on || replaces
     }

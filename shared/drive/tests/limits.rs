@@ -175,7 +175,10 @@ fn spoil(rig: &mut Rig, fault: Fault, number: f64) {
         Fault::Future => command.header.cycle += 1500,
         Fault::Old => command.header.cycle -= 60,
         Fault::OtherLayout => command.header.layout -= 1,
-        Fault::OtherGeneration => command.header.generation = [0, 7][joint % 2],
+        // It knows nothing of what was sent last: a replacement or a standby counts on.
+        Fault::OtherGeneration => {
+            (command.header.generation, command.header.sequence) = ([0, 7][joint % 2], 0)
+        }
         Fault::OtherSequence => command.header.sequence += 1000,
         Fault::None | Fault::Missing | Fault::Held => {}
     }
@@ -328,9 +331,10 @@ fn a_replacement_is_followed_once_its_predecessor_is_silent() {
         rig.next_good(1.0);
         rig.step(true, HoldReason::None);
     }
-    // While the writer is there, another one is foreign.
+    // While the writer is there, another one that does not count on is foreign.
     rig.next_good(1.0);
-    rig.command.header.generation += 1;
+    let counted = rig.command.header.sequence;
+    (rig.command.header.generation, rig.command.header.sequence) = (9, 0);
     rig.step(true, HoldReason::None);
     assert_eq!(rig.before.refused[CommandRefusal::OutOfOrder as usize], 1);
     for _ in 0..10 {
@@ -343,8 +347,19 @@ fn a_replacement_is_followed_once_its_predecessor_is_silent() {
     assert_eq!(rig.step(true, HoldReason::None).mode, DriveMode::Following as u32);
     // The dead one's late messages are not followed.
     rig.next_good(0.0);
-    rig.command.header.generation = 3;
+    (rig.command.header.generation, rig.command.header.sequence) = (3, counted);
     assert_ne!(rig.step(true, HoldReason::None).mode, DriveMode::Following as u32);
+}
+
+#[test]
+fn a_standby_that_counts_on_is_followed_at_once() {
+    let mut rig = Rig::new();
+    for cycle in 0..100_u32 {
+        rig.next_good(1.0);
+        // Stage and standby are in generations of their own.
+        rig.command.header.generation = [2, 0, 5][(cycle / 10 % 3) as usize];
+        assert_eq!(rig.step(true, HoldReason::None).mode, DriveMode::Following as u32, "in cycle {cycle}");
+    }
 }
 
 #[test]

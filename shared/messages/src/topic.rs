@@ -11,6 +11,8 @@
 //! assert!(topic::may_read(topic::TRUTH, "monitor") && !topic::may_read(topic::TRUTH, "control"));
 //! assert!(topic::reads("control", topic::FIELDS) && !topic::reads("control", &topic::resume(topic::FIELDS)));
 //! assert_eq!(topic::depth(&topic::pulse("world")), 512);
+//! assert_eq!(topic::standby("fields").as_deref(), Some("fields-standby"));
+//! assert!(topic::reads("fields-standby", topic::PERCEPT) && topic::standby("world").is_none());
 //! assert_eq!((topic::writer(topic::TRUTH), topic::writer(topic::HEARD)), (Some("world"), None));
 //! ```
 
@@ -43,6 +45,11 @@ pub const ANYONE: &str = "anyone";
 
 /// The stages of the chain, in its order. Each publishes a pulse in each cycle, and resumes from a checkpoint.
 const STAGES: &[&str] = &["world", "perception", "fields", "control"];
+
+/// The stages that can have a standby.
+pub const WITH_STANDBY: &[&str] = &["fields", "control"];
+/// What the name of a standby ends with.
+const STANDBY: &str = "-standby";
 
 /// Depth of the chain's topics, which only the newest message matters of: it, and the one that a reader still holds.
 const NEWEST: usize = 2;
@@ -104,7 +111,8 @@ pub const ALL: [TopicEntry; 11] = [
         name: COMMAND,
         message: "Command",
         writers: &["control"],
-        readers: &["world", "monitor", "supervisor"],
+        // Control looks whether its standby has sent the command of a cycle already, and the standby whether control has.
+        readers: &["world", "control", "monitor", "supervisor"],
         ..CHAIN
     },
     TopicEntry {
@@ -174,6 +182,16 @@ pub fn pulse(process: &str) -> String {
     format!("coact/pulse/{process}")
 }
 
+/// Name of the standby of a stage; `None` for one that cannot have any.
+pub fn standby(process: &str) -> Option<String> {
+    WITH_STANDBY.contains(&process).then(|| format!("{process}{STANDBY}"))
+}
+
+/// The stage that a process is, or stands by for: a standby reads and writes what its stage does.
+pub fn stage(process: &str) -> &str {
+    process.strip_suffix(STANDBY).filter(|stage| WITH_STANDBY.contains(stage)).unwrap_or(process)
+}
+
 /// The checkpoint of a killed writer of `topic`, published by the supervisor for the writer's replacement.
 pub fn resume(topic: &str) -> String {
     format!("{topic}/resume")
@@ -181,7 +199,8 @@ pub fn resume(topic: &str) -> String {
 
 /// The topic whose newest message is the checkpoint of `process`; `None` for a process that needs none.
 pub fn state_of(process: &str) -> Option<&'static str> {
-    ALL.iter().find(|entry| entry.checkpoint && entry.writers.contains(&process)).map(|entry| entry.name)
+    let stage = stage(process);
+    ALL.iter().find(|entry| entry.checkpoint && entry.writers.contains(&stage)).map(|entry| entry.name)
 }
 
 /// True if each message of `topic` is announced by an event, so that a process may wait for it.
@@ -197,17 +216,17 @@ pub fn depth(topic: &str) -> usize {
 /// Whether the table has `process` read `topic`. Of the checkpoints a process reads its own.
 pub fn reads(process: &str, topic: &str) -> bool {
     let is_own = |of| state_of(process) == Some(of);
-    find(topic).is_some_and(|entry| entry.readers.contains(&process))
+    find(topic).is_some_and(|entry| entry.readers.contains(&stage(process)))
         && topic.strip_suffix("/resume").is_none_or(is_own)
 }
 
 /// Whether the table has `process` write `topic`. Of the pulses a process writes its own.
 pub fn writes(process: &str, topic: &str) -> bool {
-    find(topic).is_some_and(|entry| entry.writers.contains(&process))
+    find(topic).is_some_and(|entry| entry.writers.contains(&stage(process)))
         && topic.strip_prefix("coact/pulse/").is_none_or(|of| of == process)
 }
 
-/// The one process that writes `topic`; `None` when anybody may, or for a topic of a program outside the set.
+/// The one process that writes `topic`, apart from its standby; `None` when anybody may, or for a topic of a program outside the set.
 pub fn writer(topic: &str) -> Option<&str> {
     let entry = find(topic)?;
     match entry.name.strip_suffix('*') {
@@ -218,7 +237,7 @@ pub fn writer(topic: &str) -> Option<&str> {
 
 /// Whether `process` may read `topic`.
 pub fn may_read(topic: &str, process: &str) -> bool {
-    find(topic).is_none_or(|entry| entry.is_open_to(process))
+    find(topic).is_none_or(|entry| entry.is_open_to(stage(process)))
 }
 
 /// The entry of `topic`; `None` for a topic of a program outside the set.

@@ -57,6 +57,8 @@ struct ProcessText {
     realtime: bool,
     priority: Option<Spanned<u8>>,
     core: Option<usize>,
+    #[serde(default)]
+    standby: bool,
     trigger: Option<String>,
     latest_start_us: Option<Spanned<u64>>,
     ready_within_ms: Option<u64>,
@@ -100,7 +102,10 @@ impl Pipeline {
         let restart = source.restart(&raw.restart)?;
         let mut processes = Vec::with_capacity(raw.process.len());
         for entry in raw.process {
-            processes.push(source.process(entry, &processes)?);
+            let has_standby = entry.standby;
+            let process = source.process(entry, &processes)?;
+            let standby = has_standby.then(|| process.standby());
+            processes.extend(std::iter::once(process).chain(standby));
         }
         processes.sort_by_key(|entry| entry.order);
         Ok(Self { restart, processes })
@@ -143,6 +148,7 @@ impl Source<'_> {
             needed: raw.needed.unwrap_or(true),
             realtime: raw.realtime,
             priority,
+            standby_of: None,
             core: raw.core,
             trigger,
             latest_start,

@@ -16,6 +16,8 @@ pub struct ProcessEntry {
     pub realtime: bool,
     /// SCHED_FIFO priority, 1 to 99; used when `realtime`.
     pub priority: u8,
+    /// The process that it stands by for, if it is a standby: in each cycle in which that one sends nothing, it does.
+    pub standby_of: Option<String>,
     /// Core to which it is pinned; any core when absent.
     pub core: Option<usize>,
     /// What starts its cycles.
@@ -26,6 +28,21 @@ pub struct ProcessEntry {
     pub ready_within: Duration,
     /// How long it may take to stop after SIGTERM before it is killed.
     pub stop_grace: Duration,
+}
+
+impl ProcessEntry {
+    /// Highest priority of SCHED_FIFO.
+    const HIGHEST: u8 = 99;
+
+    /// A standby of this process: the same program on the same core. The task goes on without it.
+    ///
+    /// Its priority is one above the process's: a process that is killed gives back its memory in its own priority, for
+    /// milliseconds, and the standby has to get on meanwhile.
+    pub(crate) fn standby(&self) -> Self {
+        let name = format!("{}-standby", self.name);
+        let priority = if self.realtime { (self.priority + 1).min(Self::HIGHEST) } else { self.priority };
+        Self { name, standby_of: Some(self.name.clone()), needed: false, priority, ..self.clone() }
+    }
 }
 
 /// What starts the cycles of a process.

@@ -139,3 +139,15 @@ fn reference_table_explains_every_key() {
         }
     }
 }
+
+#[test]
+fn a_standby_is_a_process_of_its_own_that_the_task_can_do_without() {
+    let with = GOOD.replacen("priority = 81\n", "priority = 81\nstandby = true\n", 1);
+    let pipeline = Pipeline::parse(&with, "p.toml".as_ref()).unwrap();
+    let (stage, standby) = (pipeline.process("fields").unwrap(), pipeline.process("fields-standby").unwrap());
+    assert_eq!((stage.standby_of.as_deref(), standby.standby_of.as_deref()), (None, Some("fields")));
+    assert_eq!((standby.priority, standby.needed, &standby.trigger), (82, false, &stage.trigger));
+    let taken = with.replacen("name = \"world\"", "name = \"fields-standby\"", 1);
+    let refused = Pipeline::parse(&taken, "p.toml".as_ref()).unwrap_err().to_string();
+    assert!(refused.contains("a name that no process above has"), "{refused}");
+}

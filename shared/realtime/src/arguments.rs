@@ -7,4 +7,7 @@ pub struct Arguments {
     /// Directory of the run to take part in.
     #[arg(long, value_name = "DIR")]
     pub run: PathBuf,
+    /// Take part as the standby of the stage.
+    #[arg(long)]
+    pub standby: bool,
 }

@@ -12,12 +12,12 @@ use iceoryx2::service::static_config::message_type_details::TypeDetail;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Writers of one topic: the living one, and dead ones until the supervisor has cleaned up after them. It does so
-/// before each restart but the first, so there are two dead ones at most; one more is reserve.
-pub(crate) const MAX_WRITERS: usize = 4;
-/// Processes that may have one topic open: the set (7 with the supervisor), the reservations for their replacements (6),
+/// Writers of one topic: the living one and its standby, and dead ones until the supervisor has cleaned up after them. It does
+/// so before each restart but the first, so there are two dead ones of each at most; one more is reserve.
+pub(crate) const MAX_WRITERS: usize = 7;
+/// Processes that may have one topic open: the set (9 with the supervisor), the reservations for their replacements (8),
 /// the dead until they are cleaned up after, and operators' tools. Chosen by hand; more would only cost shared memory.
-const MAX_NODES: usize = 24;
+const MAX_NODES: usize = 32;
 /// How often a replacement looks for its checkpoint. A trade-off: less often would lengthen the recovery by a fraction of
 /// a period, more often would take time from the processes that live on.
 const CHECKPOINT_POLL: Duration = Duration::from_micros(200);

@@ -2,7 +2,7 @@ use crate::monotonic_clock::now;
 use crate::port::Reader;
 use crate::refusals::topic_index;
 use crate::run_view::RunView;
-use crate::{Judge, Message, Origin, PortError, Refusals};
+use crate::{Judge, Message, Origin, PortError, Refusals, Verdict};
 use coact_messages::{Header, Refusal, topic};
 use rustix::io::Errno;
 use std::fs::File;
@@ -148,19 +148,19 @@ impl Bench {
         let Self { judge, run, refusals, writer, topic_index, met_stranger, .. } = self;
         let now_ns = now();
         let time = (run.tick_at(now_ns), now_ns);
-        let is_writer =
-            |generation, origin| writer.as_deref().is_some_and(|writer| run.is(writer, generation, origin));
+        let place_of = |generation, origin| run.place_of(writer.as_deref()?, generation, origin);
         let verdict = judge
-            .judge(message.header(), origin, time, is_writer)
-            .and_then(|()| message.check().map_err(|_| Refusal::Implausible));
+            .judge(message.header(), origin, time, place_of)
+            .and_then(|verdict| message.check().map(|()| verdict).map_err(|_| Refusal::Implausible));
         match verdict {
-            Ok(()) => judge.accept(message.header()),
+            Ok(Verdict::Next) => judge.accept(message.header(), origin),
+            Ok(Verdict::SentAlready) => {}
             Err(refusal) => {
                 *met_stranger |= refusal == Refusal::Writer;
                 refusals.count(*topic_index, refusal);
             }
         }
-        verdict.is_ok()
+        verdict == Ok(Verdict::Next)
     }
 }
 

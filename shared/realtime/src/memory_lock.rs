@@ -19,11 +19,22 @@ const STACK_RESERVE: usize = 256 << 10;
 pub(crate) fn lock_and_prefault() -> Result<(), String> {
     retain_heap();
     touch_stack();
-    let locked = lock();
+    let locked = lock(MlockAllFlags::CURRENT);
     if locked.is_err() {
         populate();
     }
     locked
+}
+
+/// The same for a process that is needed at once: what it touches is locked from then on, and [`populate`], which takes longer
+/// than all the rest of a start, is left to a thread beside its first cycles.
+///
+/// # Errors
+/// As [`lock_and_prefault`].
+pub(crate) fn lock_on_fault() -> Result<(), String> {
+    retain_heap();
+    touch_stack();
+    lock(MlockAllFlags::CURRENT | MlockAllFlags::ONFAULT)
 }
 
 /// Makes the allocator retain its memory: what was prefaulted is never given back to the kernel.
@@ -43,7 +54,7 @@ fn touch_stack() {
     black_box([1_u8; STACK_RESERVE]);
 }
 
-fn lock() -> Result<(), String> {
+fn lock(current: MlockAllFlags) -> Result<(), String> {
     let may_lock = capabilities(None).is_ok_and(|sets| sets.effective.contains(CapabilitySet::IPC_LOCK));
     // Under a finite limit, locking would make later mappings of peers' memory fail in the middle of the run.
     if let (false, Some(limit)) = (may_lock, getrlimit(Resource::Memlock).current) {
@@ -51,13 +62,13 @@ fn lock() -> Result<(), String> {
     }
     // Later mappings are buffers of peers that join or are restarted. Prefaulting all their megabytes at once would delay
     // a cycle by more than its period; on first use, it costs some microseconds for each of the first few messages.
-    mlockall(MlockAllFlags::CURRENT)
+    mlockall(current)
         .and_then(|()| mlockall(MlockAllFlags::FUTURE | MlockAllFlags::ONFAULT))
         .map_err(|error| format!("memory lock: {error}"))
 }
 
-/// Prefaults the pages of every mapping that exists now, without locking them.
-fn populate() {
+/// Prefaults the pages of every mapping that exists now.
+pub(crate) fn populate() {
     let Ok(maps) = std::fs::read_to_string("/proc/self/maps") else { return };
     for (range, rights) in maps.lines().filter_map(mapping) {
         let advice =

@@ -17,8 +17,9 @@ const SECOND_READER: usize = 1;
 /// while that of the dead one is not cleaned up yet.
 pub(crate) fn readers(topic: &str) -> usize {
     let Some(entry) = topic::find(topic) else { return READERS_OF_OTHER_TOPICS };
-    let own = entry.readers.iter().filter(|process| topic::reads(process, topic)).count() + SECOND_READER;
-    2 * own + if entry.closed { 0 } else { VIEWERS }
+    let own = entry.readers.iter().filter(|process| topic::reads(process, topic));
+    let own: usize = own.map(|process| 1 + usize::from(topic::standby(process).is_some())).sum();
+    2 * (own + SECOND_READER) + if entry.closed { 0 } else { VIEWERS }
 }
 
 /// Whether the reader called `name` is one of the set: a process of the table, or a part of one (`world-speech-input`).
@@ -78,6 +79,6 @@ mod tests {
     #[test]
     fn closed_topics_have_no_places_for_viewers() {
         assert_eq!(readers(topic::TRUTH), 2 * (1 + SECOND_READER));
-        assert_eq!(readers(topic::FIELDS), 2 * (5 + SECOND_READER) + VIEWERS);
+        assert_eq!(readers(topic::FIELDS), 2 * (5 + 2 + SECOND_READER) + VIEWERS);
     }
 }

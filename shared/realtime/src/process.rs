@@ -2,7 +2,7 @@ use crate::executor::Executor;
 use crate::signals::Signals;
 use crate::{
     Arguments, Bus, Cycle, DropOuts, Heartbeat, LogStyle, Message, Output, PortError, ProcessError, Schedule,
-    memory_lock, scheduling,
+    StandIn, memory_lock, scheduling,
 };
 use clap::Parser;
 use coact_messages::{Refusal, topic};
@@ -18,6 +18,8 @@ use std::time::Duration;
 /// How long a replacement waits for its predecessor's checkpoint before it begins anew. The supervisor publishes it before
 /// it starts the replacement, and hands it over within some 2 ms: after half a second it never will. Chosen by hand.
 const CHECKPOINT_TIMEOUT: Duration = Duration::from_millis(500);
+/// Stack of a thread that does nothing, bytes: it is locked with the rest. Chosen by hand.
+const IDLE_STACK: usize = 64 << 10;
 /// How often a process that is ready looks whether the run has started. The supervisor announces the start some 50 ms
 /// ahead, so that this delays nothing.
 const START_POLL: Duration = Duration::from_millis(1);
@@ -37,13 +39,19 @@ pub struct Process {
 }
 
 impl Process {
-    /// Joins the run that the command line names, as the process called `name`; ends the program on bad usage.
+    /// Joins the run that the command line names, as the process called `name`, or as its standby; ends the program on bad usage.
     ///
     /// # Errors
     /// [`ProcessError`] says what about the run, its process table or its topics is wrong.
     pub fn from_arguments(name: &str) -> Result<Self, ProcessError> {
         let arguments = Arguments::parse();
         LogStyle::Process.log_to_stderr();
+        let standby = arguments.standby.then(|| topic::standby(name));
+        let name = match &standby {
+            Some(Some(standby)) => standby,
+            Some(None) => return Err(ProcessError::NoStandby { process: name.to_owned() }),
+            None => name,
+        };
         Self::open(name, &arguments.run, generation()?)
     }
 
@@ -102,6 +110,14 @@ impl Process {
     /// True once SIGTERM or SIGINT requested that it stops.
     pub fn stop_requested(&self) -> bool {
         self.signals.stop()
+    }
+
+    /// The output of a stage that may have a standby, or of that standby.
+    ///
+    /// # Errors
+    /// [`PortError`].
+    pub fn stand_in<T: Message>(&self, topic: &str) -> Result<StandIn<T>, PortError> {
+        Ok(StandIn::new(self.bus.input(topic)?, self.bus.output(topic)?, self.entry.standby_of.is_some()))
     }
 
     /// The checkpoint of the predecessor that this process replaces: its last message. `output` goes on with its sequence.
@@ -172,6 +188,24 @@ impl Process {
         }
     }
 
+    /// Starts a thread that does nothing, as an ordinary one. The memory of a killed process is given back by whichever thread of
+    /// it ends last, for milliseconds: by this one, as a rule, and not in real time, where others would wait for it. Of a
+    /// replacement it also prefaults the memory.
+    fn keep_ordinary_thread(&self) -> Result<(), ProcessError> {
+        let (pipeline, is_replacement) = (self.pipeline.clone(), self.generation > 0);
+        let idle = move || {
+            scheduling::become_ordinary(&pipeline);
+            if is_replacement {
+                memory_lock::populate();
+            }
+            loop {
+                std::thread::park();
+            }
+        };
+        let thread = std::thread::Builder::new().name("last".to_owned()).stack_size(IDLE_STACK);
+        thread.spawn(idle).map(drop).map_err(ProcessError::Thread)
+    }
+
     /// Set once an injected fault requests that the background work stands still; the work itself does it.
     pub fn background_freezes(&self) -> Arc<AtomicBool> {
         self.signals.background_freezes()
@@ -189,7 +223,10 @@ impl Process {
     /// # Errors
     /// [`ProcessError::Run`] when the report cannot be written.
     pub fn report_ready(&self) -> Result<(), ProcessError> {
-        let lock = self.entry.realtime.then(memory_lock::lock_and_prefault);
+        let lock = self.entry.realtime.then(|| match self.generation {
+            0 => memory_lock::lock_and_prefault(),
+            _ => memory_lock::lock_on_fault(),
+        });
         let memory_locked = matches!(lock, Some(Ok(())));
         let mut why_not: Vec<_> = lock.and_then(Result::err).into_iter().collect();
         why_not.extend(scheduling::apply(&self.entry));
@@ -240,6 +277,9 @@ impl Process {
         let waits = crate::executor::waits_for_topic(&self.entry, cycle.trigger().topic())?;
         let pulse = self.bus.output(&topic::pulse(&self.entry.name))?;
         self.report_ready()?;
+        if self.entry.realtime {
+            self.keep_ordinary_thread()?;
+        }
         let Some(schedule) = self.wait_for_start()? else { return Ok(()) };
         let Self { entry, signals, bus, .. } = self;
         Executor::new(&entry, schedule, waits, pulse, bus.refusals().clone()).run(&mut cycle, &signals)?;

@@ -1,4 +1,5 @@
 use crate::PortError;
+use coact_messages::topic;
 use coact_pipeline::{PipelineError, RunError};
 
 /// Why a process ended.
@@ -24,6 +25,12 @@ pub enum ProcessError {
         found: String,
         /// The topic of the input.
         expected: String,
+    },
+    /// A standby of a process that can have none.
+    #[error("process {process}: can have no standby; expected standby = true only of {}", topic::WITH_STANDBY.join(" and "))]
+    NoStandby {
+        /// The process.
+        process: String,
     },
     /// The generation is no number.
     #[error("environment variable {variable}: is \"{found}\"; expected how often the process was restarted")]

@@ -1,4 +1,5 @@
-use crate::{Origin, Schedule};
+use crate::{Origin, Place, Schedule};
+use coact_messages::topic;
 use coact_pipeline::Run;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -44,6 +45,15 @@ impl RunView {
             return generation == 0 && self.is_supervisor(origin);
         }
         self.run.ready(name, generation).is_ok_and(|ready| ready.is_some_and(|ready| ready.pid == origin.pid))
+    }
+
+    /// As what the origin's process writes the topics of `stage` in this generation; `None` if it may not. Like [`RunView::is`], it
+    /// reads files.
+    pub(crate) fn place_of(&self, stage: &str, generation: u32, origin: Origin) -> Option<Place> {
+        if self.is(stage, generation, origin) {
+            return Some(Place::Stage);
+        }
+        topic::standby(stage).filter(|standby| self.is(standby, generation, origin)).map(|_| Place::Standby)
     }
 
     /// Whether the origin's process is the supervisor of the run.

@@ -4,7 +4,7 @@
 
 use coact_messages::{Header, LAYOUT, Refusal, topic};
 use coact_period::PERIOD_NS;
-use coact_realtime::{Judge, Origin};
+use coact_realtime::{Judge, Origin, Place, Verdict};
 use proptest::prelude::*;
 
 /// The process of each generation of the writer has this number and its generation's.
@@ -15,8 +15,10 @@ fn origin(generation: u32) -> Origin {
 }
 
 /// What the run knows: the process of each generation that it has started.
-fn is_writer(newest: u32) -> impl Fn(u32, Origin) -> bool {
-    move |generation, origin| generation <= newest && origin.pid == WRITER + generation
+fn place_of(newest: u32) -> impl Fn(u32, Origin) -> Option<Place> {
+    move |generation, origin| {
+        (generation <= newest && origin.pid == WRITER + generation).then_some(Place::Stage)
+    }
 }
 
 fn time(tick: u64) -> (u64, u64) {
@@ -45,8 +47,14 @@ fn sent() -> impl Strategy<Value = Vec<Header>> {
     })
 }
 
-fn taken_in(judge: &mut Judge, header: &Header, from: Origin, tick: u64, newest: u32) -> Result<(), Refusal> {
-    judge.judge(header, from, time(tick), is_writer(newest)).inspect(|()| judge.accept(header))
+fn taken_in(
+    judge: &mut Judge,
+    header: &Header,
+    from: Origin,
+    tick: u64,
+    newest: u32,
+) -> Result<Verdict, Refusal> {
+    judge.judge(header, from, time(tick), place_of(newest)).inspect(|_| judge.accept(header, from))
 }
 
 proptest! {
@@ -56,7 +64,7 @@ proptest! {
         for header in &sent {
             let generation = header.generation;
             let verdict = taken_in(&mut judge, header, origin(generation), header.cycle + late, generation);
-            prop_assert_eq!(verdict, Ok(()), "{:?}", header);
+            prop_assert_eq!(verdict, Ok(Verdict::Next), "{:?}", header);
         }
     }
 
@@ -87,16 +95,16 @@ proptest! {
             let next = Header { sequence: good.sequence + 1, ..*good };
             let usurper = Header { generation: good.generation + 1, ..next };
             for foreign in [forged, next, usurper] {
-                prop_assert!(judge.judge(&foreign, stranger, tick, is_writer(good.generation)).is_err());
+                prop_assert!(judge.judge(&foreign, stranger, tick, place_of(good.generation)).is_err());
             }
-            prop_assert_eq!(taken_in(&mut judge, good, origin(good.generation), good.cycle, good.generation), Ok(()));
+            prop_assert_eq!(taken_in(&mut judge, good, origin(good.generation), good.cycle, good.generation), Ok(Verdict::Next));
         }
     }
 
     #[test]
     fn nothing_of_another_time_or_layout_is_taken_in(tick in 10_000..1_000_000_u64, off in 1..5_000_u64) {
         let mut judge = Judge::of(topic::PERCEPT);
-        let mut judged = |header: Header| judge.judge(&header, origin(0), time(tick), is_writer(0));
+        let mut judged = |header: Header| judge.judge(&header, origin(0), time(tick), place_of(0));
         let good = header(0, 5, tick);
         prop_assert_eq!(judged(header(0, 5, tick + 1 + off)), Err(Refusal::Future));
         prop_assert_eq!(judged(header(0, 5, tick - 5_000 - off)), Err(Refusal::Stale));
@@ -105,7 +113,7 @@ proptest! {
         let sensed_later = Header { sensor_ns: good.published_ns + off, ..good };
         prop_assert_eq!(judged(sensed_later), Err(Refusal::Future));
         prop_assert_eq!(judged(Header { layout: LAYOUT ^ off as u32, ..good }), Err(Refusal::Layout));
-        prop_assert_eq!(judged(good), Ok(()));
+        prop_assert_eq!(judged(good), Ok(Verdict::Next));
     }
 }
 
@@ -117,7 +125,7 @@ fn the_run_is_asked_once_about_each_stranger() {
         let foreign = header(3, sequence, 1);
         let verdict = judge.judge(&foreign, Origin { publisher: 9, pid: 9 }, time(1), |_, _| {
             asked += 1;
-            false
+            None
         });
         assert_eq!(verdict, Err(Refusal::Writer));
     }
@@ -129,6 +137,46 @@ fn anybody_may_speak_to_the_robot() {
     let mut judge = Judge::of(topic::HEARD);
     for person in 1..5 {
         let speaker = Origin { publisher: u128::from(person), pid: person };
-        assert_eq!(taken_in(&mut judge, &header(0, 0, 0), speaker, 100_000, 0), Ok(()));
+        assert_eq!(taken_in(&mut judge, &header(0, 0, 0), speaker, 100_000, 0), Ok(Verdict::Next));
     }
+}
+
+/// A stage and its standby, as the run knows them: their processes have these numbers.
+const STANDBY: u32 = 2000;
+
+fn pair(generation: u32, origin: Origin) -> Option<Place> {
+    match origin.pid.wrapping_sub(generation) {
+        WRITER => Some(Place::Stage),
+        STANDBY => Some(Place::Standby),
+        _ => None,
+    }
+}
+
+#[test]
+fn of_stage_and_standby_the_first_message_of_each_cycle_is_taken_in() {
+    let standby =
+        |generation: u32| Origin { publisher: u128::from(STANDBY + generation), pid: STANDBY + generation };
+    let mut judge = Judge::of(topic::COMMAND);
+    let mut judged = |header: Header, from: Origin| {
+        let verdict = judge.judge(&header, from, time(header.cycle.max(10)), pair);
+        if verdict == Ok(Verdict::Next) {
+            judge.accept(&header, from);
+        }
+        verdict
+    };
+    assert_eq!(judged(header(0, 1, 1), origin(0)), Ok(Verdict::Next));
+    assert_eq!(judged(header(0, 1, 1), standby(0)), Ok(Verdict::SentAlready));
+    // The stage is silent, the standby goes on; then comes what the stage was late with, and it goes on as well.
+    assert_eq!(judged(header(0, 2, 2), standby(0)), Ok(Verdict::Next));
+    assert_eq!(judged(header(0, 3, 3), standby(0)), Ok(Verdict::Next));
+    assert_eq!(judged(header(0, 2, 2), origin(0)), Ok(Verdict::SentAlready));
+    assert_eq!(judged(header(0, 4, 4), origin(0)), Ok(Verdict::Next));
+    // Replacements of both are known by their own generations, and what went before is not taken in any more.
+    assert_eq!(judged(header(1, 5, 5), standby(1)), Ok(Verdict::Next));
+    assert_eq!(judged(header(3, 6, 6), origin(3)), Ok(Verdict::Next));
+    assert_eq!(judged(header(0, 7, 7), standby(0)), Err(Refusal::Generation));
+    assert_eq!(judged(header(0, 7, 7), origin(0)), Err(Refusal::Generation));
+    assert_eq!(judged(header(1, 7, 7), standby(1)), Ok(Verdict::Next));
+    assert_eq!(judged(header(1, 7, 7), standby(1)), Err(Refusal::Repeated));
+    assert_eq!(judged(header(3, 8, 8), Origin { publisher: 5, pid: 5 }), Err(Refusal::Writer));
 }

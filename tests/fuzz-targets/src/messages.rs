@@ -10,7 +10,7 @@ use coact_joint_task::NetworkPlan;
 use coact_messages::{Command, FieldFrame, Percept, Plausible, Pulse, SensorSample, Speech, topic};
 use coact_perception::{Perception, PreshapeModel};
 use coact_period::PERIOD_NS;
-use coact_realtime::{Judge, Message, Origin};
+use coact_realtime::{Judge, Message, Origin, Place};
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
 use coact_voice::{Meanings, Voice};
@@ -117,9 +117,10 @@ fn next_of<T: Message>(original: &T, tick: u64, bytes: &[u8], name: &str) -> Opt
     let time = (tick + 1, (tick + 1) * PERIOD_NS);
     let mut judge = Judge::of(name);
     let origin = Origin { publisher: 1, pid: 1 };
-    judge.judge(original.header(), origin, time, |generation, _| generation == 0).ok()?;
-    judge.accept(original.header());
-    judge.judge(message.header(), origin, time, |generation, _| generation == 0).ok()?;
+    let known = |generation, _| (generation == 0).then_some(Place::Stage);
+    judge.judge(original.header(), origin, time, known).ok()?;
+    judge.accept(original.header(), origin);
+    judge.judge(message.header(), origin, time, known).ok()?;
     message.check().ok()?;
     Some(message)
 }
