@@ -37,10 +37,14 @@ impl<T: Message> StandIn<T> {
             // on another core.
             std::thread::sleep(LOOK_EVERY);
         }
-        // The pulse that tells of this cycle is this process's own: it says when this process knew of the message.
-        let (generation, published_ns) = (self.output.generation, now());
+        // The pulse that tells of this cycle is this process's own, and of nothing before the cycle began.
+        let generation = self.output.generation;
         let sent = self.newest.header().filter(|header| header.cycle >= tick.cycle);
-        Ok(sent.map(|header| Header { generation, published_ns, ..*header }))
+        Ok(sent.map(|header| Header {
+            generation,
+            published_ns: header.published_ns.max(tick.started_ns),
+            ..*header
+        }))
     }
 
     /// Whether the message of `cycle`, or a later one, has come.
