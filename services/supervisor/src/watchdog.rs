@@ -73,8 +73,9 @@ mod tests {
         let stopped = |ms| Silence { limit, is_certain: true, ..silent(ms) };
         let waits = |ms| Silence { limit, ..silent(ms) };
         assert_eq!(hung(&[stopped(10), stopped(11), waits(99)]), [None, Some(CERTAIN), None]);
-        let all = Silence { is_steady: false, ..stopped(11) };
-        assert_eq!(hung(&[all, waits(101)]), [Some(CERTAIN), None], "whatever the others do");
+        assert_eq!(hung(&[stopped(101), waits(101)]), [Some(CERTAIN), None], "though all are silent");
+        let beginning = Silence { is_steady: false, ..stopped(11) };
+        assert_eq!(hung(&[beginning, waits(1)]), [Some(CERTAIN), None]);
     }
 
     #[test]

@@ -263,18 +263,21 @@ fn a_stopped_process_goes_on_after_its_pause_when_silence_is_allowed() {
 }
 
 #[test]
-fn a_stopped_process_that_stays_silent_for_too_long_is_killed_as_hung_and_replaced() {
-    let mut trial = Trial::with(&[("a", READY_AND_RUN), ("b", READY_AND_RUN)], |spec| {
-        spec.hung_after = (spec.name == "a").then_some(Duration::from_millis(300));
-    });
-    trial.run_until_ready();
-    trial.set.expect_pulses(coact_realtime::monotonic_time());
-    trial.set.inject("a", Fault::Stop).unwrap();
-    trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
-    let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
-    // The script does not say that it is real time: it gets as long as machines are late.
-    assert_eq!(died.reason.as_deref(), Some("hung: no pulse for more than 500 ms"));
-    assert_eq!(died.fault.as_deref(), Some("stop"));
+fn a_stopped_process_is_killed_as_hung_and_replaced_at_once_and_a_silent_one_after_a_while() {
+    for fault in [Some(Fault::Stop), None] {
+        let mut trial = Trial::with(&[("a", READY_AND_RUN), ("b", READY_AND_RUN)], |spec| {
+            spec.hung_after = (spec.name == "a").then_some(Duration::from_millis(300));
+        });
+        trial.run_until_ready();
+        trial.set.expect_pulses(coact_realtime::monotonic_time());
+        fault.into_iter().for_each(|fault| trial.set.inject("a", fault).unwrap());
+        trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
+        let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
+        // The script does not say that it is real time: silent, it gets as long as machines are late.
+        let within = if fault.is_some() { "10 ms" } else { "500 ms" };
+        assert_eq!(died.reason.as_deref(), Some(&*format!("hung: no pulse for more than {within}")));
+        assert_eq!(died.fault.as_deref(), fault.map(|fault| fault.name()));
+    }
 }
 
 /// Reports that it has real-time scheduling, as services do that were granted it.

@@ -118,7 +118,7 @@ impl Wiring<'_> {
     fn check_size(&self, populations: usize) -> Result<(), TaskError> {
         let width = &self.file.sites.per_population;
         let per_population = *width.get_ref();
-        let fits = populations <= MAX_POPULATIONS && populations * per_population <= MAX_SITES;
+        let fits = populations <= MAX_POPULATIONS && populations.saturating_mul(per_population) <= MAX_SITES;
         if per_population >= LEAST_SITES && fits {
             return Ok(());
         }

@@ -101,6 +101,12 @@ fn part_outside_its_workspace_is_refused() {
 }
 
 #[test]
+fn more_sites_than_any_memory_has_are_refused() {
+    let error = error_after(NETWORK, "per_population = 10", "per_population = 9223372036854775807");
+    assert!(error.contains("populations of 9223372036854775807 sites; expected at least"), "{error}");
+}
+
+#[test]
 fn missing_network_file_is_named() {
     let error = error_after(TASK, "../joint-action.toml", "../nothing.toml");
     assert!(error.contains(": network: no file") && error.contains("nothing.toml"), "{error}");

@@ -178,7 +178,7 @@ fn all_memory_of_a_run_is_allocated_and_as_much_again_is_reserved_for_replacemen
     let reserve = MemoryReserve::take(&run).unwrap();
     assert_eq!((allocated("segment"), allocated("reserve")), (SIZE, SIZE));
     reserve.release().unwrap();
-    assert_eq!(allocated("reserve"), 0);
+    assert_eq!(allocated("reserve"), SIZE, "there is other room for a replacement");
     std::fs::File::create(memory("of-replacement")).unwrap().set_len(SIZE / 3).unwrap();
     reserve.renew(&run).unwrap();
     assert_eq!((allocated("of-replacement"), allocated("reserve")), (SIZE / 3, SIZE));
