@@ -1,7 +1,6 @@
 use crate::RunningChild;
 use crate::kill_reason::KillReason;
 use crate::start_fault::StartFault;
-use crate::watchdog;
 use rustix::process::Signal;
 use std::time::{Duration, SystemTime};
 
@@ -57,10 +56,15 @@ impl Running {
         self.watched_closely = None;
     }
 
-    /// Whether it certainly hangs, after a `silence`: it is stopped, or it computes without end. One that waits for its core or
-    /// for another process does neither.
-    pub(crate) fn hangs_for_certain(&mut self, silence: Duration, watched: Duration) -> bool {
-        if silence < watchdog::CERTAIN / 2 {
+    /// Whether it certainly hangs, after a `silence` that is looked at from half its `limit` on: it is stopped, or it computes
+    /// without end. One that waits for its core or for another process does neither.
+    pub(crate) fn hangs_for_certain(
+        &mut self,
+        silence: Duration,
+        limit: Duration,
+        watched: Duration,
+    ) -> bool {
+        if silence < limit / 2 {
             return false;
         }
         if self.child.is_stopped() {
@@ -69,7 +73,7 @@ impl Running {
         let Some(computed) = self.child.computed() else { return false };
         let (since, before) = *self.watched_closely.get_or_insert((watched, computed));
         let (span, busy) = (watched.saturating_sub(since), computed.saturating_sub(before));
-        self.has_pulsed && span >= watchdog::CERTAIN / 2 && busy >= span.mul_f64(BUSY)
+        self.has_pulsed && span >= limit / 2 && busy >= span.mul_f64(BUSY)
     }
 
     /// Kills it, once, for this reason.

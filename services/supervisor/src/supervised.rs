@@ -2,7 +2,7 @@ use crate::death::Death;
 use crate::kill_reason::KillReason;
 use crate::running::Running;
 use crate::start_fault::StartFault;
-use crate::watchdog::Silence;
+use crate::watchdog::{self, Silence};
 use crate::{Fault, ProcessSpec, RestartHistory, RunningChild};
 use coact_pipeline::Ready;
 use rustix::process::Signal;
@@ -186,7 +186,7 @@ impl Supervised {
             for_time,
             limit,
             is_steady: running.has_pulsed && running.is_realtime,
-            is_certain: running.hangs_for_certain(for_time, watched),
+            is_certain: running.hangs_for_certain(for_time, watchdog::certain(limit), watched),
         })
     }
 

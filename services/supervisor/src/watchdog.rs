@@ -13,9 +13,17 @@ pub(crate) struct Silence {
     pub(crate) is_certain: bool,
 }
 
-/// How long a process may be silent that certainly hangs. Chosen by hand: more than the longest cycle that a machine's stall or an
-/// injected slowness makes, of some periods.
-pub(crate) const CERTAIN: Duration = Duration::from_millis(10);
+/// How long a process may be silent at least, even if it certainly hangs. Chosen by hand: more than the longest cycle that a
+/// machine's stall or an injected slowness makes, of some periods.
+const CERTAIN: Duration = Duration::from_millis(10);
+/// One that certainly hangs is killed after this part of its limit. Chosen by hand: 10 ms of the shipped table's 100. A table
+/// that is patient, because somebody looks into its processes with a debugger, stays so.
+const CERTAIN_PART: u32 = 10;
+
+/// How long a process with this limit may be silent that certainly hangs.
+pub(crate) fn certain(limit: Duration) -> Duration {
+    (limit / CERTAIN_PART).max(CERTAIN).min(limit)
+}
 
 /// How long a process may be silent that is not real time, has not sent its first pulse yet, or is silent together with all
 /// others: then the machine may be late. Chosen by hand.
@@ -28,7 +36,7 @@ pub(crate) const MACHINE_LATE: Duration = Duration::from_millis(500);
 pub(crate) fn hung(watched: &[Silence]) -> Vec<Option<Duration>> {
     let all_silent = watched.len() > 1 && watched.iter().all(|silence| silence.for_time > silence.limit);
     let limit = |silence: &Silence| match silence.is_steady && !all_silent {
-        _ if silence.is_certain => silence.limit.min(CERTAIN),
+        _ if silence.is_certain => certain(silence.limit),
         true => silence.limit,
         false => silence.limit.max(MACHINE_LATE),
     };
@@ -84,5 +92,8 @@ mod tests {
         let patient = |ms| Silence { limit, ..silent(ms) };
         assert_eq!(hung(&[patient(1900), patient(2001)]), [None, Some(limit)]);
         assert_eq!(hung(&[patient(2001), patient(2001)]), [Some(limit), Some(limit)]);
+        let stopped = |ms| Silence { is_certain: true, ..patient(ms) };
+        assert_eq!(hung(&[stopped(199), stopped(201)]), [None, Some(limit / CERTAIN_PART)]);
+        assert_eq!(certain(LIMIT / 2), LIMIT / 2, "certainty makes nobody more patient");
     }
 }

@@ -266,7 +266,7 @@ fn a_stopped_process_goes_on_after_its_pause_when_silence_is_allowed() {
 fn a_stopped_process_is_killed_as_hung_and_replaced_at_once_and_a_silent_one_after_a_while() {
     for fault in [Some(Fault::Stop), None] {
         let mut trial = Trial::with(&[("a", READY_AND_RUN), ("b", READY_AND_RUN)], |spec| {
-            spec.hung_after = (spec.name == "a").then_some(Duration::from_millis(300));
+            spec.hung_after = (spec.name == "a").then_some(Duration::from_millis(100));
         });
         trial.run_until_ready();
         trial.set.expect_pulses(coact_realtime::monotonic_time());
