@@ -2,7 +2,7 @@
 
 use crate::latencies::{logs, read_counters};
 use crate::{CycleFindings, DurationRecorder, IntervalLog, LatencyError, PipelineNode, ProcessCounters};
-use coact_messages::Pulse;
+use coact_messages::{Pulse, topic};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
@@ -51,11 +51,12 @@ impl Metrics {
         if self.counters.get(process).is_some_and(|counters| !counters.is_new(pulse)) {
             return CycleFindings::default();
         }
-        let node = self.nodes.iter().find(|node| node.process == process);
-        if let Some(stage) = node.and_then(|node| node.standby_of.clone()) {
-            self.counters.entry(stage).or_default().add_of_standby(pulse, self.fresh_ns);
+        let stage = topic::stage(process);
+        if stage != process {
+            self.counters.entry(stage.to_owned()).or_default().add_of_standby(pulse, self.fresh_ns);
             return self.counters.entry(process.to_owned()).or_default().add(pulse, self.fresh_ns);
         }
+        let node = self.nodes.iter().find(|node| node.process == process);
         let from = node.and_then(|node| node.input_from.clone());
         let last = node.is_some_and(|node| node.last);
         let published = pulse.header.published_ns;

@@ -8,8 +8,6 @@ pub struct PipelineNode {
     pub process: String,
     /// Name of the process whose message starts its cycle, if one does.
     pub input_from: Option<String>,
-    /// Name of the process that it stands by for, if it is a standby: the outputs that it tells of are those of the stage.
-    pub standby_of: Option<String>,
     /// It publishes the command, where end to end ends.
     pub last: bool,
 }
@@ -35,8 +33,8 @@ impl PipelineNode {
             Trigger::Timer => sender(topic::COMMAND, pipeline),
             Trigger::None => return None,
         };
-        let (standby_of, last) = (entry.standby_of.clone(), sent_by(&entry.program) == Some(topic::COMMAND));
-        Some(Self { process: entry.name.clone(), input_from, standby_of, last })
+        let last = sent_by(&entry.program) == Some(topic::COMMAND);
+        Some(Self { process: entry.name.clone(), input_from, last })
     }
 }
 

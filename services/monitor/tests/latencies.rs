@@ -13,7 +13,6 @@ fn open(folder: &Path) -> Latencies {
     let link = |process: &str, from: &str, last| PipelineNode {
         process: process.into(),
         input_from: Some(from.into()),
-        standby_of: None,
         last,
     };
     let nodes = vec![link("fields", "perception", false), link("control", "fields", true)];

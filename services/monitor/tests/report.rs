@@ -20,12 +20,8 @@ fn rules() -> Rules {
 }
 
 fn watched(report: &Path) -> Watched {
-    let nodes = vec![PipelineNode {
-        process: "control".into(),
-        input_from: Some("fields".into()),
-        standby_of: None,
-        last: true,
-    }];
+    let nodes =
+        vec![PipelineNode { process: "control".into(), input_from: Some("fields".into()), last: true }];
     let (task, intentions) = (task(), intentions());
     let started = SystemTime::now();
     let report = report.to_owned();

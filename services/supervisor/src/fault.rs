@@ -166,8 +166,7 @@ impl Fault {
     pub fn only_of(self) -> Option<&'static str> {
         match self {
             Self::FreezePlanner => Some("control"),
-            Self::DropOutShort | Self::DropOut | Self::DropOutLong => Some("world"),
-            _ => None,
+            _ => self.drop_out().map(|_| "world"),
         }
     }
 
@@ -178,16 +177,16 @@ impl Fault {
 
     /// Whether the process does not live on after it; where it may, the watchdog decides.
     pub(crate) fn is_recovered_from_by_a_replacement(self) -> bool {
-        !matches!(
-            self,
-            Self::SlowByHalf
-                | Self::Slow
-                | Self::SlowByFive
-                | Self::DropOutShort
-                | Self::DropOut
-                | Self::DropOutLong
-                | Self::NoHandles
-        )
+        let goes_on = matches!(self, Self::SlowByHalf | Self::Slow | Self::SlowByFive | Self::NoHandles);
+        !goes_on && self.drop_out().is_none()
+    }
+
+    /// For how long the cameras show nothing; none where it is something else.
+    pub fn drop_out(self) -> Option<Duration> {
+        match self.means() {
+            Means::Request(requested) => requested.drop_out(),
+            _ => None,
+        }
     }
 }
 

@@ -18,8 +18,6 @@ use std::time::Duration;
 /// How long a replacement waits for its predecessor's checkpoint before it begins anew. The supervisor publishes it before
 /// it starts the replacement, and hands it over within some 2 ms: after half a second it never will. Chosen by hand.
 const CHECKPOINT_TIMEOUT: Duration = Duration::from_millis(500);
-/// Stack of a thread that does nothing, bytes: it is locked with the rest. Chosen by hand.
-const IDLE_STACK: usize = 64 << 10;
 /// How often a process that is ready looks whether the run has started. The supervisor announces the start some 50 ms
 /// ahead, so that this delays nothing.
 const START_POLL: Duration = Duration::from_millis(1);
@@ -192,18 +190,15 @@ impl Process {
     /// it ends last, for milliseconds: by this one, as a rule, and not in real time, where others would wait for it. Of a
     /// replacement it also prefaults the memory.
     fn keep_ordinary_thread(&self) -> Result<(), ProcessError> {
-        let (pipeline, is_replacement) = (self.pipeline.clone(), self.generation > 0);
-        let idle = move || {
-            scheduling::become_ordinary(&pipeline);
+        let is_replacement = self.generation > 0;
+        self.spawn_background("last", move || {
             if is_replacement {
                 memory_lock::populate();
             }
             loop {
                 std::thread::park();
             }
-        };
-        let thread = std::thread::Builder::new().name("last".to_owned()).stack_size(IDLE_STACK);
-        thread.spawn(idle).map(drop).map_err(ProcessError::Thread)
+        })
     }
 
     /// Set once an injected fault requests that the background work stands still; the work itself does it.

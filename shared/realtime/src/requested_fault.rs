@@ -63,7 +63,7 @@ impl RequestedFault {
     }
 
     /// For how long its cameras show nothing; none where it is something else.
-    pub(crate) fn drop_out(self) -> Option<Duration> {
+    pub fn drop_out(self) -> Option<Duration> {
         match self {
             Self::DropOutShort => Some(Duration::from_millis(100)),
             Self::DropOut => Some(Duration::from_secs(1)),

@@ -172,12 +172,8 @@ mod tests {
     /// A report of one process, `control`, that is last in the chain and woke up 1 to 100 µs late.
     fn written() -> tempfile::TempDir {
         let report = tempfile::tempdir().unwrap();
-        let nodes = vec![PipelineNode {
-            process: "control".into(),
-            input_from: Some("fields".into()),
-            standby_of: None,
-            last: true,
-        }];
+        let nodes =
+            vec![PipelineNode { process: "control".into(), input_from: Some("fields".into()), last: true }];
         let mut latencies = Latencies::open(
             &report.path().join("latency"),
             nodes,

@@ -29,6 +29,7 @@ impl FaultKind {
     /// Whether the process ends by it, and not because somebody finds it hung.
     pub(crate) fn is_lethal(self) -> bool {
         match self {
+            _ if self.keeps_output() => false,
             Self::Process(fault) => !matches!(
                 fault,
                 Fault::Stop
@@ -38,10 +39,6 @@ impl FaultKind {
                     | Fault::Slow
                     | Fault::SlowByFive
                     | Fault::FreezePlanner
-                    | Fault::DropOutShort
-                    | Fault::DropOut
-                    | Fault::DropOutLong
-                    | Fault::NoHandles
             ),
             Self::ViewerFlood | Self::MemoryFull => true,
             Self::Nothing | Self::Message(_) | Self::ReportFull | Self::SecondSet | Self::PlantedRun => false,
@@ -52,21 +49,13 @@ impl FaultKind {
     pub(crate) fn may_be_survived(self) -> bool {
         matches!(
             self,
-            Self::Process(
-                Fault::StopShort
-                    | Fault::SlowByHalf
-                    | Fault::Slow
-                    | Fault::SlowByFive
-                    | Fault::DropOutShort
-                    | Fault::DropOut
-                    | Fault::DropOutLong
-                    | Fault::NoHandles
-            ) | Self::Nothing
+            Self::Process(Fault::StopShort | Fault::SlowByHalf | Fault::Slow | Fault::SlowByFive)
+                | Self::Nothing
                 | Self::Message(_)
                 | Self::ReportFull
                 | Self::SecondSet
                 | Self::PlantedRun
-        )
+        ) || self.keeps_output()
     }
 
     /// Whether it fills a file system: then the run gets one of its own.
@@ -81,18 +70,13 @@ impl FaultKind {
 
     /// Whether the process goes on with its cycles, so that no outage tells of it.
     pub(crate) fn keeps_output(self) -> bool {
-        matches!(
-            self,
-            Self::Process(Fault::DropOutShort | Fault::DropOut | Fault::DropOutLong | Fault::NoHandles)
-        )
+        self == Self::Process(Fault::NoHandles) || !self.lasts().is_zero()
     }
 
     /// How long it goes on.
     pub(crate) fn lasts(self) -> Duration {
         match self {
-            Self::Process(Fault::DropOutShort) => Duration::from_millis(100),
-            Self::Process(Fault::DropOut) => Duration::from_secs(1),
-            Self::Process(Fault::DropOutLong) => Duration::from_secs(10),
+            Self::Process(fault) => fault.drop_out().unwrap_or_default(),
             _ => Duration::ZERO,
         }
     }
