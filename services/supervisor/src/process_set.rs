@@ -254,10 +254,8 @@ impl ProcessSet {
             self.processes[index].request_stop();
         }
         while group.iter().any(|&index| self.processes[index].running().is_some()) {
+            self.reap(group);
             for &index in group {
-                if let Some(death) = self.processes[index].died(monotonic_time()) {
-                    self.record(index, SupervisorEventKind::Stopped, Some(death.pid), Some(death.reason));
-                }
                 self.processes[index].kill_after_grace(monotonic_time().saturating_sub(begin));
             }
             meanwhile();
@@ -265,6 +263,19 @@ impl ProcessSet {
         }
         for &index in group {
             self.processes[index].lifecycle = Lifecycle::Stopped;
+        }
+    }
+
+    /// Takes in the dead while the set stops, those too whose turn has not come: waiting for others would return at once for
+    /// the sake of one that is dead already, and keep this core from them.
+    fn reap(&mut self, stopping: &[usize]) {
+        for index in 0..self.processes.len() {
+            if let Some(Death { pid, reason, .. }) = self.processes[index].died(monotonic_time()) {
+                let was_asked = stopping.contains(&index);
+                let kind = if was_asked { SupervisorEventKind::Stopped } else { SupervisorEventKind::Died };
+                self.record(index, kind, Some(pid), Some(reason));
+                self.processes[index].lifecycle = Lifecycle::Stopped;
+            }
         }
     }
 

@@ -6,6 +6,7 @@ use coact_run_records::{RunLog, SupervisorEvent, SupervisorEventKind};
 use coact_supervisor::{
     Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSet, ProcessSpec, SupervisorLog,
 };
+use rustix::process::{Pid, Signal};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -455,6 +456,22 @@ fn all_are_stopped_in_descending_order_and_one_that_ignores_the_signal_is_killed
         trial.events
     );
     assert!(pids.into_iter().all(|pid| !exists(pid)));
+}
+
+#[test]
+fn one_that_dies_before_its_turn_to_stop_is_reaped_and_the_others_are_waited_for_without_haste() {
+    let takes_its_time = "trap 'sleep 0.3; exit' TERM; touch \"$READY\"; while :; do sleep 0.01; done";
+    let mut trial = Trial::in_steps(&[("first", READY_AND_RUN), ("last", takes_its_time)]);
+    trial.run_until_ready();
+    let first = Pid::from_raw(trial.pid("first") as i32).unwrap();
+    rustix::process::kill_process(first, Signal::KILL).unwrap();
+    let (mut looks, begin) = (0, Instant::now());
+    trial.set.stop(|| looks += 1);
+    let most = begin.elapsed().as_millis() as u32 / 3 + 10;
+    assert!(looks <= most, "looked {looks} times, at most {most} expected: it kept its core from the others");
+    trial.events.extend(trial.set.take_events());
+    assert_eq!(trial.count(SupervisorEventKind::Died, "first"), 1);
+    assert_eq!(trial.count(SupervisorEventKind::Stopped, "last"), 1);
 }
 
 #[test]
