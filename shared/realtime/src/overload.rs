@@ -3,9 +3,9 @@ use coact_period::{CYCLES_PER_SECOND, PERIOD_NS};
 /// So many cycles in a row that each compute for longer than a period are too many. Chosen by hand: cycles of five periods
 /// keep the stages of the same core from their work for 50 ms, half of what an outage may last.
 const TOO_MANY: u64 = 10;
-/// So many cycles in a row within a period show that the machine can do them: on one that never could, to replace the process
-/// would help nobody.
-const PROVEN: u64 = CYCLES_PER_SECOND;
+/// So many cycles within a period show that the machine can do them: on one that never could, to replace the process would
+/// help nobody. Chosen by hand: those of a tenth of a second, so that a run is protected almost from its start.
+const PROVEN: u64 = CYCLES_PER_SECOND / 10;
 
 /// Notices that a stage which was fast enough is so no more, and keeps the others from their core.
 #[derive(Debug, Default)]
