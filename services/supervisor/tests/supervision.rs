@@ -25,8 +25,9 @@ struct Trial {
 struct RecordedCalls(Vec<String>);
 
 impl Checkpoints for RecordedCalls {
-    fn publish(&mut self, process: &str) {
+    fn publish(&mut self, process: &str) -> Option<String> {
         self.0.push(format!("publish {process}"));
+        None
     }
     fn drop_newest(&mut self, process: &str) -> Option<String> {
         self.0.push(format!("drop {process}"));
@@ -389,7 +390,9 @@ fn what_is_not_needed_is_restarted_for_ever_and_keeps_nobody_waiting() {
 struct Crowded(std::path::PathBuf);
 
 impl Checkpoints for Crowded {
-    fn publish(&mut self, _: &str) {}
+    fn publish(&mut self, _: &str) -> Option<String> {
+        None
+    }
     fn recovered(&mut self, _: &str) {}
     fn crowd(&self, process: &str) -> Option<String> {
         (!self.0.exists()).then(|| format!("no place for {process}"))
