@@ -4,6 +4,7 @@
 use coact_pipeline::Run;
 use coact_run_records::{SupervisorEvent, SupervisorEventKind};
 use coact_tests::{JointViewer, Launched, checkout, left_behind, operate, wait_for, wait_within};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::process::{Pid, PidfdFlags, Signal, kill_process, pidfd_open};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -27,7 +28,8 @@ fn alone() -> MutexGuard<'static, ()> {
 fn table(folder: &Path, adoptable_for_s: f64) -> PathBuf {
     let shipped = checkout().join("rt-config");
     let text = std::fs::read_to_string(shipped.join("pipeline.toml")).unwrap();
-    let adoptable = text.replacen("adoptable_for_s = 0 ", &format!("adoptable_for_s = {adoptable_for_s} "), 1);
+    let adoptable =
+        text.replacen("adoptable_for_s = 0 ", &format!("adoptable_for_s = {adoptable_for_s} "), 1);
     assert_ne!(text, adoptable, "the table names the time");
     std::fs::copy(shipped.join("verdict.toml"), folder.join("verdict.toml")).unwrap();
     let path = folder.join("pipeline.toml");
@@ -45,12 +47,12 @@ fn pids(run: &Run) -> [u32; 6] {
     PROCESSES.map(|process| run.newest_ready(process).unwrap().unwrap().pid)
 }
 
-/// Exists, and is not a dead process that nobody has reaped yet.
+/// No thread of it does when it is dead, whether somebody has reaped it or not.
 fn lives(pid: u32) -> bool {
-    let status = std::fs::read_to_string(format!("/proc/{pid}/status")).unwrap_or_default();
-    pidfd_open(Pid::from_raw(pid.cast_signed()).unwrap(), PidfdFlags::empty()).is_ok()
-        && !status.is_empty()
-        && !status.contains("State:\tZ")
+    let Ok(pidfd) = pidfd_open(Pid::from_raw(pid.cast_signed()).unwrap(), PidfdFlags::empty()) else {
+        return false;
+    };
+    poll(&mut [PollFd::new(&pidfd, PollFlags::IN)], Some(&Timespec { tv_sec: 0, tv_nsec: 0 })).unwrap() == 0
 }
 
 fn kill(pid: u32) {

@@ -216,7 +216,9 @@ fn raise_open_files() {
 fn tell_of_orphaned_runs() {
     for run in Run::all().iter().filter(|run| run.is_orphaned()) {
         let id = run.id();
-        tracing::warn!("the supervisor of run {id} has died, its processes live on: coact adopt {id} takes them over");
+        tracing::warn!(
+            "the supervisor of run {id} has died, its processes live on: coact adopt {id} takes them over"
+        );
     }
 }
 

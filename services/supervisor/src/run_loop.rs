@@ -120,6 +120,7 @@ impl<'a> RunLoop<'a> {
         self.set.adopt(|process| run.newest_ready(process).ok().flatten());
         start.into_iter().for_each(|start| self.set.expect_pulses(start));
         self.service_manager.run_begins();
+        self.show_events();
         Ok(())
     }
 
