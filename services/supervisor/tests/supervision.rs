@@ -1,10 +1,10 @@
 //! The supervision of real processes, with shell scripts in place of services.
 #![allow(clippy::unwrap_used)]
 
-use coact_pipeline::RestartPolicy;
+use coact_pipeline::{ProcessStat, Ready, RestartPolicy};
 use coact_run_records::{RunLog, SupervisorEvent, SupervisorEventKind};
 use coact_supervisor::{
-    Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSet, ProcessSpec, SupervisorLog,
+    Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSet, ProcessSpec, RunningChild, SupervisorLog,
 };
 use rustix::process::{Pid, Signal};
 use std::path::Path;
@@ -515,4 +515,28 @@ fn the_log_on_disk_holds_every_event() {
     let logged = RunLog::<SupervisorEvent>::read(trial.folder.path()).unwrap();
     assert_eq!(logged, trial.events);
     assert!(logged.is_sorted_by_key(|event| event.at_ns));
+}
+
+#[test]
+fn a_process_of_an_earlier_supervisor_is_known_by_its_start_is_heard_and_ends_when_it_is_dropped() {
+    let mut command = std::process::Command::new("/bin/sh");
+    command.args(["-c", "echo said >&2; exec sleep 600"]).stderr(std::process::Stdio::piped());
+    let mut process = command.spawn().unwrap();
+    let started = ProcessStat::of(process.id()).unwrap().started;
+    let ready = Ready { pid: process.id(), started, ..Ready::default() };
+    let other = Ready { started: started + 1, ..ready.clone() };
+    assert!(RunningChild::adopt(&other, |_| {}).is_none(), "another process has its id now");
+    assert!(process.try_wait().unwrap().is_none(), "and is not harmed");
+    let (sender, lines) = std::sync::mpsc::channel();
+    let adopted = RunningChild::adopt(&ready, move |line| sender.send(line.to_owned()).unwrap()).unwrap();
+    assert_eq!(lines.recv_timeout(Duration::from_secs(60)).unwrap(), "said");
+    assert!(!adopted.is_dead() && !adopted.is_stopped());
+    adopted.signal(Signal::STOP);
+    let begin = Instant::now();
+    while !adopted.is_stopped() {
+        assert!(begin.elapsed() < Duration::from_secs(60));
+    }
+    drop(adopted);
+    assert!(RunningChild::adopt(&ready, |_| {}).is_none(), "it is dead, though nobody has reaped it");
+    assert!(!process.wait().unwrap().success());
 }

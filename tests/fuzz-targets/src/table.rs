@@ -10,7 +10,7 @@ const fn target(
 }
 
 /// Every target.
-pub const TARGETS: [Target; 40] = [
+pub const TARGETS: [Target; 41] = [
     target("process-table", Input::Text, &["rt-config/pipeline.toml"], configuration::process_table),
     target("safety-limits", Input::Text, &["rt-config/safety.toml"], configuration::safety_limits),
     target("verdict-rules", Input::Text, &["rt-config/verdict.toml"], configuration::verdict_rules),
