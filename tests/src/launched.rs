@@ -75,6 +75,11 @@ impl Launched {
         kill_process(Pid::from_child(&self.child), signal).unwrap();
     }
 
+    /// What it has said on standard error so far.
+    pub fn said(&self) -> String {
+        std::fs::read_to_string(self.folder.path().join("stderr")).unwrap_or_default()
+    }
+
     /// Waits for its end.
     pub fn finish(self) -> Finished {
         self.finish_within(TIMEOUT)

@@ -5,7 +5,11 @@ use coact_pipeline::Run;
 use coact_run_records::{SupervisorEvent, SupervisorEventKind};
 use coact_tests::{JointViewer, Launched, checkout, left_behind, operate, wait_for, wait_within};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::OFlags;
 use rustix::process::{Pid, PidfdFlags, Signal, kill_process, pidfd_open};
+use std::fs::OpenOptions;
+use std::io::{ErrorKind, Write};
+use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -53,6 +57,18 @@ fn lives(pid: u32) -> bool {
         return false;
     };
     poll(&mut [PollFd::new(&pidfd, PollFlags::IN)], Some(&Timespec { tv_sec: 0, tv_nsec: 0 })).unwrap() == 0
+}
+
+/// Writes a line to a process's standard error, as that would itself.
+fn write_as(pid: u32, line: &str) {
+    let no_wait = OFlags::NONBLOCK.bits().cast_signed();
+    let mut open = OpenOptions::new();
+    let mut stderr = open.write(true).custom_flags(no_wait).open(format!("/proc/{pid}/fd/2")).unwrap();
+    let line = format!("{line}\n");
+    wait_for("room for a line", || match stderr.write_all(line.as_bytes()) {
+        Err(error) if error.kind() == ErrorKind::WouldBlock => None,
+        written => Some(written.unwrap()),
+    });
 }
 
 fn kill(pid: u32) {
@@ -109,7 +125,7 @@ fn a_successor_goes_on_with_the_same_processes_and_the_arm_stands_until_an_opera
     let code = i32::from(!finished.summary().work.passes());
     assert_eq!(finished.code, Some(code), "{}", finished.stderr);
     assert!(finished.summary().task.achieved >= 1, "{}", finished.stderr);
-    assert!(finished.summary().environment.kernel != "", "the monitor wrote the summary");
+    assert!(!finished.summary().environment.kernel.is_empty(), "the monitor wrote the summary");
     let of_operator = |kind| finished.count(kind, SupervisorEvent::OPERATOR);
     assert_eq!(of_operator(SupervisorEventKind::Adopted), 1);
     assert_eq!(of_operator(SupervisorEventKind::OperatorStopped), 1);
@@ -132,6 +148,9 @@ fn what_died_while_nobody_supervised_is_replaced_and_a_successor_can_have_a_succ
     viewer.until_fast();
     launched.kill();
     viewer.until_it_stands();
+    // More than a pipe holds: nobody waits for a reader, nor dies for want of one.
+    (0..200).for_each(|_| write_as(before[0], &"long ago ".repeat(100)));
+    write_as(before[0], "just now");
     for index in [3, 5] {
         kill(before[index]);
     }
@@ -140,6 +159,7 @@ fn what_died_while_nobody_supervised_is_replaced_and_a_successor_can_have_a_succ
         wait_for(process, || run.ready(process, 1).unwrap());
     }
     viewer.until_fast();
+    assert!(launched.said().contains("world: just now"), "{}", launched.said());
     launched.kill();
     let stood = viewer.until_it_stands();
     launched.adopt(&[]);
@@ -150,9 +170,11 @@ fn what_died_while_nobody_supervised_is_replaced_and_a_successor_can_have_a_succ
         assert_eq!(after[index] == before[index], ![3, 5].contains(&index), "{process}");
         assert!(lives(after[index]), "{process}");
     }
+    write_as(before[0], "to the second");
     launched.signal(Signal::TERM);
     let finished = launched.finish();
     assert_eq!(left_behind(&run), Vec::<String>::new());
+    assert!(finished.stderr.contains("world: to the second"), "{}", finished.stderr);
     assert_eq!(finished.count(SupervisorEventKind::Adopted, SupervisorEvent::OPERATOR), 2);
     assert_eq!(finished.count(SupervisorEventKind::StateDropped, "control"), 1);
     let deaths = deaths(&finished.supervisor);
