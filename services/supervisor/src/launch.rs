@@ -48,6 +48,15 @@ impl Drop for OwnedRun {
     }
 }
 
+/// Tells the observer that the set has ended, when it is dropped: also when the supervision panics.
+struct Ends<'a>(&'a AtomicBool);
+
+impl Drop for Ends<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
 impl Launch {
     /// Longest run without a duration.
     pub const MAX_DURATION: Duration = EndCondition::MAX_DURATION;
@@ -118,8 +127,9 @@ impl Launch {
         let over = AtomicBool::new(false);
         std::thread::scope(|scope| {
             let observer = scope.spawn(|| observer(&run.0, &over));
+            let ends = Ends(&over);
             let ending = run_loop.run();
-            over.store(true, Ordering::Relaxed);
+            drop(ends);
             self.summarise_unmeasured();
             let observed = observer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             Ok((ending?, observed))

@@ -540,3 +540,20 @@ fn a_process_of_an_earlier_supervisor_is_known_by_its_start_is_heard_and_ends_wh
     assert!(RunningChild::adopt(&ready, |_| {}).is_none(), "it is dead, though nobody has reaped it");
     assert!(!process.wait().unwrap().success());
 }
+
+#[test]
+fn a_supervisor_that_panics_kills_nobody_itself() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN)]);
+    trial.run_until_ready();
+    let pid = trial.pid("a");
+    let panicked = std::thread::spawn(move || {
+        let _set = trial;
+        panic!("as a supervisor would");
+    });
+    assert!(panicked.join().is_err());
+    // What the kernel does to it when the supervisor's thread ends is another matter; this thread has started it.
+    assert!(exists(pid));
+    let process = Pid::from_raw(pid.cast_signed()).unwrap();
+    rustix::process::kill_process(process, Signal::KILL).unwrap();
+    rustix::process::waitpid(Some(process), rustix::process::WaitOptions::empty()).unwrap();
+}

@@ -27,7 +27,7 @@ pub struct RunSettings {
     pub partner: String,
     /// How the world computes.
     pub world: WorldMode,
-    /// How long the run lasts; without it, until all subgoals are achieved.
+    /// How long the run lasts; without it, until all subgoals are achieved, or the supervisor has waited long enough.
     #[serde(default)]
     pub duration: Option<Duration>,
 }

@@ -27,7 +27,7 @@ impl OwnerWatch {
     /// Watches for ever: for the death of one supervisor after another.
     pub(crate) fn watch(self) -> ! {
         loop {
-            let generation = self.generation();
+            let generation = self.run.owner().map_or(0, |owner| owner.generation);
             // Without a directory there is no supervisor either.
             self.run.wait_for_death_of_owner().ok();
             if !self.is_adopted(generation) {
@@ -36,18 +36,13 @@ impl OwnerWatch {
         }
     }
 
-    /// How often the run was adopted.
-    fn generation(&self) -> u32 {
-        self.run.owner().map_or(0, |owner| owner.generation)
-    }
-
     /// Waits for a successor of the supervisor of this generation; false when none has come in time.
     fn is_adopted(&self, generation: u32) -> bool {
         // What has not begun cannot be gone on with.
         let has_begun = self.run.start_ns().is_ok_and(|start| start.is_some());
         let limit = if has_begun { self.adoptable_for } else { Duration::ZERO };
         let (since, mut said) = (Instant::now(), Said::open());
-        while self.generation() == generation {
+        while !self.run.owner().is_ok_and(|owner| owner.generation > generation) {
             if since.elapsed() >= limit {
                 return false;
             }
