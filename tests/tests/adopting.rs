@@ -65,9 +65,10 @@ fn write_as(pid: u32, line: &str) {
     let mut open = OpenOptions::new();
     let mut stderr = open.write(true).custom_flags(no_wait).open(format!("/proc/{pid}/fd/2")).unwrap();
     let line = format!("{line}\n");
-    wait_for("room for a line", || match stderr.write_all(line.as_bytes()) {
-        Err(error) if error.kind() == ErrorKind::WouldBlock => None,
-        written => Some(written.unwrap()),
+    wait_for("room for a line", || {
+        let written = stderr.write_all(line.as_bytes());
+        let is_full = written.as_ref().is_err_and(|error| error.kind() == ErrorKind::WouldBlock);
+        (!is_full).then(|| written.unwrap())
     });
 }
 

@@ -70,7 +70,9 @@ impl RunningChild {
         let pid = Pid::from_raw(ready.pid.cast_signed())?;
         let pidfd = pidfd_open(pid, PidfdFlags::empty()).ok()?;
         // Looked at when the descriptor is open: that cannot come to mean another process.
-        if ProcessStat::of(ready.pid).ok()?.started != ready.started {
+        if ProcessStat::of(ready.pid).ok()?.started != ready.started
+            || waits_for_death(&pidfd, Some(&NO_TIME))
+        {
             return None;
         }
         let stderr: Box<dyn Read + Send> = match File::open(format!("/proc/{}/fd/2", ready.pid)) {
@@ -80,8 +82,7 @@ impl RunningChild {
                 Box::new(io::empty())
             }
         };
-        let adopted = Self { pid, is_child: false, pidfd, stderr: StderrTail::follow(stderr, on_line) };
-        (!adopted.is_dead()).then_some(adopted)
+        Some(Self { pid, is_child: false, pidfd, stderr: StderrTail::follow(stderr, on_line) })
     }
 
     /// Its process id.
@@ -161,11 +162,7 @@ impl RunningChild {
 
     /// Whether it has ended.
     pub fn is_dead(&self) -> bool {
-        self.waits_for_death(Some(&Timespec { tv_sec: 0, tv_nsec: 0 }))
-    }
-
-    fn waits_for_death(&self, limit: Option<&Timespec>) -> bool {
-        poll(&mut [PollFd::new(&self.pidfd, PollFlags::IN)], limit) == Ok(1)
+        waits_for_death(&self.pidfd, Some(&NO_TIME))
     }
 
     /// How it ended, if it did and this supervisor has started it. It is reaped when this is dropped.
@@ -197,7 +194,7 @@ impl Drop for RunningChild {
         self.signal(Signal::KILL);
         if !self.is_child {
             // Who took it over from the dead supervisor reaps it. An interrupting signal ends no wait.
-            while !is_dead && !self.waits_for_death(None) {}
+            while !is_dead && !waits_for_death(&self.pidfd, None) {}
             return;
         }
         // The replacement of a dead one does not wait for its reaping.
@@ -208,6 +205,13 @@ impl Drop for RunningChild {
             Err(_) => reap(pid),
         }
     }
+}
+
+const NO_TIME: Timespec = Timespec { tv_sec: 0, tv_nsec: 0 };
+
+/// Whether the process is dead before the time is over; without a limit, also false when a signal interrupts.
+fn waits_for_death(pidfd: &OwnedFd, limit: Option<&Timespec>) -> bool {
+    poll(&mut [PollFd::new(pidfd, PollFlags::IN)], limit) == Ok(1)
 }
 
 /// Reaps a process that is dead or dying, as an ordinary thread: the kernel waits, spinning, for whoever reads the process's entries
