@@ -31,6 +31,21 @@ impl Launched {
         Self { child: command.spawn().unwrap(), folder }
     }
 
+    /// Kills the supervisor, and waits until it is dead.
+    pub fn kill(&mut self) {
+        self.signal(Signal::KILL);
+        wait_within(TIMEOUT, "the supervisor's death", || self.child.try_wait().unwrap());
+    }
+
+    /// A successor of the supervisor, which was killed: `coact adopt` with these arguments.
+    pub fn adopt(&mut self, arguments: &[&str]) {
+        let file = |name: &str| Stdio::from(File::create(self.folder.path().join(name)).unwrap());
+        let mut command = Command::new(coact());
+        command.arg("adopt").args(arguments).current_dir(checkout());
+        command.stdin(Stdio::null()).stdout(file("stdout")).stderr(file("stderr"));
+        self.child = command.spawn().unwrap();
+    }
+
     /// Its run, once it has been made.
     pub fn run(&self) -> Run {
         self.run_within(TIMEOUT)
@@ -58,6 +73,11 @@ impl Launched {
     /// Sends a signal to the supervisor.
     pub fn signal(&self, signal: Signal) {
         kill_process(Pid::from_child(&self.child), signal).unwrap();
+    }
+
+    /// What it has said on standard error so far.
+    pub fn said(&self) -> String {
+        std::fs::read_to_string(self.folder.path().join("stderr")).unwrap_or_default()
     }
 
     /// Waits for its end.

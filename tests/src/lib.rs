@@ -5,13 +5,17 @@
 #![allow(clippy::unwrap_used, reason = "a library of tests: what fails, fails the test")]
 
 mod finished;
+mod joint_viewer;
 mod launched;
+mod operate;
 mod paths;
 mod thread_faults;
 mod tracer;
 
 pub use finished::Finished;
+pub use joint_viewer::JointViewer;
 pub use launched::Launched;
+pub use operate::operate;
 pub use paths::{checkout, coact, left_behind, shared_memory};
 pub use thread_faults::ThreadFaults;
 pub use tracer::{TraceError, Tracer};

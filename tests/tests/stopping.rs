@@ -1,118 +1,20 @@
 //! What an operator has stopped stands, whatever dies, until an operator lets it go on.
 #![allow(clippy::unwrap_used)]
 
-use coact_messages::{ARM_JOINTS, DriveMode, DriveReport, HoldReason, SensorSample, topic};
 use coact_pipeline::Run;
-use coact_realtime::{Bus, Input};
-use coact_robot::{JointLimits, Robot};
 use coact_run_records::{SupervisorEvent, SupervisorEventKind};
-use coact_tests::{Launched, checkout, coact, wait_for};
+use coact_tests::{JointViewer, Launched, operate, wait_for};
 use rustix::process::{Pid, Signal, kill_process};
 use std::fs::DirBuilder;
 use std::os::unix::fs::DirBuilderExt;
-use std::process::{Command, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
-/// A joint of the arm this fast moves in earnest, rad/s.
-const FAST: f64 = 0.4;
-/// A stopped arm stays where it stands within this, rad.
-const STAYS: f64 = 1e-3;
-/// How much longer than the accelerations' limit says one may be by rounding.
-const ROUNDING: f64 = 1.001;
-/// How long a stopped arm is watched: it would move within a fraction of that.
-const WATCHED: Duration = Duration::from_secs(2);
-/// Within so long whatever is waited for happens, on a busy machine too.
-const SOON: Duration = Duration::from_secs(40);
 /// Sets that work beside each other are late.
 static ONE_TEST_AT_A_TIME: Mutex<()> = Mutex::new(());
 const RUN: [&str; 4] = ["--duration", "120", "--world", "kinematic"];
 
 fn alone() -> MutexGuard<'static, ()> {
     ONE_TEST_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Watches a set's joints as a viewer.
-struct Viewer {
-    // Before the bus that it was opened on.
-    samples: Input<SensorSample>,
-    _bus: Bus,
-    limits: Vec<JointLimits>,
-}
-
-impl Viewer {
-    fn join(run: &Run) -> Self {
-        let bus = Bus::open(run, "viewer", 0).unwrap();
-        let limits = Robot::load(&checkout().join("rt-config/robots/aros.toml")).unwrap().limits().to_vec();
-        Self { samples: bus.input(topic::SENSORS).unwrap(), _bus: bus, limits }
-    }
-
-    /// Looks at each sample until one satisfies; all of them keep the limits.
-    fn until(&mut self, what: &str, satisfies: impl Fn(&SensorSample) -> bool) -> SensorSample {
-        let (begin, limits, mut found) = (Instant::now(), self.limits.clone(), None);
-        while found.is_none() {
-            assert!(begin.elapsed() < SOON, "timed out: {what}");
-            self.samples
-                .each(|sample| {
-                    keeps(&limits, &sample.drive);
-                    found = found.or_else(|| satisfies(sample).then_some(*sample));
-                })
-                .unwrap();
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        found.unwrap()
-    }
-
-    fn until_fast(&mut self) {
-        self.until("a fast arm", |sample| speed(&sample.drive) > FAST);
-    }
-
-    fn until_it_stands(&mut self) -> SensorSample {
-        self.until("an arm that stands", |sample| {
-            sample.drive.mode == DriveMode::Standing as u32 && sample.drive.hold == HoldReason::Stopped as u32
-        })
-    }
-
-    /// Watches for a while that the arm stays where it was.
-    fn sees_it_stay(&mut self, stood: &SensorSample) {
-        let (begin, mut seen) = (Instant::now(), 0);
-        while begin.elapsed() < WATCHED {
-            self.samples
-                .each(|sample| {
-                    seen += 1;
-                    for joint in 0..ARM_JOINTS {
-                        let moved = (sample.joints.position[joint] - stood.joints.position[joint]).abs();
-                        assert!(moved < STAYS, "joint {joint} has moved by {moved} rad: {:?}", sample.drive);
-                    }
-                })
-                .unwrap();
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        assert!(seen > 0, "no sample came");
-    }
-}
-
-fn speed(report: &DriveReport) -> f64 {
-    report.velocity[..ARM_JOINTS].iter().fold(0.0, |most: f64, speed| most.max(speed.abs()))
-}
-
-fn keeps(limits: &[JointLimits], report: &DriveReport) {
-    for (joint, limits) in limits[..ARM_JOINTS].iter().enumerate() {
-        assert!(report.velocity[joint].abs() <= limits.velocity, "joint {joint}: {report:?}");
-        let most = ROUNDING * limits.acceleration;
-        assert!(report.acceleration[joint].abs() <= most, "joint {joint}: {report:?}");
-    }
-}
-
-/// Runs `coact COMMAND` to its end; its exit status, what it said, and its process id. Always with the name of a run, or with
-/// several runs of one's own: without, it would stop whatever else runs on this machine.
-fn operate(arguments: &[&str]) -> (Option<i32>, String, u32) {
-    let mut command = Command::new(coact());
-    command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
-    let child = command.spawn().unwrap();
-    let pid = child.id();
-    let output = child.wait_with_output().unwrap();
-    (output.status.code(), String::from_utf8(output.stderr).unwrap(), pid)
 }
 
 /// Kills a process of the set, and waits for its replacement.
@@ -127,7 +29,7 @@ fn a_stopped_arm_stands_whatever_dies_and_moves_again_when_it_may() {
     let _alone = alone();
     let launched = Launched::start(&RUN);
     let run = launched.when_started();
-    let mut viewer = Viewer::join(&run);
+    let mut viewer = JointViewer::join(&run);
     viewer.until_fast();
     let (code, said, stopper) = operate(&["stop", "--run", run.id()]);
     assert_eq!(code, Some(0), "{said}");
@@ -167,7 +69,7 @@ fn a_stopped_arm_stands_whatever_dies_and_moves_again_when_it_may() {
 fn an_arm_of_which_nobody_says_that_it_may_move_stands() {
     let _alone = alone();
     let launched = Launched::start(&RUN);
-    let mut viewer = Viewer::join(&launched.when_started());
+    let mut viewer = JointViewer::join(&launched.when_started());
     viewer.until_fast();
     launched.signal(Signal::STOP);
     let stood = viewer.until_it_stands();

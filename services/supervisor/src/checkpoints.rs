@@ -1,7 +1,8 @@
 /// What the supervision needs of a set's topics: the checkpoints of its processes, and places for their ports.
 pub trait Checkpoints {
-    /// Publishes the checkpoint of `process`, and frees what is reserved for its replacement: that is about to be started.
-    fn publish(&mut self, process: &str);
+    /// Publishes the checkpoint of `process`, and frees what is reserved for its replacement: that is about to be started. In
+    /// words, what is lost where there is no checkpoint; `None` when there is one, or it needs none.
+    fn publish(&mut self, process: &str) -> Option<String>;
 
     /// What is published next for `process` is spoiled: an injected fault.
     fn poison(&mut self, _process: &str) {}
@@ -23,6 +24,8 @@ pub trait Checkpoints {
 
 /// No checkpoints: for programs that send no messages.
 impl Checkpoints for () {
-    fn publish(&mut self, _: &str) {}
+    fn publish(&mut self, _: &str) -> Option<String> {
+        None
+    }
     fn recovered(&mut self, _: &str) {}
 }

@@ -1,26 +1,32 @@
 use crate::{ProcessSpec, StderrTail};
-use coact_pipeline::GENERATION_VARIABLE;
+use coact_pipeline::{GENERATION_VARIABLE, ProcessStat, Ready};
 use coact_realtime::{RequestedFault, SchedulingClass};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::{Mode, OFlags};
 use rustix::process::{
     Pid, PidfdFlags, Resource, Rlimit, Signal, WaitId, WaitIdOptions, getrlimit, pidfd_open,
     pidfd_send_signal, prlimit, set_parent_process_death_signal, waitid,
 };
 use rustix::thread::{sched_getaffinity, sched_setaffinity};
-use std::io;
+use std::fs::File;
+use std::io::{self, Read};
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd, OwnedFd};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::time::Duration;
 
 /// A running process, to be watched, signalled and reaped.
 ///
-/// Dropped, it is killed and reaped: however the supervisor ends, it leaves no process behind. When the supervisor itself
-/// is killed, the kernel kills the process ([parent-death signal][1]).
+/// It is a child, or was one of a predecessor of the supervisor. Dropped, it is killed and reaped: however the supervisor ends,
+/// it leaves no process behind. When the supervisor itself is killed or panics, the kernel kills the process
+/// ([parent-death signal][1]), unless that can be adopted.
 ///
 /// [1]: https://man7.org/linux/man-pages/man2/PR_SET_PDEATHSIG.2const.html
 #[derive(Debug)]
 pub struct RunningChild {
-    child: Child,
+    pid: Pid,
+    /// False of a process that a predecessor of the supervisor started: its exit status goes to whoever reaps it.
+    is_child: bool,
     /// Becomes readable when the process dies. Unlike a process id, it never comes to mean another process.
     pidfd: OwnedFd,
     stderr: StderrTail,
@@ -56,12 +62,32 @@ impl RunningChild {
             }
         };
         let stderr = child.stderr.take().ok_or(io::ErrorKind::BrokenPipe)?;
-        Ok(Self { child, pidfd, stderr: StderrTail::follow(stderr, on_line) })
+        Ok(Self { pid, is_child: true, pidfd, stderr: StderrTail::follow(stderr, on_line) })
+    }
+
+    /// The process that reported this to a predecessor of the supervisor; `None` when it is dead, whatever process has its id now.
+    pub fn adopt(ready: &Ready, on_line: impl FnMut(&str) + Send + 'static) -> Option<Self> {
+        let pid = Pid::from_raw(ready.pid.cast_signed())?;
+        let pidfd = pidfd_open(pid, PidfdFlags::empty()).ok()?;
+        // Looked at when the descriptor is open: that cannot come to mean another process.
+        if ProcessStat::of(ready.pid).ok()?.started != ready.started
+            || waits_for_death(&pidfd, Some(&NO_TIME))
+        {
+            return None;
+        }
+        let stderr: Box<dyn Read + Send> = match File::open(format!("/proc/{}/fd/2", ready.pid)) {
+            Ok(pipe) => Box::new(pipe),
+            Err(error) => {
+                tracing::warn!("what {} writes to standard error is lost: {error}", ready.process);
+                Box::new(io::empty())
+            }
+        };
+        Some(Self { pid, is_child: false, pidfd, stderr: StderrTail::follow(stderr, on_line) })
     }
 
     /// Its process id.
     pub fn pid(&self) -> u32 {
-        self.child.id()
+        self.pid.as_raw_nonzero().get().cast_unsigned()
     }
 
     /// Readable once the process is dead.
@@ -93,11 +119,9 @@ impl RunningChild {
 
     /// Lets the kernel grant it no file handle any more; those that it has stay. As with [`RunningChild::signal`], it may be dead.
     pub(crate) fn refuse_handles(&self) {
-        let limited = Pid::from_raw(self.pid() as i32).map(|pid| {
-            let maximum = getrlimit(Resource::Nofile).maximum;
-            prlimit(Some(pid), Resource::Nofile, Rlimit { current: Some(0), maximum })
-        });
-        if let Some(Err(error)) = limited
+        let maximum = getrlimit(Resource::Nofile).maximum;
+        let limited = prlimit(Some(self.pid), Resource::Nofile, Rlimit { current: Some(0), maximum });
+        if let Err(error) = limited
             && error != rustix::io::Errno::SRCH
         {
             tracing::warn!("process {}: cannot limit its file handles: {error}", self.pid());
@@ -110,13 +134,16 @@ impl RunningChild {
         let (pid, ordinary) = (self.pid() as i32, libc::sched_param { sched_priority: 0 });
         // SAFETY: a system call that reads the parameters it is given.
         unsafe { libc::sched_setscheduler(pid, libc::SCHED_OTHER, &raw const ordinary) };
-        if let (Some(pid), Ok(cores)) = (Pid::from_raw(pid), sched_getaffinity(None)) {
-            sched_setaffinity(Some(pid), &cores).ok();
+        if let Ok(cores) = sched_getaffinity(None) {
+            sched_setaffinity(Some(self.pid), &cores).ok();
         }
     }
 
     /// Whether a signal has stopped it (SIGSTOP, SIGTTIN): it does nothing until somebody continues it.
     pub fn is_stopped(&self) -> bool {
+        if !self.is_child {
+            return ProcessStat::of(self.pid()).is_ok_and(|stat| stat.is_stopped);
+        }
         let stopped = WaitIdOptions::STOPPED | WaitIdOptions::NOWAIT | WaitIdOptions::NOHANG;
         waitid(WaitId::PidFd(self.pidfd.as_fd()), stopped).is_ok_and(|status| status.is_some())
     }
@@ -133,7 +160,12 @@ impl RunningChild {
         (!failed).then(|| Duration::new(time.tv_sec as u64, time.tv_nsec as u32))
     }
 
-    /// How it ended, if it did. It is reaped when this is dropped.
+    /// Whether it has ended.
+    pub fn is_dead(&self) -> bool {
+        waits_for_death(&self.pidfd, Some(&NO_TIME))
+    }
+
+    /// How it ended, if it did and this supervisor has started it. It is reaped when this is dropped.
     pub fn exit_status(&self) -> Option<ExitStatus> {
         let ended = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT | WaitIdOptions::NOHANG;
         let status = waitid(WaitId::PidFd(self.pidfd.as_fd()), ended).ok().flatten()?;
@@ -154,10 +186,17 @@ impl RunningChild {
 
 impl Drop for RunningChild {
     fn drop(&mut self) {
-        let is_dead = self.exit_status().is_some();
-        // Fails only when it is dead.
-        drop(self.child.kill());
-        let pid = Pid::from_child(&self.child);
+        // A supervisor that panics ends as a killed one does: what drives the arm brakes, and who can be adopted lives on.
+        if std::thread::panicking() {
+            return;
+        }
+        let (is_dead, pid) = (self.is_dead(), self.pid);
+        self.signal(Signal::KILL);
+        if !self.is_child {
+            // Who took it over from the dead supervisor reaps it. An interrupting signal ends no wait.
+            while !is_dead && !waits_for_death(&self.pidfd, None) {}
+            return;
+        }
         // The replacement of a dead one does not wait for its reaping.
         let reaper = std::thread::Builder::new().name("reaper".into());
         match reaper.spawn(move || reap(pid)) {
@@ -166,6 +205,13 @@ impl Drop for RunningChild {
             Err(_) => reap(pid),
         }
     }
+}
+
+const NO_TIME: Timespec = Timespec { tv_sec: 0, tv_nsec: 0 };
+
+/// Whether the process is dead before the time is over; without a limit, also false when a signal interrupts.
+fn waits_for_death(pidfd: &OwnedFd, limit: Option<&Timespec>) -> bool {
+    poll(&mut [PollFd::new(pidfd, PollFlags::IN)], limit) == Ok(1)
 }
 
 /// Reaps a process that is dead or dying, as an ordinary thread: the kernel waits, spinning, for whoever reads the process's entries
@@ -177,7 +223,8 @@ fn reap(pid: Pid) {
     let _ = before.apply();
 }
 
-/// In the forked child: has it killed when `supervisor` dies, also if it died just now; makes it ordinary unless `realtime`.
+/// In the forked child: has it killed when `supervisor` dies, also if it died just now; makes it ordinary unless `realtime`; and
+/// lets it write when nobody reads.
 fn prepare(supervisor: Pid, realtime: bool) -> io::Result<()> {
     if !realtime {
         // Refused only to a thread that never had another class.
@@ -186,6 +233,10 @@ fn prepare(supervisor: Pid, realtime: bool) -> io::Result<()> {
     set_parent_process_death_signal(Some(Signal::KILL))?;
     if rustix::process::getppid() != Some(supervisor) {
         return Err(io::ErrorKind::NotFound.into());
+    }
+    // With a reading end of its own the pipe is never broken: to write an error that nobody hears is no reason to die.
+    if let Ok(both) = rustix::fs::open(c"/proc/self/fd/2", OFlags::RDWR, Mode::empty()) {
+        rustix::stdio::dup2_stderr(&both)?;
     }
     Ok(())
 }

@@ -55,6 +55,8 @@ impl ControlSocket {
     /// The socket cannot be made.
     pub(crate) fn open(run: &Run) -> io::Result<Self> {
         let path = socket_of(run);
+        // A supervisor that was killed has left its own.
+        std::fs::remove_file(&path).ok();
         let listener = UnixListener::bind(&path)?;
         std::fs::set_permissions(&path, Permissions::from_mode(0o600))?;
         let (sender, requests) = mpsc::channel();

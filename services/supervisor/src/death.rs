@@ -25,13 +25,14 @@ pub(crate) struct Death {
 }
 
 impl Death {
-    pub(crate) fn new(running: Running, status: ExitStatus, now: Duration) -> Self {
+    /// Without a `status`, it went to somebody else.
+    pub(crate) fn new(running: Running, status: Option<ExitStatus>, now: Duration) -> Self {
         Self {
             pid: running.child.pid(),
             reason: running.kill_reason.map_or_else(|| describe(status), |reason| reason.to_string()),
             not_ready_in_time: matches!(running.kill_reason, Some(KillReason::NotReadyInTime(_))),
             was_ready: running.ready,
-            exited: status.code().is_some(),
+            exited: status.is_some_and(|status| status.code().is_some()),
             by_itself: by_itself(running.kill_reason, status),
             lived: now.saturating_sub(running.since),
             child: running.child,
@@ -40,17 +41,20 @@ impl Death {
 }
 
 /// Whether the reason lies in the process: no signal came from outside, or one because it was hung.
-fn by_itself(killed: Option<KillReason>, status: ExitStatus) -> bool {
+fn by_itself(killed: Option<KillReason>, status: Option<ExitStatus>) -> bool {
     let outside = [Signal::KILL, Signal::TERM, Signal::INT].map(|signal| Some(signal.as_raw()));
     match killed {
         Some(KillReason::Hung(_) | KillReason::NotReadyInTime(_)) => true,
         Some(_) => false,
-        None => !outside.contains(&status.signal()),
+        None => status.is_some_and(|status| !outside.contains(&status.signal())),
     }
 }
 
 /// How it ended, in words.
-fn describe(status: ExitStatus) -> String {
+fn describe(status: Option<ExitStatus>) -> String {
+    let Some(status) = status else {
+        return "ended; how, was told to nobody: an earlier supervisor had started it".into();
+    };
     match (status.signal(), status.code()) {
         (Some(signal), _) => match Signal::from_named_raw(signal) {
             Some(name) => format!("killed by {}", signal_name(name)),

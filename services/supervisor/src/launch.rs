@@ -1,7 +1,7 @@
 use crate::ending::EndCondition;
 use crate::run_loop::{RunLoop, RunParts};
 use crate::{
-    Ending, Injection, LaunchError, Note, NoteKind, Notes, ProcessSet, ProcessSpec, RunProgress,
+    Ending, Injection, LaunchError, Note, NoteKind, Notes, ProcessSet, ProcessSpec, RunProgress, StopRequest,
     SupervisorLog, Terminal,
 };
 use coact_joint_task::Task;
@@ -26,8 +26,6 @@ pub struct Launch {
     pub task: Task,
     /// Folder of the programs that the process table names without a folder.
     pub programs: PathBuf,
-    /// How long the run lasts; without it, until all subgoals are achieved, [`Launch::MAX_DURATION`] at most.
-    pub duration: Option<Duration>,
     /// Faults to inject.
     pub injections: Vec<Injection>,
 }
@@ -35,14 +33,27 @@ pub struct Launch {
 /// The process that writes the summary.
 const MONITOR: &str = "monitor";
 
-/// Removes the run's directory and shared memory when it is dropped.
+/// Removes the run's directory and shared memory when it is dropped; what processes of it still use stays.
 struct OwnedRun(Run);
 
 impl Drop for OwnedRun {
     fn drop(&mut self) {
+        // The processes still end, or live on to be adopted.
+        if std::thread::panicking() {
+            return;
+        }
         if let Err(error) = self.0.remove() {
             tracing::error!("left behind: {error}");
         }
+    }
+}
+
+/// Tells the observer that the set has ended, when it is dropped: also when the supervision panics.
+struct Ends<'a>(&'a AtomicBool);
+
+impl Drop for Ends<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
     }
 }
 
@@ -67,14 +78,42 @@ impl Launch {
         self,
         observer: impl FnOnce(&Run, &AtomicBool) -> T + Send,
     ) -> Result<(Ending, T), LaunchError> {
+        self.prepare()?;
+        tell_of_orphaned_runs();
+        let log = self.open_report()?;
+        let run = OwnedRun(Run::create(self.settings.clone())?);
+        self.supervise(run, log, None, observer)
+    }
+
+    /// Takes over an `orphaned` run, whose settings these are, supervises it until its end, and leaves nothing of it behind but the
+    /// report. The robot then stands until an operator lets it go on, or goes on at once, as `wanted`.
+    ///
+    /// # Errors
+    /// As [`Launch::run`]; whatever refuses before the run is taken over leaves it to the next one who adopts it.
+    pub fn adopt(self, orphaned: &Run, wanted: StopRequest) -> Result<Ending, LaunchError> {
+        self.prepare()?;
+        let run = OwnedRun(orphaned.adopt()?);
+        let log = SupervisorLog::open(&self.settings.report).map_err(LaunchError::Record)?;
+        self.supervise(run, log, Some(wanted), |_, _| ()).map(|(ending, ())| ending)
+    }
+
+    fn prepare(&self) -> Result<(), LaunchError> {
         self.check()?;
         raise_open_files();
         coact_realtime::exclude_real_time_cores(&self.pipeline);
         remove_dead_runs();
-        let log = self.open_report()?;
+        Ok(())
+    }
+
+    /// `run` is declared before everything that uses it: removed after all of that has ended.
+    fn supervise<T: Send>(
+        self,
+        run: OwnedRun,
+        log: SupervisorLog,
+        adopted: Option<StopRequest>,
+        observer: impl FnOnce(&Run, &AtomicBool) -> T + Send,
+    ) -> Result<(Ending, T), LaunchError> {
         let terminal = Terminal::open();
-        // Declared before everything that uses it: removed after all of that has ended.
-        let run = OwnedRun(Run::create(self.settings.clone())?);
         let run_loop = RunLoop::prepare(RunParts {
             run: &run.0,
             pipeline: &self.pipeline,
@@ -82,13 +121,15 @@ impl Launch {
             set: self.process_set(&run.0, log, terminal.notes()),
             progress: RunProgress::new(&self.task),
             injections: self.injections.clone(),
-            end: EndCondition::new(self.duration),
+            end: EndCondition::new(self.settings.duration),
+            adopted,
         })?;
         let over = AtomicBool::new(false);
         std::thread::scope(|scope| {
             let observer = scope.spawn(|| observer(&run.0, &over));
+            let ends = Ends(&over);
             let ending = run_loop.run();
-            over.store(true, Ordering::Relaxed);
+            drop(ends);
             self.summarise_unmeasured();
             let observed = observer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             Ok((ending?, observed))
@@ -179,6 +220,16 @@ fn raise_open_files() {
     let Rlimit { maximum, .. } = getrlimit(Resource::Nofile);
     // Refused only beyond the hard limit, which is what is asked for.
     setrlimit(Resource::Nofile, Rlimit { current: maximum, maximum }).ok();
+}
+
+/// They compete for the cores, and one of them may hold the robot.
+fn tell_of_orphaned_runs() {
+    for run in Run::all().iter().filter(|run| run.is_orphaned()) {
+        let id = run.id();
+        tracing::warn!(
+            "the supervisor of run {id} has died, its processes live on: coact adopt {id} takes them over"
+        );
+    }
 }
 
 /// Removes what runs left behind whose supervisor was killed. Runs that still go on are not touched.

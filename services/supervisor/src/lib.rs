@@ -3,6 +3,8 @@
 //! [`Launch`] is the whole: it makes the run directory, creates every topic and keeps it open, starts the process table in
 //! order, and supervises the set until its end. [`ProcessSet`] is the supervision alone; it knows no topics.
 //!
+//! When the supervisor itself has died, and the set may outlive it, [`Launch::adopt`] is its successor.
+//!
 //! A process that dies is noticed by its pidfd at once. Its checkpoint is published, and it is started again, as often as
 //! the process table's restart policy allows. Everything that happens to a process is a line of the
 //! [supervisor log](SupervisorLog), from which the monitor makes the report's fault lines.

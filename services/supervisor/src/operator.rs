@@ -37,6 +37,11 @@ impl Operator {
         }
     }
 
+    /// Who runs this program.
+    pub(crate) fn own() -> Self {
+        Self { user: rustix::process::geteuid().as_raw(), pid: std::process::id() }
+    }
+
     /// Refuses, in words, who is neither the user that owns the set nor root.
     pub(crate) fn check(self) -> Result<(), String> {
         let (user, own) = (self.user, rustix::process::geteuid().as_raw());

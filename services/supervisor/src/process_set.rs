@@ -7,7 +7,7 @@ use crate::supervised::{Lifecycle, Supervised};
 use crate::watch_clock::WatchClock;
 use crate::watchdog;
 use crate::{Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSpec, RunningChild, SupervisorLog};
-use coact_pipeline::RestartPolicy;
+use coact_pipeline::{Ready, RestartPolicy};
 use coact_realtime::monotonic_time;
 use coact_run_records::{SupervisorEvent, SupervisorEventKind};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -69,6 +69,34 @@ impl ProcessSet {
             heartbeats_at: Duration::ZERO,
             on_line,
         }
+    }
+
+    /// Takes over what a dead supervisor has started: `newest` is what each process reported last. Those that have died since are
+    /// replaced.
+    pub(crate) fn adopt(&mut self, newest: impl Fn(&str) -> Option<Ready>) {
+        for index in 0..self.processes.len() {
+            let name = self.processes[index].spec.name.clone();
+            // What was never ready is started as if for the first time.
+            let Some(ready) = newest(&name) else { continue };
+            let sink = self.on_line.clone();
+            match RunningChild::adopt(&ready, move |line| sink(&name, line)) {
+                Some(child) => {
+                    let watched = self.watch_clock.watched();
+                    self.processes[index].adopted(child, &ready, monotonic_time(), watched);
+                }
+                None => self.found_dead(index, &ready),
+            }
+        }
+    }
+
+    /// A process died while nobody supervised it. That is one death, whatever its policy: its replacement is due at once.
+    fn found_dead(&mut self, index: usize, ready: &Ready) {
+        let process = &mut self.processes[index];
+        (process.generation, process.died_unseen) = (ready.generation, true);
+        process.history.died_and_returns(&self.policy, monotonic_time());
+        process.lifecycle = Lifecycle::RestartDue(monotonic_time());
+        let reason = "found dead: it ended while the run had no supervisor".to_owned();
+        self.record(index, SupervisorEventKind::Died, Some(ready.pid), Some(reason));
     }
 
     /// Waits until a process dies, a signal arrives, or `limit` has passed.
@@ -371,12 +399,15 @@ impl ProcessSet {
     fn resume(&mut self, index: usize, checkpoints: &mut dyn Checkpoints) {
         let Supervised { spec, begins_anew, .. } = &self.processes[index];
         let (begins_anew, name) = (*begins_anew, spec.name.clone());
-        let lost = if begins_anew { checkpoints.drop_newest(&name) } else { None };
+        let mut lost = if begins_anew { checkpoints.drop_newest(&name) } else { None };
         if self.processes[index].fault == Some(Fault::PoisonedResume) {
             checkpoints.poison(&name);
         }
-        checkpoints.publish(&name);
+        let missing = checkpoints.publish(&name);
         let process = &mut self.processes[index];
+        if std::mem::take(&mut process.died_unseen) {
+            lost = missing.map(|lost| format!("nobody kept its state when it died; lost: {lost}"));
+        }
         process.generation += 1;
         process.resumed = !begins_anew;
         if lost.is_some() {

@@ -1,14 +1,17 @@
 use crate::control_socket::{ControlSocket, SetRequest, Wanted};
 use crate::ending::EndCondition;
+use crate::operator::Operator;
 use crate::operator_stop::OperatorStop;
 use crate::run_topics::RunTopics;
 use crate::service_manager::ServiceManager;
 use crate::topic_reader::TopicReader;
 use crate::{
-    Ending, Injection, InjectionRefusal, LaunchError, Note, NoteKind, ProcessSet, RunProgress, Terminal,
+    Ending, Injection, InjectionRefusal, LaunchError, Note, NoteKind, ProcessSet, RunProgress, StopRequest,
+    Terminal,
 };
 use coact_pipeline::{Pipeline, Run};
 use coact_realtime::{Schedule, SchedulingClass, monotonic_time};
+use coact_run_records::SupervisorEventKind;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,6 +26,8 @@ pub(crate) struct RunParts<'a> {
     pub(crate) progress: RunProgress,
     pub(crate) injections: Vec<Injection>,
     pub(crate) end: EndCondition,
+    /// Of a run whose supervisor has died: whether its robot is to stand, or may go on.
+    pub(crate) adopted: Option<StopRequest>,
 }
 
 /// A run in progress: does in turn all that has to be done until its end.
@@ -61,20 +66,20 @@ const STATUS_INTERVAL: Duration = Duration::from_secs(1);
 const PRIORITY: u8 = 2;
 
 impl<'a> RunLoop<'a> {
-    /// Prepares everything that the processes need; starts none.
+    /// Prepares everything that the processes need; starts none, but takes over those of an adopted run.
     pub(crate) fn prepare(parts: RunParts<'a>) -> Result<Self, LaunchError> {
-        let RunParts { run, pipeline, terminal, set, progress, mut injections, end } = parts;
+        let RunParts { run, pipeline, terminal, set, progress, mut injections, end, adopted } = parts;
         let interrupted = Arc::new(AtomicBool::new(false));
         for signal in [SIGINT, SIGTERM, SIGHUP] {
             signal_hook::flag::register(signal, Arc::clone(&interrupted)).map_err(LaunchError::Signals)?;
         }
-        let topics = RunTopics::create(run, pipeline)?;
+        let topics = RunTopics::create(run, pipeline, run.owner()?.generation)?;
         let reader = TopicReader::new(topics.bus(), pipeline)?;
         let stop = OperatorStop::new(topics.bus())?;
         let socket = ControlSocket::open(run)
             .map_err(|cause| LaunchError::File { path: run.directory().to_owned(), cause })?;
         injections.sort_by_key(|injection| std::cmp::Reverse(injection.at));
-        Ok(Self {
+        let mut run_loop = Self {
             run,
             pipeline,
             terminal,
@@ -90,7 +95,33 @@ impl<'a> RunLoop<'a> {
             start: None,
             service_manager: ServiceManager::from_environment(),
             status_at: Duration::ZERO,
-        })
+        };
+        if let Some(wanted) = adopted {
+            run_loop.take_over(wanted)?;
+        }
+        Ok(run_loop)
+    }
+
+    /// Goes on with a run whose supervisor has died. Nobody has heard whether an operator had stopped the robot: so it stands, unless
+    /// the operator who adopts wants something else.
+    fn take_over(&mut self, wanted: StopRequest) -> Result<(), LaunchError> {
+        // What may be refused comes first: the set is still nobody's then, and can be adopted again.
+        self.topics.reserve_memory()?;
+        let start = self.run.start_ns()?.map(Duration::from_nanos);
+        self.start = start;
+        let operator = Operator::own();
+        self.set.record_operator(SupervisorEventKind::Adopted, operator);
+        let changed = match wanted {
+            StopRequest::Stop => self.stop.request(wanted, operator, self.schedule()),
+            StopRequest::Resume => Ok(SupervisorEventKind::OperatorResumed),
+        };
+        changed.into_iter().for_each(|changed| self.set.record_operator(changed, operator));
+        let run = self.run;
+        self.set.adopt(|process| run.newest_ready(process).ok().flatten());
+        start.into_iter().for_each(|start| self.set.expect_pulses(start));
+        self.service_manager.run_begins();
+        self.show_events();
+        Ok(())
     }
 
     /// Starts the set, supervises it until the run's end, and stops it.

@@ -132,6 +132,9 @@ impl RunProgress {
                 self.restarts += 1;
                 return;
             }
+            SupervisorEventKind::Adopted => {
+                (NoteKind::Disturbance, format!("the run was adopted by {}", event.operator()))
+            }
             SupervisorEventKind::OperatorStopped => {
                 self.stopped = true;
                 (NoteKind::Alarm, format!("stopped by {}; coact resume lets it go on", event.operator()))

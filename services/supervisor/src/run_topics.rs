@@ -31,12 +31,16 @@ impl RunTopics {
     /// From a death to the cleaning up, when no replacement gets ready before. Chosen by hand.
     const CLEANUP_WITHOUT_RECOVERY: Duration = Duration::from_secs(1);
 
-    /// Creates all topics of the run.
+    /// Creates all topics of the run; as a successor (`generation` above 0), opens them.
     ///
     /// # Errors
     /// Shared memory refuses it.
-    pub(crate) fn create(run: &Run, pipeline: &Pipeline) -> Result<Self, PortError> {
-        let bus = Bus::open(run, "supervisor", 0)?;
+    pub(crate) fn create(run: &Run, pipeline: &Pipeline, generation: u32) -> Result<Self, PortError> {
+        let bus = Bus::open(run, "supervisor", generation)?;
+        if generation > 0 {
+            // The places of the dead supervisor are needed again.
+            bus.clean_dead();
+        }
         let anchors = TopicAnchors::new(&bus, pipeline)?;
         let store = CheckpointStore::new(&bus)?;
         let mut topics = Self {
@@ -126,7 +130,7 @@ impl RunTopics {
 }
 
 impl Checkpoints for RunTopics {
-    fn publish(&mut self, process: &str) {
+    fn publish(&mut self, process: &str) -> Option<String> {
         // A crash loop would use up the topic's writers: what is still to be cleaned is cleaned now.
         if self.clean_at.take().is_some() {
             self.bus.clean_dead();
@@ -137,8 +141,10 @@ impl Checkpoints for RunTopics {
         }
         self.reservations.remove(process);
         self.unreserved.remove(process);
-        let outcome = self.store.publish(process).map(drop);
-        self.warn_once(outcome);
+        let outcome = self.store.publish(process);
+        let published = outcome.as_ref().is_ok_and(|header| header.is_some());
+        self.warn_once(outcome.map(drop));
+        (topic::state_of(process).is_some() && !published).then(|| lost(process).to_owned())
     }
 
     fn poison(&mut self, process: &str) {

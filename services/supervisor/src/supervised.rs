@@ -26,6 +26,8 @@ pub(crate) struct Supervised {
     pub(crate) resumed: bool,
     /// The next replacement begins without one: its predecessor died of it.
     pub(crate) begins_anew: bool,
+    /// It died while the run had no supervisor, who would have kept its checkpoint.
+    pub(crate) died_unseen: bool,
     /// How long the first start took until it was ready.
     pub(crate) first_start: Option<Duration>,
     /// The supervisor itself cannot see whether it is ready: for want of a file handle.
@@ -73,6 +75,7 @@ impl Supervised {
             start_fault: None,
             resumed: false,
             begins_anew: false,
+            died_unseen: false,
             first_start: None,
             cannot_look: false,
         }
@@ -115,9 +118,18 @@ impl Supervised {
         self.lifecycle = Lifecycle::Running(Running::new(child, now, at_start));
     }
 
+    /// Enters a process of a dead supervisor's set, which reported `ready` to that one. `watched` is the time of the watch clock.
+    pub(crate) fn adopted(&mut self, child: RunningChild, ready: &Ready, now: Duration, watched: Duration) {
+        let mut running = Running::new(child, now, None);
+        (running.ready, running.last_sign, running.is_realtime) = (true, watched, ready.priority > 0);
+        self.generation = ready.generation;
+        self.lifecycle = Lifecycle::Running(running);
+    }
+
     /// Its death, if it died; its replacement is due from then on.
     pub(crate) fn died(&mut self, now: Duration) -> Option<Death> {
-        let status = self.running_mut()?.child.exit_status()?;
+        let child = &self.running()?.child;
+        let status = child.is_dead().then(|| child.exit_status())?;
         let Lifecycle::Running(running) = std::mem::replace(&mut self.lifecycle, Lifecycle::RestartDue(now))
         else {
             return None;

@@ -18,6 +18,14 @@ impl SupervisorLog {
         Ok(Self { log: RunLog::create(report)?, failed: false })
     }
 
+    /// Goes on with the log of a supervisor that was killed.
+    ///
+    /// # Errors
+    /// The file cannot be read or written.
+    pub fn open(report: &Path) -> Result<Self, RecordError> {
+        Ok(Self { log: RunLog::open(report)?, failed: false })
+    }
+
     /// Writes one event. A full disk must not stop the supervision: the first failure is warned of, once.
     pub fn write(&mut self, event: SupervisorEvent) {
         if let (Err(error), false) = (self.log.append(vec![event]), self.failed) {

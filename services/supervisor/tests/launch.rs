@@ -42,6 +42,7 @@ impl Place {
         let settings = RunSettings {
             task: task.clone(),
             report: self.0.path().join("report"),
+            duration: Some(duration),
             ..RunSettings::default()
         };
         Launch {
@@ -49,7 +50,6 @@ impl Place {
             pipeline: Pipeline::parse(&table, "table.toml".as_ref()).unwrap(),
             task: Task::load(&task).unwrap(),
             programs: self.0.path().to_owned(),
-            duration: Some(duration),
             injections: injections.iter().map(|spec| spec.parse().unwrap()).collect(),
         }
     }

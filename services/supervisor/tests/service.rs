@@ -49,11 +49,15 @@ fn service() {
     let task = configuration().join("tasks/toy-vehicle.toml");
     let table = "[[process]]\nname = \"a\"\nprogram = \"a\"\norder = 1\n";
     let launch = Launch {
-        settings: RunSettings { task: task.clone(), report: folder.join("report"), ..RunSettings::default() },
+        settings: RunSettings {
+            task: task.clone(),
+            report: folder.join("report"),
+            duration: Some(Duration::from_millis(600)),
+            ..RunSettings::default()
+        },
         pipeline: Pipeline::parse(table, "table.toml".as_ref()).unwrap(),
         task: Task::load(&task).unwrap(),
         programs: folder,
-        duration: Some(Duration::from_millis(600)),
         injections: Vec::new(),
     };
     launch.run().unwrap();

@@ -1,10 +1,10 @@
 //! The supervision of real processes, with shell scripts in place of services.
 #![allow(clippy::unwrap_used)]
 
-use coact_pipeline::RestartPolicy;
+use coact_pipeline::{ProcessStat, Ready, RestartPolicy};
 use coact_run_records::{RunLog, SupervisorEvent, SupervisorEventKind};
 use coact_supervisor::{
-    Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSet, ProcessSpec, SupervisorLog,
+    Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSet, ProcessSpec, RunningChild, SupervisorLog,
 };
 use rustix::process::{Pid, Signal};
 use std::path::Path;
@@ -25,8 +25,9 @@ struct Trial {
 struct RecordedCalls(Vec<String>);
 
 impl Checkpoints for RecordedCalls {
-    fn publish(&mut self, process: &str) {
+    fn publish(&mut self, process: &str) -> Option<String> {
         self.0.push(format!("publish {process}"));
+        None
     }
     fn drop_newest(&mut self, process: &str) -> Option<String> {
         self.0.push(format!("drop {process}"));
@@ -389,7 +390,9 @@ fn what_is_not_needed_is_restarted_for_ever_and_keeps_nobody_waiting() {
 struct Crowded(std::path::PathBuf);
 
 impl Checkpoints for Crowded {
-    fn publish(&mut self, _: &str) {}
+    fn publish(&mut self, _: &str) -> Option<String> {
+        None
+    }
     fn recovered(&mut self, _: &str) {}
     fn crowd(&self, process: &str) -> Option<String> {
         (!self.0.exists()).then(|| format!("no place for {process}"))
@@ -512,4 +515,45 @@ fn the_log_on_disk_holds_every_event() {
     let logged = RunLog::<SupervisorEvent>::read(trial.folder.path()).unwrap();
     assert_eq!(logged, trial.events);
     assert!(logged.is_sorted_by_key(|event| event.at_ns));
+}
+
+#[test]
+fn a_process_of_an_earlier_supervisor_is_known_by_its_start_is_heard_and_ends_when_it_is_dropped() {
+    let mut command = std::process::Command::new("/bin/sh");
+    command.args(["-c", "echo said >&2; exec sleep 600"]).stderr(std::process::Stdio::piped());
+    let mut process = command.spawn().unwrap();
+    let started = ProcessStat::of(process.id()).unwrap().started;
+    let ready = Ready { pid: process.id(), started, ..Ready::default() };
+    let other = Ready { started: started + 1, ..ready.clone() };
+    assert!(RunningChild::adopt(&other, |_| {}).is_none(), "another process has its id now");
+    assert!(process.try_wait().unwrap().is_none(), "and is not harmed");
+    let (sender, lines) = std::sync::mpsc::channel();
+    let adopted = RunningChild::adopt(&ready, move |line| sender.send(line.to_owned()).unwrap()).unwrap();
+    assert_eq!(lines.recv_timeout(Duration::from_secs(60)).unwrap(), "said");
+    assert!(!adopted.is_dead() && !adopted.is_stopped());
+    adopted.signal(Signal::STOP);
+    let begin = Instant::now();
+    while !adopted.is_stopped() {
+        assert!(begin.elapsed() < Duration::from_secs(60));
+    }
+    drop(adopted);
+    assert!(RunningChild::adopt(&ready, |_| {}).is_none(), "it is dead, though nobody has reaped it");
+    assert!(!process.wait().unwrap().success());
+}
+
+#[test]
+fn a_supervisor_that_panics_kills_nobody_itself() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN)]);
+    trial.run_until_ready();
+    let pid = trial.pid("a");
+    let panicked = std::thread::spawn(move || {
+        let _set = trial;
+        panic!("as a supervisor would");
+    });
+    assert!(panicked.join().is_err());
+    // What the kernel does to it when the supervisor's thread ends is another matter; this thread has started it.
+    assert!(exists(pid));
+    let process = Pid::from_raw(pid.cast_signed()).unwrap();
+    rustix::process::kill_process(process, Signal::KILL).unwrap();
+    rustix::process::waitpid(Some(process), rustix::process::WaitOptions::empty()).unwrap();
 }

@@ -30,11 +30,14 @@
 //! # Ok::<(), coact_pipeline::PipelineError>(())
 //! ```
 
+mod membership;
 mod memory_reserve;
+mod owner;
 mod pipeline;
 mod pipeline_error;
 mod pipeline_file;
 mod process_entry;
+mod process_stat;
 mod ready;
 mod restart_policy;
 mod run;
@@ -44,10 +47,13 @@ mod run_settings;
 mod shared_memory;
 mod trust;
 
+pub use membership::Membership;
 pub use memory_reserve::MemoryReserve;
+pub use owner::Owner;
 pub use pipeline::Pipeline;
 pub use pipeline_error::PipelineError;
 pub use process_entry::{ProcessEntry, Trigger};
+pub use process_stat::ProcessStat;
 pub use ready::{GENERATION_VARIABLE, Ready};
 pub use restart_policy::RestartPolicy;
 pub use run::Run;

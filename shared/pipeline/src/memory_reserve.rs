@@ -21,13 +21,18 @@ impl MemoryReserve {
     /// [`RunError::SharedMemoryFull`], or [`RunError::File`].
     pub fn take(run: &Run) -> Result<Self, RunError> {
         let bytes = shared_memory::allocate(&run.prefix())?;
-        let path = shared_memory::path(&format!("{}reserve", run.prefix()));
+        let path = shared_memory::path(&Self::name(run));
         let file = OpenOptions::new().write(true).create_new(true).mode(0o600).open(&path);
         let file =
             file.map_err(|cause| RunError::File { path: path.clone(), operation: "cannot be made", cause })?;
         let reserve = Self { path, file, bytes };
         reserve.fill()?;
         Ok(reserve)
+    }
+
+    /// What the file is called.
+    pub(crate) fn name(run: &Run) -> String {
+        format!("{}reserve", run.prefix())
     }
 
     /// Makes room for a replacement, where there is no other: to give memory back takes milliseconds, in which nobody is started.

@@ -1,11 +1,15 @@
 use crate::{PipelineError, ProcessEntry, RestartPolicy};
 use std::path::Path;
+use std::time::Duration;
 
 /// The process table: what runs, in which order, with which real-time properties, and what happens after a crash.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pipeline {
     /// What happens when a process dies.
     pub restart: RestartPolicy,
+    /// For how long the processes live on when the supervisor has died, so that a successor can adopt them. Zero: they end with
+    /// it.
+    pub adoptable_for: Duration,
     /// Every process, sorted by [`ProcessEntry::order`].
     pub processes: Vec<ProcessEntry>,
 }

@@ -25,6 +25,8 @@ const RESTART: RestartPolicy = RestartPolicy {
 const SHORTEST_HUNG_AFTER: Duration = Duration::from_millis(5);
 /// A longer window would remember restarts that have nothing to do with each other.
 const LONGEST_WINDOW: Duration = Duration::from_secs(24 * 3600);
+/// Nobody comes any more who has not come within an hour; the machine would be kept busy by a set that does nothing.
+const LONGEST_ADOPTABLE: Duration = Duration::from_secs(3600);
 /// A name becomes part of topic names and of the names of sockets, of which the system takes 108 bytes.
 const LONGEST_NAME: usize = 32;
 
@@ -33,6 +35,8 @@ const LONGEST_NAME: usize = 32;
 struct PipelineText {
     #[serde(default)]
     restart: RestartText,
+    #[serde(default)]
+    supervision: SupervisionText,
     process: Vec<ProcessText>,
 }
 
@@ -44,6 +48,12 @@ struct RestartText {
     backoff_initial_ms: u64,
     backoff_max_ms: u64,
     hung_after_ms: Spanned<u64>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SupervisionText {
+    adoptable_for_s: Option<Spanned<f64>>,
 }
 
 #[derive(Deserialize)]
@@ -100,6 +110,7 @@ impl Pipeline {
         source.refuse_removed_keys()?;
         let raw: PipelineText = toml::from_str(text).map_err(|error| source.refused(&error))?;
         let restart = source.restart(&raw.restart)?;
+        let adoptable_for = source.adoptable_for(&raw.supervision)?;
         let mut processes = Vec::with_capacity(raw.process.len());
         for entry in raw.process {
             let has_standby = entry.standby;
@@ -108,7 +119,7 @@ impl Pipeline {
             processes.extend(std::iter::once(process).chain(standby));
         }
         processes.sort_by_key(|entry| entry.order);
-        Ok(Self { restart, processes })
+        Ok(Self { restart, adoptable_for, processes })
     }
 }
 
@@ -130,6 +141,16 @@ impl Source<'_> {
             backoff_max: Duration::from_millis(raw.backoff_max_ms),
             hung_after,
         })
+    }
+
+    /// Zero where the table says nothing: whoever does not know of it expects that the set ends with its supervisor.
+    fn adoptable_for(&self, raw: &SupervisionText) -> Result<Duration, PipelineError> {
+        let Some(value) = &raw.adoptable_for_s else { return Ok(Duration::ZERO) };
+        let (seconds, most) = (*value.get_ref(), LONGEST_ADOPTABLE.as_secs());
+        if !(0.0..=most as f64).contains(&seconds) {
+            return Err(self.error(value, "adoptable_for_s", seconds, &format!("0 to {most}, seconds")));
+        }
+        Ok(Duration::from_secs_f64(seconds))
     }
 
     fn process(&self, raw: ProcessText, before: &[ProcessEntry]) -> Result<ProcessEntry, PipelineError> {

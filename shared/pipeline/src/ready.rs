@@ -12,6 +12,10 @@ pub struct Ready {
     pub generation: u32,
     /// Its process id.
     pub pid: u32,
+    /// When it was started, clock ticks after boot ([`ProcessStat`](crate::ProcessStat)): a successor of the supervisor knows
+    /// by it that the process id has not come to mean another process.
+    #[serde(default)]
+    pub started: u64,
     /// Scheduling class obtained: "SCHED_FIFO" or "SCHED_OTHER".
     pub scheduler: String,
     /// Real-time priority obtained; 0 for SCHED_OTHER.

@@ -1,16 +1,19 @@
 use crate::run_lock::{Held, RunLock};
-use crate::{Ready, RunError, RunSettings, shared_memory, trust};
+use crate::{Membership, MemoryReserve, Owner, Ready, RunError, RunSettings, shared_memory, trust};
 use serde::{Deserialize, Serialize};
 use std::fs::{DirBuilder, OpenOptions};
 use std::io::{self, Write};
 use std::os::unix::fs::{DirBuilderExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// One run of the process set: its directory, its identity, and the names that keep it apart from other runs.
 ///
 /// ```text
 /// /dev/shm/coact_<id>/lock         locked as long as the supervisor lives: who holds it owns the run
+///                    /members      locked, shared, by each process that outlives its supervisor: while one does, the run lives
+///                    /owner.json   which supervisor owns the run
 ///                    /run.json     what the run is made of
 ///                    /start        clock reading of tick 0, written when all are ready
 ///                    /config/      iceoryx2.toml: where other iceoryx2 clients find the run's topics
@@ -25,9 +28,16 @@ use std::sync::Arc;
 pub struct Run {
     directory: PathBuf,
     description: Description,
-    /// Held by the process that made the run, by none that found it.
+    /// Held by the process that made or adopted the run, by none that found it.
     lock: Option<Arc<RunLock>>,
 }
+
+/// Which supervisor owns the run.
+const OWNER: &str = "owner.json";
+/// The lock of a run is tried for so long: whoever looks at it holds it for some microseconds. Chosen by hand.
+const LOOKED_AT_FOR: Duration = Duration::from_millis(500);
+/// How often. Chosen by hand; not sensitive.
+const LOOK_EVERY: Duration = Duration::from_millis(5);
 
 impl PartialEq for Run {
     fn eq(&self, other: &Self) -> bool {
@@ -41,8 +51,6 @@ impl Eq for Run {}
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 struct Description {
     id: String,
-    /// Process id of the supervisor.
-    owner: u32,
     settings: RunSettings,
 }
 
@@ -53,9 +61,8 @@ impl Run {
     /// [`RunError::SharedMemoryFull`], or [`RunError::File`] when the directory cannot be made.
     pub fn create(settings: RunSettings) -> Result<Self, RunError> {
         shared_memory::check_space()?;
-        let owner = std::process::id();
         let (id, directory, lock) = unused_directory(&base())?;
-        let description = Description { id, owner, settings };
+        let description = Description { id, settings };
         let run = Self { directory, description, lock: Some(Arc::new(lock)) };
         // A process id comes again: nothing of an earlier run with this name may be found in shared memory.
         shared_memory::wipe(&run.prefix())?;
@@ -63,6 +70,9 @@ impl Run {
             create_directory(&folder).map_err(|error| failed("cannot be made", &folder, error))?;
         }
         run.write_iceoryx2_config()?;
+        Membership::prepare(&run.directory)
+            .map_err(|error| failed("cannot be prepared", &run.directory, error))?;
+        run.write_json(OWNER, &Owner { pid: std::process::id(), generation: 0 })?;
         run.write_json("run.json", &run.description)?;
         Ok(run)
     }
@@ -110,15 +120,71 @@ impl Run {
         runs
     }
 
-    /// True while the process that created the run lives: it holds the run's lock.
+    /// True while the supervisor lives that made the run, or adopted it last: it holds the run's lock.
     pub fn owner_lives(&self) -> bool {
         self.lock.is_some() || RunLock::is_held(&self.directory)
+    }
+
+    /// True when the supervisor has died and processes of the run live on.
+    pub fn is_orphaned(&self) -> bool {
+        !self.owner_lives() && Membership::is_any(&self.directory)
+    }
+
+    /// Waits until the supervisor has died. Who waits uses no time.
+    ///
+    /// # Errors
+    /// [`RunError::File`] when there is no such run any more.
+    pub fn wait_for_death_of_owner(&self) -> Result<(), RunError> {
+        RunLock::wait_for_release(&self.directory)
+            .map_err(|error| failed("cannot be waited for", &self.directory, error))
+    }
+
+    /// From now on the calling process is the supervisor of a run whose own has died.
+    ///
+    /// # Errors
+    /// [`RunError::NotOrphaned`] says why it cannot be; [`RunError::File`] or [`RunError::Malformed`].
+    pub fn adopt(&self) -> Result<Self, RunError> {
+        let refused = |problem| RunError::NotOrphaned { path: self.directory.clone(), problem };
+        let Some(lock) = self.take_lock() else { return Err(refused("its supervisor lives")) };
+        if !Membership::is_any(&self.directory) {
+            return Err(refused("none of its processes lives any more"));
+        }
+        if self.start_ns()?.is_none() {
+            return Err(refused("it had not begun when its supervisor died"));
+        }
+        // Room for what its successor makes; it reserves its own.
+        shared_memory::wipe(&MemoryReserve::name(self))?;
+        let run = Self { lock: Some(Arc::new(lock)), ..self.clone() };
+        let generation = self.owner()?.generation + 1;
+        run.write_json(OWNER, &Owner { pid: std::process::id(), generation })?;
+        Ok(run)
+    }
+
+    /// The lock of a run whose owner is dead. Others hold it for an instant when they look who owns the run.
+    fn take_lock(&self) -> Option<RunLock> {
+        let since = Instant::now();
+        while since.elapsed() < LOOKED_AT_FOR {
+            if let Ok(Held::ByCaller(lock)) = RunLock::look(&self.directory) {
+                return Some(lock);
+            }
+            std::thread::sleep(LOOK_EVERY);
+        }
+        None
+    }
+
+    /// The calling process is a process of the run that outlives its supervisor, for as long as the returned value lives.
+    ///
+    /// # Errors
+    /// [`RunError::File`].
+    pub fn become_member(&self) -> Result<Membership, RunError> {
+        Membership::begin(&self.directory).map_err(|error| failed("cannot be joined", &self.directory, error))
     }
 
     /// Removes the run's directory and every shared-memory file of its prefix. The report directory stays.
     ///
     /// # Errors
-    /// [`RunError::File`] names what could not be removed; [`RunError::Owned`] when another living process owns the run.
+    /// [`RunError::File`] names what could not be removed; [`RunError::Owned`] when another living process owns the run, or
+    /// belongs to it.
     pub fn remove(&self) -> Result<(), RunError> {
         let _lock = match &self.lock {
             Some(_) => None,
@@ -128,11 +194,14 @@ impl Run {
                 _ => return Err(RunError::Owned { path: self.directory.clone() }),
             },
         };
+        if Membership::is_any(&self.directory) {
+            return Err(RunError::Owned { path: self.directory.clone() });
+        }
         remove_all(&self.directory, &self.prefix())
     }
 
-    /// Removes what runs of this user left behind whose owner has ended: exactly those whose lock can be taken, whatever
-    /// else is in their directories. Returns what could not be removed.
+    /// Removes what runs of this user left behind of which nobody lives: exactly those whose lock can be taken and that have
+    /// no member, whatever else is in their directories. Returns what could not be removed.
     pub fn remove_dead() -> Vec<RunError> {
         let is_own = |directory: &PathBuf| directory.is_dir() && trust::is_own(directory).unwrap_or(false);
         directories().filter(is_own).filter_map(|directory| remove_if_dead(&directory).err()).collect()
@@ -156,9 +225,12 @@ impl Run {
         &self.description.id
     }
 
-    /// Process id of the supervisor that owns the run.
-    pub fn owner(&self) -> u32 {
-        self.description.owner
+    /// The supervisor that owns the run, or did when it died: looked up anew each time, for a run may be adopted.
+    ///
+    /// # Errors
+    /// [`RunError::File`] or [`RunError::Malformed`].
+    pub fn owner(&self) -> Result<Owner, RunError> {
+        read_json(&self.directory.join(OWNER))
     }
 
     /// What the run is made of.
@@ -209,6 +281,19 @@ impl Run {
     pub fn ready(&self, process: &str, generation: u32) -> Result<Option<Ready>, RunError> {
         let path = self.directory.join(ready_name(process, generation));
         if path.exists() { read_json(&path).map(Some) } else { Ok(None) }
+    }
+
+    /// The newest report of a process: that of its highest generation; `None` while it was never ready.
+    ///
+    /// # Errors
+    /// [`RunError::Malformed`].
+    pub fn newest_ready(&self, process: &str) -> Result<Option<Ready>, RunError> {
+        let entries = std::fs::read_dir(self.ready_directory()).into_iter().flatten().filter_map(Result::ok);
+        let generation = |name: &str| -> Option<u32> {
+            name.strip_prefix(process)?.strip_prefix('.')?.strip_suffix(".json")?.parse().ok()
+        };
+        let newest = entries.filter_map(|entry| generation(entry.file_name().to_str()?)).max();
+        newest.map_or(Ok(None), |newest| self.ready(process, newest))
     }
 
     /// The file that a process without pulses touches as a sign of life.
@@ -266,6 +351,8 @@ fn name_of(directory: &Path) -> Option<&str> {
 
 fn remove_if_dead(directory: &Path) -> Result<(), RunError> {
     match RunLock::look(directory) {
+        // Its supervisor has died, its processes have not.
+        Ok(Held::ByCaller(_lock)) if Membership::is_any(directory) => Ok(()),
         Ok(Held::ByCaller(_lock)) => match name_of(directory) {
             Some(name) => remove_all(directory, &format!("{name}_")),
             None => Ok(()),

@@ -32,11 +32,19 @@ pub enum RunError {
         /// What it should be.
         kind: &'static str,
     },
-    /// The run's lock is held, or there is none.
-    #[error("{}: nothing says that its supervisor has ended; expected a lock that nobody holds", path.display())]
+    /// The run's lock is held by its supervisor or its processes, or there is none.
+    #[error("{}: nothing says that its supervisor and its processes have ended; expected a lock that nobody holds", path.display())]
     Owned {
         /// The run directory.
         path: PathBuf,
+    },
+    /// The run has nobody to adopt, or a supervisor.
+    #[error("{}: {problem}; expected a run whose supervisor has died and whose processes live on", path.display())]
+    NotOrphaned {
+        /// The run directory.
+        path: PathBuf,
+        /// Why it cannot be adopted.
+        problem: &'static str,
     },
     /// Shared memory is full: a process that touches a page it does not get is killed by SIGBUS.
     #[error(

@@ -1,5 +1,6 @@
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// What a run is made of: every process finds it in the run directory. Paths are absolute.
 ///
@@ -26,6 +27,9 @@ pub struct RunSettings {
     pub partner: String,
     /// How the world computes.
     pub world: WorldMode,
+    /// How long the run lasts; without it, until all subgoals are achieved, or the supervisor has waited long enough.
+    #[serde(default)]
+    pub duration: Option<Duration>,
 }
 
 impl RunSettings {
@@ -42,6 +46,7 @@ impl RunSettings {
             seed: 1,
             partner: "synthetic".into(),
             world: WorldMode::Physics,
+            duration: None,
         }
     }
 }

@@ -11,6 +11,7 @@ fn ready(process: &str) -> Ready {
         process: process.to_owned(),
         generation: 2,
         pid: 1,
+        started: 7,
         scheduler: "SCHED_OTHER".to_owned(),
         priority: 0,
         core: None,
@@ -184,4 +185,60 @@ fn all_memory_of_a_run_is_allocated_and_as_much_again_is_reserved_for_replacemen
     assert_eq!((allocated("of-replacement"), allocated("reserve")), (SIZE / 3, SIZE));
     run.remove().unwrap();
     assert!(!memory("reserve").exists());
+}
+
+/// A run whose owner has died: found again, and nobody holds its lock any more.
+fn left_by_owner() -> Run {
+    let run = Run::create(RunSettings::default()).unwrap();
+    run.start(123).unwrap();
+    let found = Run::load(run.directory()).unwrap();
+    drop(run);
+    found
+}
+
+#[test]
+fn a_run_whose_owner_died_is_no_remains_while_it_has_a_member_and_is_owned_again_once_it_is_adopted() {
+    let found = left_by_owner();
+    let member = found.become_member().unwrap();
+    assert!(found.is_orphaned() && !found.owner_lives());
+    found.wait_for_death_of_owner().unwrap();
+    Run::remove_dead();
+    assert!(matches!(found.remove(), Err(RunError::Owned { .. })));
+    assert!(found.directory().exists());
+    assert_eq!(found.owner().unwrap().generation, 0);
+    let adopted = found.adopt().unwrap();
+    let owner = found.owner().unwrap();
+    assert_eq!((owner.generation, owner.pid), (1, std::process::id()), "whoever looks finds the new owner");
+    assert!(found.owner_lives() && !found.is_orphaned());
+    let refused = found.adopt().unwrap_err().to_string();
+    assert!(refused.contains("its supervisor lives; expected a run whose supervisor has died"), "{refused}");
+    assert!(matches!(adopted.remove(), Err(RunError::Owned { .. })), "its member uses it");
+    drop(member);
+    adopted.remove().unwrap();
+    assert!(!found.directory().exists());
+}
+
+#[test]
+fn a_run_without_members_or_without_a_beginning_is_not_adopted() {
+    let found = left_by_owner();
+    let refused = found.adopt().unwrap_err().to_string();
+    assert!(refused.contains("none of its processes lives any more"), "{refused}");
+    std::fs::remove_file(found.directory().join("start")).unwrap();
+    let member = found.become_member().unwrap();
+    let refused = found.adopt().unwrap_err().to_string();
+    assert!(refused.contains("had not begun"), "{refused}");
+    assert!(found.is_orphaned(), "a refusal leaves the run as it was");
+    drop(member);
+    found.remove().unwrap();
+}
+
+#[test]
+fn the_newest_report_of_a_process_is_that_of_its_highest_generation() {
+    let run = Run::create(RunSettings::default()).unwrap();
+    assert_eq!(run.newest_ready("fields").unwrap(), None);
+    for (process, generation) in [("fields", 2), ("fields", 10), ("fields", 9), ("fields-standby", 11)] {
+        run.report_ready(&Ready { generation, ..ready(process) }).unwrap();
+    }
+    assert_eq!(run.newest_ready("fields").unwrap().unwrap().generation, 10);
+    run.remove().unwrap();
 }

@@ -66,6 +66,16 @@ fn every_mistake_names_file_line_key_and_what_was_expected() {
         ("priority = 81\n", "", "p.toml:6: name: is fields; expected a key \"priority\""),
         ("latest_start_us = 600\n", "", "p.toml:6: name: is fields; expected a key \"latest_start_us\""),
         ("[restart]", "[restart", "p.toml:2: "),
+        (
+            "[restart]",
+            "[supervision]\nadoptable_for_s = -1\n[restart]",
+            "p.toml:3: adoptable_for_s: is -1; expected 0 to 3600, seconds",
+        ),
+        (
+            "[restart]",
+            "[supervision]\nadoptable_for_s = nan\n[restart]",
+            "p.toml:3: adoptable_for_s: is NaN; expected 0 to 3600",
+        ),
     ];
     for (from, to, message) in cases {
         let found = refused(from, to);
@@ -119,12 +129,14 @@ fn reference_table_is_read_and_shows_the_defaults_of_the_restart_policy() {
     assert_eq!(started_by_the_timer.count(), 1);
     let defaults = Pipeline::parse("process = []", "defaults".as_ref()).unwrap();
     assert_eq!(pipeline.restart, defaults.restart);
+    assert_eq!(pipeline.adoptable_for, defaults.adoptable_for);
 }
 
 #[test]
 fn reference_table_explains_every_key() {
     let process = "[[process]]\nunknown = 1";
-    for text in ["unknown = 1\nprocess = []", "process = []\n[restart]\nunknown = 1", process] {
+    let tables = ["[restart]", "[supervision]"].map(|table| format!("process = []\n{table}\nunknown = 1"));
+    for text in ["unknown = 1\nprocess = []", process].into_iter().chain(tables.iter().map(String::as_str)) {
         let refusal = Pipeline::parse(text, "p.toml".as_ref()).unwrap_err().to_string();
         // Of two keys the parser says "expected `a` or `b`", of more "expected one of `a`, `b`, `c`".
         let (_, keys) = refusal.split_once("expected ").unwrap();
@@ -150,4 +162,12 @@ fn a_standby_is_a_process_of_its_own_that_the_task_can_do_without() {
     let taken = with.replacen("name = \"world\"", "name = \"fields-standby\"", 1);
     let refused = Pipeline::parse(&taken, "p.toml".as_ref()).unwrap_err().to_string();
     assert!(refused.contains("a name that no process above has"), "{refused}");
+}
+
+#[test]
+fn a_set_ends_with_its_supervisor_unless_the_table_says_for_how_long_it_can_be_adopted() {
+    assert_eq!(Pipeline::parse(GOOD, "p.toml".as_ref()).unwrap().adoptable_for, Duration::ZERO);
+    let table = GOOD.replacen("[restart]", "[supervision]\nadoptable_for_s = 2.5\n[restart]", 1);
+    let adoptable = Pipeline::parse(&table, "p.toml".as_ref()).unwrap();
+    assert_eq!(adoptable.adoptable_for, Duration::from_millis(2500));
 }

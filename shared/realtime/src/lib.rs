@@ -63,6 +63,7 @@ mod monotonic_clock;
 mod origin;
 mod output;
 mod overload;
+mod owner_watch;
 mod place;
 mod places;
 mod port;

@@ -1,4 +1,5 @@
 use crate::executor::Executor;
+use crate::owner_watch::OwnerWatch;
 use crate::signals::Signals;
 use crate::{
     Arguments, Bus, Cycle, DropOuts, Heartbeat, LogStyle, Message, Output, PortError, ProcessError, Schedule,
@@ -6,7 +7,7 @@ use crate::{
 };
 use clap::Parser;
 use coact_messages::{Refusal, topic};
-use coact_pipeline::{GENERATION_VARIABLE, Pipeline, ProcessEntry, Ready, Run};
+use coact_pipeline::{GENERATION_VARIABLE, Pipeline, ProcessEntry, ProcessStat, Ready, Run};
 use rustix::process::Signal;
 use std::io;
 use std::panic::AssertUnwindSafe;
@@ -136,18 +137,27 @@ impl Process {
         Ok(checkpoint)
     }
 
-    /// Lets the process end in order when the supervisor dies: it is told to stop then (SIGTERM), where others are killed.
+    /// Lets the process end in order when the supervisor dies: it is told to stop then (SIGTERM), where others are killed. In a
+    /// set that can be adopted that holds until the process is ready.
     ///
     /// # Errors
     /// [`ProcessError::Signals`] when the system refuses.
     pub fn outlive_supervisor(&self) -> Result<(), ProcessError> {
-        let given = rustix::process::parent_process_death_signal().map_err(io::Error::from);
-        // Started by hand, a process has none, and needs none.
-        match given.map_err(ProcessError::Signals)? {
-            Some(_) => rustix::process::set_parent_process_death_signal(Some(Signal::TERM))
-                .map_err(|error| ProcessError::Signals(error.into())),
-            None => Ok(()),
+        match has_supervisor()? {
+            true => on_death_of_supervisor(Some(Signal::TERM)),
+            false => Ok(()),
         }
+    }
+
+    /// In a set that can be adopted: the process no longer ends with the supervisor, but a while later, if nobody adopts the run.
+    fn become_adoptable(&self) -> Result<(), ProcessError> {
+        if self.pipeline.adoptable_for.is_zero() || !has_supervisor()? {
+            return if self.entry.realtime { self.keep_ordinary_thread(park) } else { Ok(()) };
+        }
+        let member = self.run.become_member()?;
+        let watch = OwnerWatch::new(&self.run, self.pipeline.adoptable_for, &self.entry, member);
+        self.keep_ordinary_thread(|| watch.watch())?;
+        on_death_of_supervisor(None)
     }
 
     /// Starts a thread for work that takes longer than a cycle. It is an ordinary thread, off the real-time cores where
@@ -186,18 +196,16 @@ impl Process {
         }
     }
 
-    /// Starts a thread that does nothing, as an ordinary one. The memory of a killed process is given back by whichever thread of
+    /// Starts an ordinary thread that is idle from then on. The memory of a killed process is given back by whichever thread of
     /// it ends last, for milliseconds: by this one, as a rule, and not in real time, where others would wait for it. Of a
     /// replacement it also prefaults the memory.
-    fn keep_ordinary_thread(&self) -> Result<(), ProcessError> {
-        let is_replacement = self.generation > 0;
+    fn keep_ordinary_thread(&self, idle: impl FnOnce() + Send + 'static) -> Result<(), ProcessError> {
+        let prefaults = self.entry.realtime && self.generation > 0;
         self.spawn_background("last", move || {
-            if is_replacement {
+            if prefaults {
                 memory_lock::populate();
             }
-            loop {
-                std::thread::park();
-            }
+            idle();
         })
     }
 
@@ -211,12 +219,14 @@ impl Process {
         self.signals.drop_outs()
     }
 
-    /// Becomes real time as far as the process table wants and the machine grants, and reports readiness.
+    /// Becomes real time as far as the process table wants and the machine grants, and reports readiness; from then on the process
+    /// can be adopted, if the table says so.
     ///
     /// The report says what was refused, and the supervisor shows that in red; the process runs all the same.
     ///
     /// # Errors
-    /// [`ProcessError::Run`] when the report cannot be written.
+    /// [`ProcessError::Run`] when the report cannot be written; [`ProcessError::Thread`] or [`ProcessError::Signals`] when the
+    /// system refuses.
     pub fn report_ready(&self) -> Result<(), ProcessError> {
         let lock = self.entry.realtime.then(|| match self.generation {
             0 => memory_lock::lock_and_prefault(),
@@ -229,6 +239,8 @@ impl Process {
             process: self.entry.name.clone(),
             generation: self.generation,
             pid: std::process::id(),
+            // Without it, no successor of the supervisor takes the process for this one.
+            started: ProcessStat::of(std::process::id()).map_or(0, |stat| stat.started),
             scheduler: String::new(),
             priority: 0,
             core: None,
@@ -237,7 +249,8 @@ impl Process {
             resumed: self.resumed,
         };
         scheduling::report_obtained(&mut ready);
-        Ok(self.run.report_ready(&ready)?)
+        self.run.report_ready(&ready)?;
+        self.become_adoptable()
     }
 
     /// The sign of life of a process without cycles: to be begun when its loop begins, and to beat in each turn of it.
@@ -272,9 +285,6 @@ impl Process {
         let waits = crate::executor::waits_for_topic(&self.entry, cycle.trigger().topic())?;
         let pulse = self.bus.output(&topic::pulse(&self.entry.name))?;
         self.report_ready()?;
-        if self.entry.realtime {
-            self.keep_ordinary_thread()?;
-        }
         let Some(schedule) = self.wait_for_start()? else { return Ok(()) };
         let Self { entry, signals, bus, .. } = self;
         Executor::new(&entry, schedule, waits, pulse, bus.refusals().clone()).run(&mut cycle, &signals)?;
@@ -285,4 +295,23 @@ impl Process {
 fn generation() -> Result<u32, ProcessError> {
     let Ok(found) = std::env::var(GENERATION_VARIABLE) else { return Ok(0) };
     found.parse().map_err(|_| ProcessError::Generation { variable: GENERATION_VARIABLE, found })
+}
+
+/// Whether the process was started by a supervisor, which has the kernel end it with itself. One that was started by hand has none,
+/// and needs none.
+fn has_supervisor() -> Result<bool, ProcessError> {
+    let given = rustix::process::parent_process_death_signal().map_err(io::Error::from);
+    Ok(given.map_err(ProcessError::Signals)?.is_some())
+}
+
+/// The signal that the kernel sends when the supervisor dies.
+fn on_death_of_supervisor(signal: Option<Signal>) -> Result<(), ProcessError> {
+    let set = rustix::process::set_parent_process_death_signal(signal);
+    set.map_err(|error| ProcessError::Signals(error.into()))
+}
+
+fn park() {
+    loop {
+        std::thread::park();
+    }
 }

@@ -37,12 +37,13 @@ impl RunView {
     }
 
     /// Whether the process `name` of the run has reported, in this generation, that it is ready, and is the origin's process.
-    /// The supervisor reports to nobody: it is the process that made the run.
+    /// The supervisor reports to nobody: it is the process that owns the run, of a later generation where it has adopted it.
     ///
     /// It reads a file, once for each writer that begins to send: to connect to one costs more.
     pub(crate) fn is(&self, name: &str, generation: u32, origin: Origin) -> bool {
         if name == SUPERVISOR {
-            return generation == 0 && self.is_supervisor(origin);
+            let owner = self.run.owner();
+            return owner.is_ok_and(|owner| (owner.generation, owner.pid) == (generation, origin.pid));
         }
         self.run.ready(name, generation).is_ok_and(|ready| ready.is_some_and(|ready| ready.pid == origin.pid))
     }
@@ -56,8 +57,8 @@ impl RunView {
         topic::standby(stage).filter(|standby| self.is(standby, generation, origin)).map(|_| Place::Standby)
     }
 
-    /// Whether the origin's process is the supervisor of the run.
+    /// Whether the origin's process is the supervisor of the run. It reads a file, too.
     pub(crate) fn is_supervisor(&self, origin: Origin) -> bool {
-        origin.pid == self.run.owner()
+        self.run.owner().is_ok_and(|owner| owner.pid == origin.pid)
     }
 }

@@ -4,8 +4,12 @@
 mod support;
 
 use bytemuck::Zeroable;
-use coact_messages::{FieldFrame, Header, LAYOUT, Percept, Pulse, Refusal, Truth, WorldState, topic};
-use coact_realtime::{Bus, Input, PortError};
+use coact_messages::{
+    FieldFrame, Header, LAYOUT, Percept, Pulse, Refusal, StopState, Truth, WorldState, topic,
+};
+use coact_period::PERIOD_NS;
+use coact_pipeline::{Run, RunSettings};
+use coact_realtime::{Bus, Input, Output, PortError, Schedule, now};
 use iceoryx2::prelude::*;
 use support::{TestRun, ready};
 
@@ -290,4 +294,39 @@ fn runs_beside_each_other_do_not_hear_each_other_and_leave_nothing() {
     let mut output = other.output(topic::PERCEPT).unwrap();
     send(&mut output, 7);
     assert!(input.refresh().unwrap(), "the other run goes on");
+}
+
+/// Says as the supervisor of this generation that the robot may move. Its port and bus are to live until that is heard.
+fn say_as_supervisor(run: &Run, generation: u32) -> (Output<StopState>, Bus) {
+    let bus = Bus::open(run, "supervisor", generation).unwrap();
+    let mut output: Output<StopState> = bus.output(topic::STOP).unwrap();
+    let mut message = output.loan().unwrap();
+    (message.stopped, message.reserved) = (0, 0);
+    let schedule = Schedule { start_ns: run.start_ns().unwrap().unwrap() };
+    message.send(schedule.tick_at(now()), now()).unwrap();
+    (output, bus)
+}
+
+#[test]
+fn a_successor_of_the_supervisor_is_heard_and_nobody_who_says_to_be_another_one() {
+    let owned = Run::create(RunSettings::default()).unwrap();
+    owned.start(now() - 2000 * PERIOD_NS).unwrap();
+    let run = Run::load(owned.directory()).unwrap();
+    let bus = Bus::open(&run, "world", 0).unwrap();
+    let mut heard: Input<StopState> = bus.input(topic::STOP).unwrap();
+    let hears = |heard: &mut Input<StopState>, generation| {
+        let _speaker = say_as_supervisor(&run, generation);
+        heard.refresh().unwrap()
+    };
+    assert!(!hears(&mut heard, 1), "nobody has adopted the run yet");
+    assert!(hears(&mut heard, 0));
+    let member = run.become_member().unwrap();
+    drop(owned);
+    let adopted = run.adopt().unwrap();
+    for generation in [0, 2] {
+        assert!(!hears(&mut heard, generation), "{generation}");
+    }
+    assert!(hears(&mut heard, 1));
+    drop((heard, bus, member));
+    adopted.remove().unwrap();
 }

@@ -66,6 +66,8 @@ pub enum SupervisorEventKind {
     StopRequested,
     /// Ended because the run ended.
     Stopped,
+    /// The supervisor had died, and another one has taken its place: an operator started it.
+    Adopted,
     /// An operator stopped the robot: it brakes, and stands until it may go on.
     OperatorStopped,
     /// An operator let it go on.

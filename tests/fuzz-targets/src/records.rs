@@ -65,6 +65,10 @@ pub(crate) fn run_description(bytes: &[u8]) -> bool {
     })
 }
 
+pub(crate) fn run_owner(bytes: &[u8]) -> bool {
+    Scratch::with(&format!("{RUN}/owner.json"), bytes, |_| taken(run().owner()).is_some())
+}
+
 pub(crate) fn readiness(bytes: &[u8]) -> bool {
     taken(run().start_ns());
     Scratch::with(&format!("{RUN}/ready/fields.0.json"), bytes, |_| {

@@ -10,7 +10,7 @@ const fn target(
 }
 
 /// Every target.
-pub const TARGETS: [Target; 40] = [
+pub const TARGETS: [Target; 41] = [
     target("process-table", Input::Text, &["rt-config/pipeline.toml"], configuration::process_table),
     target("safety-limits", Input::Text, &["rt-config/safety.toml"], configuration::safety_limits),
     target("verdict-rules", Input::Text, &["rt-config/verdict.toml"], configuration::verdict_rules),
@@ -40,6 +40,7 @@ pub const TARGETS: [Target; 40] = [
     target("interval-log", Input::Text, &[], records::interval_log),
     target("latency-counters", Input::Text, &[], records::latency_counters),
     target("run-description", Input::Text, &[], records::run_description),
+    target("run-owner", Input::Text, &[], records::run_owner),
     target("readiness", Input::Text, &[], records::readiness),
     target("start", Input::Text, &[], records::start),
     target("control-request", Input::Text, &[], requests::control_request),

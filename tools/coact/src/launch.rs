@@ -8,7 +8,7 @@ use coact_pipeline::{Pipeline, RunSettings, WorldMode};
 use coact_robot::Robot;
 use coact_run_records::{Record, Snapshot};
 use coact_safety::SafetyLimits;
-use coact_supervisor::{Injection, Launch, LaunchError};
+use coact_supervisor::{Ending, Injection, Launch, LaunchError};
 use coact_world::Partner;
 use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
@@ -83,10 +83,29 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let settings = launch.settings.clone();
     if in_lockstep {
         lockstep::run(&launch)?;
-    } else if let Err(error) = launch.run() {
-        return gave_up(error, &settings, json);
+        return show(&settings, json, strict);
     }
-    draw_snapshots(&settings);
+    report(launch.run(), &settings, json, strict)
+}
+
+/// Shows how a set of processes has ended.
+///
+/// # Errors
+/// It was refused.
+pub(crate) fn report(
+    ended: Result<Ending, LaunchError>,
+    settings: &RunSettings,
+    json: bool,
+    strict: bool,
+) -> Result<ExitCode> {
+    match ended {
+        Ok(_) => show(settings, json, strict),
+        Err(error) => gave_up(error, settings, json),
+    }
+}
+
+fn show(settings: &RunSettings, json: bool, strict: bool) -> Result<ExitCode> {
+    draw_snapshots(settings);
     closed_pipe::ends_the_program();
     run_report::show(&settings.report, json, strict)
 }
@@ -103,6 +122,7 @@ fn prepare(args: Args) -> Result<Launch> {
         seed: args.seed,
         partner: partner::setting(&args.partner, &reaches),
         world: args.world,
+        duration: args.duration,
         ..shipped
     };
     let (task, _) = NetworkPlan::load(&settings.task)?;
@@ -115,7 +135,6 @@ fn prepare(args: Args) -> Result<Launch> {
         settings,
         task,
         programs,
-        duration: args.duration,
         injections: args.inject,
     })
 }

@@ -1,6 +1,7 @@
 //! The operator's command line: what starts, watches and reports runs. Whatever no run needs is a study, and belongs to a
 //! second program, `coact-studies`, so that the first `tools/launch` need not wait until that is built.
 
+mod adopt;
 mod check;
 /// Readers who have seen enough.
 pub mod closed_pipe;
@@ -46,6 +47,8 @@ struct Cli {
 enum Command {
     /// Start the process set, watch it build, and report
     Launch(launch::Args),
+    /// Take over a run whose supervisor has died
+    Adopt(adopt::Args),
     /// Say whether this machine can hold a period of 1 ms, and what would help
     Check(check::Args),
     /// Stop the robot of a running process set: it brakes, and stands until resume
@@ -87,6 +90,7 @@ fn run(arguments: &[OsString]) -> Result<ExitCode> {
     let command = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit()).command;
     match command {
         Command::Launch(args) => launch::run(args),
+        Command::Adopt(args) => adopt::run(args),
         Command::Check(args) => check::run(args),
         Command::Stop(args) => operator_stop::stop(&args),
         Command::Resume(args) => operator_stop::resume(&args),

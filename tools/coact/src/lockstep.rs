@@ -11,11 +11,11 @@ use std::time::Duration;
 /// # Errors
 /// A file or setting is refused, or the report cannot be written.
 pub fn run(launch: &Launch) -> Result<()> {
-    let Launch { settings, task, duration, .. } = launch;
+    let Launch { settings, task, .. } = launch;
     Monitor::clear(&settings.report)?;
     let terminal = Terminal::open();
     let mut progress = RunProgress::new(task);
-    let finished = coact_lockstep::run(settings, *duration, |stages, sentence| {
+    let finished = coact_lockstep::run(settings, settings.duration, |stages, sentence| {
         let at = Duration::from_nanos(stages.ticks() * PERIOD_NS);
         progress.frame(&stages.frame);
         if let Some(sentence) = sentence {

@@ -20,6 +20,7 @@ impl Cell {
         matches!(self.moment, Moment::StartUp | Moment::Shutdown)
             || self.fault.ends_the_set()
             || self.fault.fills()
+            || self.fault == FaultKind::Adoption
             || self.kills_supervisor()
     }
 

@@ -21,6 +21,8 @@ pub enum FaultKind {
     ReportFull,
     /// Another set is started on the same machine.
     SecondSet,
+    /// The supervisor is killed, and a successor adopts the set.
+    Adoption,
     /// Somebody puts the description of a living run where dead ones are found and removed.
     PlantedRun,
 }
@@ -41,7 +43,8 @@ impl FaultKind {
                     | Fault::FreezePlanner
             ),
             Self::ViewerFlood | Self::MemoryFull => true,
-            Self::Nothing | Self::Message(_) | Self::ReportFull | Self::SecondSet | Self::PlantedRun => false,
+            Self::Nothing | Self::Message(_) | Self::ReportFull | Self::SecondSet => false,
+            Self::Adoption | Self::PlantedRun => false,
         }
     }
 
@@ -54,6 +57,7 @@ impl FaultKind {
                 | Self::Message(_)
                 | Self::ReportFull
                 | Self::SecondSet
+                | Self::Adoption
                 | Self::PlantedRun
         ) || self.keeps_output()
     }
@@ -107,6 +111,7 @@ impl fmt::Display for FaultKind {
             Self::MemoryFull => "memory-full",
             Self::ReportFull => "report-full",
             Self::SecondSet => "second-set",
+            Self::Adoption => "adoption",
             Self::PlantedRun => "planted-run",
         })
     }

@@ -44,6 +44,8 @@ pub fn whole() -> Vec<Cell> {
     for fault in [Fault::Kill, Fault::Abort, Fault::Stop, Fault::StopShort] {
         cells.extend(WORKING.map(|moment| cell(fault, Target::Supervisor, moment)));
     }
+    let adoption = |moment| Cell { fault: FaultKind::Adoption, target: Target::Supervisor, moment };
+    cells.extend(WORKING.map(adoption));
     for (starved, killed) in
         [("perception", "world"), ("fields", "perception"), ("control", "fields"), ("world", "control")]
     {

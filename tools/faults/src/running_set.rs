@@ -1,6 +1,7 @@
 use crate::evidence::Ending;
 use crate::private_mounts::PrivateMounts;
 use crate::{Setup, Trouble};
+use coact_monitor::Rules;
 use coact_pipeline::Run;
 use coact_run_records::{LogFollower, SupervisorEvent, SupervisorEventKind};
 use rustix::process::{Pid, Resource, Rlimit, Signal, getrlimit, kill_process, prlimit};
@@ -29,13 +30,16 @@ const MADE_WITHIN: Duration = Duration::from_secs(20);
 const ENDS_WITHIN: Duration = Duration::from_secs(20);
 /// Within so long nothing of a set runs whose supervisor was killed: the arm brakes, and each process ends.
 const GONE_WITHIN: Duration = Duration::from_secs(3);
+/// For longer than it takes until there is a successor.
+const ADOPTABLE: &str = "adoptable_for_s = 20";
 /// Longer than any cells of one run take.
 const DURATION_S: &str = "900";
 
 impl RunningSet {
     /// `coact launch`, as soon as its run has a directory; with shared memory and a place for the report that nobody else sees,
-    /// if they are to be `private`: the calling thread then sees nothing else either, as long as it lives.
-    pub(crate) fn launch(setup: &Setup, private: bool) -> Result<Self, Trouble> {
+    /// if they are to be `private`: the calling thread then sees nothing else either, as long as it lives. One that is to be
+    /// `adoptable` outlives its supervisor for a while.
+    pub(crate) fn launch(setup: &Setup, private: bool, adoptable: bool) -> Result<Self, Trouble> {
         let folder = tempfile::tempdir().map_err(|error| Trouble::because("no folder was made")(&error))?;
         let mut mounts = if private { Some(PrivateMounts::of_this_thread()?) } else { None };
         if let Some(mounts) = &mut mounts {
@@ -56,6 +60,9 @@ impl RunningSet {
                 "--seed",
                 &setup.seed.to_string(),
             ]);
+            if adoptable {
+                command.arg("--pipeline").arg(adoptable_table(setup, folder.path())?);
+            }
             let child = command.stdin(Stdio::null()).stdout(stdout).stderr(stderr).spawn()?;
             Ok((child, report))
         };
@@ -108,6 +115,24 @@ impl RunningSet {
     pub(crate) fn signal(&self, signal: Signal) -> Result<(), Trouble> {
         let refused = |_| Trouble("the supervisor did not run when the fault was due".into());
         kill_process(Pid::from_child(&self.child), signal).map_err(refused)
+    }
+
+    /// Kills the supervisor.
+    pub(crate) fn orphan(&mut self) -> Result<(), Trouble> {
+        self.signal(Signal::KILL)?;
+        self.child.wait().map(drop).map_err(|error| Trouble::because("the supervisor did not die")(&error))
+    }
+
+    /// `coact adopt`: a successor for a supervisor that is dead.
+    pub(crate) fn adopt(&mut self, setup: &Setup) -> Result<(), Trouble> {
+        let begin = || -> std::io::Result<_> {
+            let stderr = File::create(self.folder.path().join("stderr-of-successor"))?;
+            let mut command = Command::new(&setup.coact);
+            command.args(["adopt", self.run.id(), "--resume"]).stdin(Stdio::null()).stdout(Stdio::null());
+            command.stderr(stderr).spawn()
+        };
+        self.child = begin().map_err(|error| Trouble::because("no successor was started")(&error))?;
+        Ok(())
     }
 
     /// The kernel grants the supervisor at most so many file handles from now on; returns how many before.
@@ -173,7 +198,7 @@ impl RunningSet {
 
 impl Drop for RunningSet {
     fn drop(&mut self) {
-        // Whatever failed: no set stays. The supervisor's children end with it.
+        // Whatever failed: no set stays. The supervisor's children end with it, or when nobody adopts them.
         self.child.kill().ok();
         self.child.wait().ok();
     }
@@ -184,6 +209,17 @@ fn world(setup: &Setup) -> &'static str {
         coact_pipeline::WorldMode::Kinematic => "kinematic",
         coact_pipeline::WorldMode::Physics => "physics",
     }
+}
+
+/// The shipped process table, but for how long the set can be adopted, in a folder with what belongs beside it.
+fn adoptable_table(setup: &Setup, folder: &Path) -> std::io::Result<PathBuf> {
+    let (shipped, table) = (&setup.configuration, folder.join("pipeline.toml"));
+    let text = std::fs::read_to_string(shipped.join("pipeline.toml"))?;
+    let zero = |line: &str| line.starts_with("adoptable_for_s");
+    let lines = text.lines().map(|line| if zero(line) { ADOPTABLE } else { line });
+    std::fs::write(&table, lines.collect::<Vec<_>>().join("\n"))?;
+    std::fs::copy(shipped.join(Rules::FILE), folder.join(Rules::FILE))?;
+    Ok(table)
 }
 
 fn report_of(folder: &Path) -> PathBuf {

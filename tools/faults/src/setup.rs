@@ -13,6 +13,8 @@ use std::time::Duration;
 pub struct Setup {
     /// The program `coact`.
     pub(crate) coact: PathBuf,
+    /// The folder of its configuration.
+    pub(crate) configuration: PathBuf,
     pub(crate) seed: u64,
     pub(crate) world: WorldMode,
     pub(crate) task: Task,
@@ -40,6 +42,7 @@ impl Setup {
         };
         let (task, limits, safety, rules) = load().map_err(|error| refused(&*error))?;
         let limits = limits[..ARM_JOINTS].to_vec();
-        Ok(Self { coact, seed, world, task, limits, fresh: safety.stale.input_after, rules })
+        let (configuration, fresh) = (configuration.to_owned(), safety.stale.input_after);
+        Ok(Self { coact, configuration, seed, world, task, limits, fresh, rules })
     }
 }

@@ -54,6 +54,10 @@ const SILENCE: Duration = Duration::from_millis(300);
 const REPORT_FULL: Duration = Duration::from_secs(6);
 /// So long a supervisor gets no file handles.
 const STARVED: Duration = Duration::from_millis(500);
+/// So long a set has no supervisor: longer than it takes until the arm stands.
+const ORPHANED: Duration = Duration::from_secs(2);
+/// Longest wait for a successor.
+const ADOPTED_WITHIN: Duration = Duration::from_secs(15);
 /// How long the second set lives.
 const SECOND_SET_S: &str = "2";
 
@@ -63,7 +67,9 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// There was no run, or it left nothing that can be read: none of the cells can be judged.
     pub(crate) fn run(setup: &'a Setup, cells: &[Cell]) -> Result<(Vec<Record>, Evidence), Trouble> {
-        let set = RunningSet::launch(setup, cells.iter().any(|cell| cell.fault.fills()))?;
+        let (private, adoptable) = (FaultKind::fills, |fault| fault == FaultKind::Adoption);
+        let any = |is: fn(FaultKind) -> bool| cells.iter().any(|cell| is(cell.fault));
+        let set = RunningSet::launch(setup, any(private), any(adoptable))?;
         let mut trial = Self { setup, set, viewer: None };
         let records: Vec<_> = cells.iter().map(|cell| trial.perform(cell)).collect();
         let start_ns = trial.set.run().start_ns().ok().flatten();
@@ -233,6 +239,7 @@ impl<'a> Trial<'a> {
                 Ok(())
             }
             FaultKind::SecondSet => self.start_second_set(),
+            FaultKind::Adoption => self.adopt(),
             FaultKind::PlantedRun => self.plant(),
         }
     }
@@ -314,6 +321,21 @@ impl<'a> Trial<'a> {
         command.args(["--world", "kinematic"]).stdout(std::process::Stdio::null());
         let mut second = command.stderr(std::process::Stdio::null()).spawn().map_err(failed)?;
         while second.try_wait().map_err(failed)?.is_none() {
+            self.look()?;
+        }
+        Ok(())
+    }
+
+    /// Kills the supervisor; when the arm stands, a successor adopts the set.
+    fn adopt(&mut self) -> Result<(), Trouble> {
+        self.set.orphan()?;
+        self.look_for(ORPHANED)?;
+        self.set.adopt(self.setup)?;
+        let begin = Instant::now();
+        while self.set.run().owner().is_ok_and(|owner| owner.generation == 0) {
+            if self.set.has_ended() || begin.elapsed() > ADOPTED_WITHIN {
+                return Err(Trouble("nobody adopted the set".into()));
+            }
             self.look()?;
         }
         Ok(())

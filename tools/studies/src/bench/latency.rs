@@ -62,7 +62,7 @@ fn minutes(text: &str) -> Result<f64, String> {
 pub fn run(args: Args) -> Result<ExitCode> {
     let out = absolute(args.out.clone().unwrap_or_else(|| unused_report_folder(Path::new("reports"))))?;
     let (launch, chain) = prepare(&args, &out)?;
-    let duration = launch.duration.unwrap_or_default();
+    let duration = launch.settings.duration.unwrap_or_default();
     let load = RunningLoad::start(args.load, duration + AROUND)?;
     let pipeline = launch.pipeline.clone();
     let first = chain.first().cloned().unwrap_or_default();
@@ -85,18 +85,19 @@ pub fn run(args: Args) -> Result<ExitCode> {
 /// The run, and the processes of its chain.
 fn prepare(args: &Args, out: &Path) -> Result<(Launch, Vec<String>)> {
     let Installation { programs, configuration, .. } = Installation::find()?;
+    let duration = Duration::from_secs_f64(60.0 * args.minutes);
     let settings = RunSettings {
         report: out.to_owned(),
         seed: args.seed,
+        duration: Some(duration),
         world: args.world,
         ..RunSettings::shipped(&configuration)
     };
     let pipeline = Pipeline::load(&settings.pipeline)?;
     let chain: Vec<String> = PipelineNode::all(&pipeline).into_iter().map(|node| node.process).collect();
-    let duration = Duration::from_secs_f64(60.0 * args.minutes);
     let (task, _) = NetworkPlan::load(&settings.task)?;
     let injections = kills(&chain, duration);
-    let launch = Launch { settings, pipeline, task, programs, duration: Some(duration), injections };
+    let launch = Launch { settings, pipeline, task, programs, injections };
     Ok((launch, chain))
 }
 

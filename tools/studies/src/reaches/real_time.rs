@@ -80,6 +80,7 @@ impl RealTime<'_> {
             seed: self.evaluation.seed,
             partner: format!("replay:{}:{}", subject.participant, folder.display()),
             world: WorldMode::Kinematic,
+            duration: Some(PERIOD * last as u32 + AFTER_LAST_REACH),
             ..RunSettings::shipped(&self.installation.configuration)
         };
         Ok(Launch {
@@ -87,7 +88,6 @@ impl RealTime<'_> {
             settings,
             task: self.evaluation.task.clone(),
             programs: self.installation.programs.clone(),
-            duration: Some(PERIOD * last as u32 + AFTER_LAST_REACH),
             injections: Vec::new(),
         })
     }

@@ -1,0 +1,59 @@
+use std::fs::File;
+use std::io::{self, Read};
+
+/// What the kernel tells everybody of a process: `/proc/<pid>/stat`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ProcessStat {
+    /// When it was started, clock ticks after boot. With the process id it is one process for ever: an id comes again, but
+    /// not with the same time.
+    pub started: u64,
+    /// Whether a signal has stopped it (SIGSTOP), or a debugger.
+    pub is_stopped: bool,
+}
+
+impl ProcessStat {
+    /// Longer than any line of it, bytes.
+    const LONGEST: u64 = 4096;
+
+    /// Of the process with this id.
+    ///
+    /// # Errors
+    /// There is no such process, or the kernel tells something else.
+    pub fn of(pid: u32) -> io::Result<Self> {
+        let mut text = String::new();
+        File::open(format!("/proc/{pid}/stat"))?.take(Self::LONGEST).read_to_string(&mut text)?;
+        Self::parse(&text).ok_or_else(|| io::ErrorKind::InvalidData.into())
+    }
+
+    /// The process's name stands in parentheses and may contain anything: what is of interest comes behind it.
+    fn parse(text: &str) -> Option<Self> {
+        let mut fields = text.rsplit_once(')')?.1.split_ascii_whitespace();
+        let state = fields.next()?;
+        // Field 22 of proc_pid_stat(5); the state is field 3.
+        let started = fields.nth(18)?.parse().ok()?;
+        Some(Self { started, is_stopped: matches!(state, "T" | "t") })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn it_is_read_behind_a_name_that_contains_anything() {
+        let text = "7 (a) T (b 1) T 1 7 7 0 -1 4194560 1 0 0 0 0 0 0 0 20 0 1 0 98765 1 2 3\n";
+        assert_eq!(ProcessStat::parse(text), Some(ProcessStat { started: 98765, is_stopped: true }));
+        for bad in ["", "7 (a", "7 (a) R 1 2", "7 (a) R 1 7 7 0 -1 4 1 0 0 0 0 0 0 0 20 0 1 0 soon 1"] {
+            assert_eq!(ProcessStat::parse(bad), None, "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_process_keeps_its_start_for_as_long_as_it_lives() {
+        let own = ProcessStat::of(std::process::id()).unwrap();
+        assert_eq!(ProcessStat::of(std::process::id()).unwrap(), own);
+        assert!(own.started > 0 && !own.is_stopped);
+        assert!(ProcessStat::of(u32::MAX).is_err());
+    }
+}
