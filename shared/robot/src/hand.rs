@@ -59,14 +59,15 @@ impl Hand {
 
     /// Place of each finger's end in the palm frame, m, for hand joint angles in message order.
     pub fn ends(&self, angles: &[f64; HAND_JOINTS]) -> [Point3<f64>; 3] {
-        std::array::from_fn(|finger| {
-            let Finger { joints, end } = &self.fingers[finger];
-            let own = [angles[0], angles[1 + finger], angles[4 + finger]];
-            let own = &own[3 - joints.len()..];
-            let pose =
-                joints.iter().zip(own).fold(Isometry3::identity(), |pose, (j, &a)| pose * j.transform(a));
-            Point3::from((pose * end).translation.vector)
-        })
+        std::array::from_fn(|finger| self.end(finger, angles))
+    }
+
+    fn end(&self, finger: usize, angles: &[f64; HAND_JOINTS]) -> Point3<f64> {
+        let Finger { joints, end } = &self.fingers[finger];
+        let own = [angles[0], angles[1 + finger], angles[4 + finger]];
+        let own = &own[3 - joints.len()..];
+        let pose = joints.iter().zip(own).fold(Isometry3::identity(), |pose, (j, &a)| pose * j.transform(a));
+        Point3::from((pose * end).translation.vector)
     }
 
     /// Base, tip joint and end of finger 3 at a base angle, rad: for each its distance from the palm's axis and that along
@@ -114,7 +115,7 @@ impl Hand {
     /// Clear width between the fingers, m: twice the distance of finger 3's end from the palm's axis. Fingers 1 and 2 are
     /// alike, so that it holds for every spread.
     pub fn width(&self, base: f64) -> f64 {
-        -2.0 * self.ends(&self.posture(base))[2].x
+        -2.0 * self.end(2, &self.posture(base)).x
     }
 
     /// Base angle at which the fingers close on something `width` m wide. Bisection between flat open and fully
