@@ -63,6 +63,7 @@ mod monotonic_clock;
 mod origin;
 mod output;
 mod overload;
+mod pending_fault;
 mod place;
 mod places;
 mod port;
