@@ -3,6 +3,8 @@
 
 use coact_run_records::{Event, FaultEvent, SupervisorEventKind};
 use coact_tests::{Finished, Launched, checkout, coact, left_behind};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 use std::path::Path;
 use std::process::Command;
 
@@ -71,6 +73,87 @@ fn whatever_happens_to_a_stage_or_its_standby_no_cycle_goes_without_output() {
 
 fn missed(fault: &FaultEvent, process: &str) -> u64 {
     fault.survivors_missed.get(process).copied().unwrap_or(0)
+}
+
+/// The person means what she may not do yet, again and again, at times of her own: what the robot decides does not hang on a
+/// handover, in which one tick of the machine's is a second later on.
+const SCENARIO: &str = r#"
+[start]
+achieved = ["wheel on the person's side", "wheel on the robot's side", "nut on the person's side", "nut on the robot's side"]
+
+[[action]]
+at = 3.0
+chain = "insert"
+kind = "column 4"
+gives_up = 1.0
+
+[[action]]
+at = 10.0
+chain = "request"
+kind = "column 3"
+gives_up = 1.0
+
+[[action]]
+at = 17.0
+chain = "insert"
+kind = "column 4"
+gives_up = 1.0
+
+[[action]]
+at = 24.0
+chain = "request"
+kind = "column 3"
+gives_up = 1.0
+"#;
+/// What follows from it: a request for the first column, and a correction and another request for each of the four actions.
+const DECISIONS: usize = 9;
+
+/// Kills of fields and control at random instants of a run.
+fn kills(seed: u64) -> Vec<String> {
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut at_ms = 2500;
+    let mut kill = |_| {
+        at_ms += random.random_range(500..1500);
+        let stage = if random.random_bool(0.5) { "fields" } else { "control" };
+        format!("--inject={stage}:kill@{at_ms}ms")
+    };
+    (0..24).map(&mut kill).collect()
+}
+
+/// What the robot decides in a run with these faults, in order, and when, ms.
+fn decisions(folder: &Path, table: &str, injections: &[String]) -> Vec<(u64, String)> {
+    let scenario = folder.join("scenario.toml");
+    std::fs::write(&scenario, SCENARIO).unwrap();
+    let partner = format!("script:{}", scenario.display());
+    let mut arguments = vec!["--pipeline", table, "--world", "kinematic", "--duration", "30"];
+    arguments.extend(["--partner", &partner, "--seed", "1"]);
+    arguments.extend(injections.iter().map(String::as_str));
+    let finished = Launched::start(&arguments).finish();
+    let killed = faults(&finished).filter(|fault| fault.fault == "kill").count();
+    assert!(killed >= injections.len().min(15), "{killed} kills: {:?}", finished.supervisor);
+    let decision = |event: &Event| match event {
+        Event::Decision { at_ms, action } => Some((*at_ms, action.clone())),
+        _ => None,
+    };
+    finished.events.iter().filter_map(decision).collect()
+}
+
+#[test]
+fn kills_of_fields_and_control_change_no_decision() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = with_standby(folder.path());
+    let of_run = |injections: &[String]| decisions(folder.path(), &table, injections);
+    let (undisturbed, killed) = (of_run(&[]), of_run(&kills(1)));
+    let names = |decided: &[(u64, String)]| decided.iter().map(|(_, name)| name.clone()).collect::<Vec<_>>();
+    let onsets: Vec<_> =
+        undisturbed.iter().zip(&killed).map(|(one, other)| one.0.abs_diff(other.0)).collect();
+    println!("onsets apart by, ms: {onsets:?}");
+    assert_eq!(undisturbed.len(), DECISIONS, "{undisturbed:?}");
+    assert_eq!(
+        names(&undisturbed),
+        names(&killed),
+        "onsets apart by, ms: {onsets:?}\nundisturbed: {undisturbed:?}\nwith kills: {killed:?}"
+    );
 }
 
 #[test]

@@ -119,6 +119,11 @@ impl Control {
         self.planner.hangs()
     }
 
+    /// Whether a movement is asked for and not there yet. That query is this instance's own: one that takes over asks again.
+    pub fn awaits_movement(&self) -> bool {
+        self.state.planning.query.is_open()
+    }
+
     /// One period: the setpoints of cycle `tick` into `out`, from the newest messages known. `previous` is the command
     /// of the cycle before; without it the stage goes on from what it sent, or was resumed from. The very first
     /// setpoints are the measured joint positions (the park posture when nothing was measured yet).
@@ -188,6 +193,9 @@ impl Control {
         let sound =
             state.is_some() && self.servo.resume(&command.position, &command.velocity, &command.acceleration);
         if let Some(state) = state.filter(|_| sound) {
+            if self.state != state {
+                self.planner.forget();
+            }
             self.state = state;
             self.started = true;
         }

@@ -48,7 +48,7 @@ impl Control {
         };
         self.state.planning.open(query);
         let query = self.query(inputs, start);
-        self.planner.ask(&query);
+        self.planner.ask(self.state.planning.queries, &query);
     }
 
     /// Whether it is known in which state a movement that is asked for now would begin.
@@ -172,7 +172,6 @@ impl Control {
         let (skill, hand, planning) = (&self.state.skill, &self.state.hand, &self.state.planning);
         let (next_use, next_place) = self.next_use();
         PlanningQuery {
-            number: planning.queries,
             skill: skill.skill,
             kind: skill.kind.get(),
             place: skill.place.isometry(),

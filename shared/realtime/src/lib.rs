@@ -64,6 +64,7 @@ mod origin;
 mod output;
 mod overload;
 mod owner_watch;
+mod pending_fault;
 mod place;
 mod places;
 mod port;

@@ -27,9 +27,12 @@ impl RunView {
         let mut start_ns = self.start_ns.load(Ordering::Relaxed);
         if start_ns == 0 {
             start_ns = self.run.start_ns().ok().flatten().unwrap_or(0);
+            if start_ns == 0 {
+                return 0; // and another thread may know it by now
+            }
             self.start(start_ns);
         }
-        if start_ns == 0 { 0 } else { Schedule { start_ns }.tick_at(ns) }
+        Schedule { start_ns }.tick_at(ns)
     }
 
     pub(crate) fn start(&self, start_ns: u64) {

@@ -4,7 +4,7 @@
 //! any of that, too. [`TARGETS`] has them all, each with its seeds: files that the project ships, and those of the folder
 //! `corpus`, where bytes that broke a target once are kept. [`exercise`] changes seeds at random and judges what happens:
 //! the test of this crate does so for some seconds with each target, `COACT_FUZZ_SECONDS` for longer. The folder `fuzz` wraps
-//! the same targets for `cargo fuzz`, which needs a nightly toolchain and finds more.
+//! the same targets for `cargo fuzz`, which finds more.
 //!
 //! ```
 //! use coact_fuzz_targets::{Bounds, exercise, find};

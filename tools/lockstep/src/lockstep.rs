@@ -22,7 +22,9 @@ pub struct Lockstep {
     perception: Perception,
     network: Network,
     control: Control,
+    seed: u64,
     tick: u64,
+    fields_hangs_until: u64,
     control_hangs_until: u64,
     /// The newest sensor sample.
     pub sample: Box<SensorSample>,
@@ -110,7 +112,9 @@ impl Lockstep {
             limits,
             network,
             task,
+            seed: settings.seed,
             tick: 0,
+            fields_hangs_until: 0,
             control_hangs_until: 0,
             sample: bytemuck::zeroed_box(),
             percept: bytemuck::zeroed_box(),
@@ -158,6 +162,35 @@ impl Lockstep {
         }
     }
 
+    /// Fields dies; another instance is there at once and goes on from the newest frame, as its standby or replacement does.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn replace_fields(&mut self) -> Result<(), LockstepError> {
+        self.network = Network::new(self.plan().clone(), self.task.fingerprint, self.seed)?;
+        Ok(())
+    }
+
+    /// The same of control, from the newest command.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn replace_control(&mut self) -> Result<(), LockstepError> {
+        self.control = Control::new(self.robot.clone(), &self.task, &self.limits)?;
+        self.control.resume(&self.command);
+        Ok(())
+    }
+
+    /// Whether control has asked for a movement that is not there yet: query and answer are no part of its command.
+    pub fn awaits_movement(&self) -> bool {
+        self.control.awaits_movement()
+    }
+
+    /// Fields hangs: it does nothing for so many ticks, and its last frame stays the newest.
+    pub fn hang_fields(&mut self, ticks: u64) {
+        self.fields_hangs_until = self.tick + ticks;
+    }
+
     /// Control hangs: it does nothing for so many ticks, and its last command stays the newest.
     pub fn hang_control(&mut self, ticks: u64) {
         self.control_hangs_until = self.tick + ticks;
@@ -189,8 +222,12 @@ impl Lockstep {
         }
         watch("perception", &mut || perception.step(tick, Some(sample), percept));
         percept.header = stamp(tick);
-        watch("fields", &mut || network.step(tick, Some(percept), &self.previous_frame, frame));
-        frame.header = stamp(tick);
+        if tick < self.fields_hangs_until {
+            frame.clone_from(&self.previous_frame);
+        } else {
+            watch("fields", &mut || network.step(tick, Some(percept), &self.previous_frame, frame));
+            frame.header = stamp(tick);
+        }
         frame.decision = self.decision.unwrap_or(frame.decision);
         if tick < self.control_hangs_until {
             command.clone_from(&self.previous_command);

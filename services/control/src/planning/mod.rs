@@ -2,6 +2,8 @@
 
 mod hand_goals;
 mod in_sight;
+#[cfg(test)]
+mod modelled;
 mod planner_link;
 mod planner_watch;
 mod planning_query;
@@ -9,6 +11,7 @@ mod planning_result;
 mod planning_scene;
 mod planning_thread;
 mod skill_planner;
+mod slots;
 
 pub(crate) use hand_goals::HandGoals;
 pub(crate) use in_sight::InSight;

@@ -1,12 +1,13 @@
-use super::planning_thread::Slots;
+use super::slots::Slots;
 use super::{PlannerWatch, PlanningQuery, PlanningResult, PlanningThread, SkillPlanner};
+use coact_motion::SearchHeartbeat;
 use std::sync::Arc;
 
 /// Control's side of the planner: makes queries, and takes the results.
 #[derive(Debug)]
 pub(crate) struct PlannerLink {
-    /// The newest query that was made here; a predecessor's is not known.
-    asked: u64,
+    /// Number, in control's state, of the newest query that was made here; none when the state is another's since.
+    asked: Option<u64>,
     watch: PlannerWatch,
     place: PlannerPlace,
 }
@@ -15,7 +16,7 @@ pub(crate) struct PlannerLink {
 #[derive(Debug)]
 enum PlannerPlace {
     Within { planner: Box<SkillPlanner>, result: Option<Box<PlanningResult>> },
-    Beside(Arc<Slots>),
+    Beside { slots: Arc<Slots<PlanningQuery, PlanningResult>>, heartbeat: SearchHeartbeat },
 }
 
 impl PlannerLink {
@@ -26,19 +27,19 @@ impl PlannerLink {
 
     /// To a planner on a thread of its own.
     pub fn beside(planner: SkillPlanner) -> (Self, PlanningThread) {
-        let slots = Arc::new(Slots::new(planner.heartbeat().clone()));
+        let (slots, heartbeat) = (Arc::new(Slots::new()), planner.heartbeat().clone());
         let thread = PlanningThread::new(planner, Arc::clone(&slots));
-        (Self::to(PlannerPlace::Beside(slots)), thread)
+        (Self::to(PlannerPlace::Beside { slots, heartbeat }), thread)
     }
 
     fn to(place: PlannerPlace) -> Self {
-        Self { asked: 0, watch: PlannerWatch::default(), place }
+        Self { asked: None, watch: PlannerWatch::default(), place }
     }
 
     /// Looks whether the planner goes on; to be called once in each cycle.
     pub fn look(&mut self) {
-        if let PlannerPlace::Beside(slots) = &self.place {
-            self.watch.look(slots.answered() != self.asked, slots.beats());
+        if let PlannerPlace::Beside { slots, heartbeat } = &self.place {
+            self.watch.look(slots.owes(), heartbeat.beats());
         }
     }
 
@@ -47,26 +48,33 @@ impl PlannerLink {
         self.watch.hangs()
     }
 
-    /// Makes a query; one that was not taken up yet is replaced.
-    pub fn ask(&mut self, query: &PlanningQuery) {
-        self.asked = query.number;
+    /// Makes the query that has this number in control's state; one that was not taken up yet is replaced.
+    pub fn ask(&mut self, number: u64, query: &PlanningQuery) {
+        self.asked = Some(number);
         match &mut self.place {
             PlannerPlace::Within { planner, result } => *result = Some(Box::new(planner.plan(query))),
-            PlannerPlace::Beside(slots) => slots.ask(query),
+            PlannerPlace::Beside { slots, .. } => slots.ask(*query),
         }
+    }
+
+    /// The state is another's from now on: of what was asked here it knows nothing, though its queries may have the same numbers.
+    pub fn forget(&mut self) {
+        self.asked = None;
     }
 
     /// Whether the query of this number was made here.
     pub fn was_asked(&self, number: u64) -> bool {
-        self.asked == number
+        self.asked == Some(number)
     }
 
-    /// The result of the query of this number, once.
+    /// The result of the newest query, once, if that has this number.
     pub fn result(&mut self, number: u64) -> Option<PlanningResult> {
-        let result = match &mut self.place {
+        if !self.was_asked(number) {
+            return None;
+        }
+        match &mut self.place {
             PlannerPlace::Within { result, .. } => result.take().map(|result| *result),
-            PlannerPlace::Beside(slots) => slots.result(),
-        };
-        result.filter(|result| result.number == number)
+            PlannerPlace::Beside { slots, .. } => slots.result(),
+        }
     }
 }

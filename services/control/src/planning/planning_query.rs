@@ -7,8 +7,6 @@ use nalgebra::{Isometry3, Vector3};
 /// What is asked of the planner: all that it needs to know, of fixed size, so that it passes a lock-free slot.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlanningQuery {
-    /// Counts the queries.
-    pub number: u64,
     /// What the hand does, and the kind of part that this concerns.
     pub skill: Skill,
     pub kind: Option<usize>,

@@ -3,8 +3,6 @@ use crate::state::ArmTrajectory;
 /// What the planner answers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlanningResult {
-    /// The query's.
-    pub number: u64,
     /// The trajectory, or none.
     pub trajectory: Option<ArmTrajectory>,
     /// The grip in which the hand grasps a part at its end, if it does: index into the [grip table](crate::robot::GripTable).
@@ -13,7 +11,5 @@ pub(crate) struct PlanningResult {
 
 impl PlanningResult {
     /// No movement was found.
-    pub fn refused(number: u64) -> Self {
-        Self { number, trajectory: None, grip: None }
-    }
+    pub const REFUSED: Self = Self { trajectory: None, grip: None };
 }

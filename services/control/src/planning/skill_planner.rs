@@ -77,7 +77,7 @@ impl SkillPlanner {
 
     /// The movement that is asked for, one that only withdraws the hand, or none.
     pub fn plan(&mut self, query: &PlanningQuery) -> PlanningResult {
-        self.movement(query).unwrap_or_else(|| PlanningResult::refused(query.number))
+        self.movement(query).unwrap_or(PlanningResult::REFUSED)
     }
 
     /// From a person who is near the hand withdraws first, and then keeps its distance. Where the person leaves no path, the arm goes as far as the guard
@@ -104,7 +104,7 @@ impl SkillPlanner {
         for attempt in attempts.iter().filter(|attempt| attempt.applies) {
             if let Ok(plan) = self.search(query, attempt, &goals) {
                 let fingers_wait = std::ptr::eq(attempt.model, &still);
-                return Some(result(query.number, &plan, &goals, fingers_wait));
+                return Some(result(&plan, &goals, fingers_wait));
             }
         }
         if moves { None } else { self.withdrawal(query, &still, &scene) }
@@ -164,7 +164,7 @@ impl SkillPlanner {
         });
         let mut trajectory = withdrawal.as_ref().and_then(ArmTrajectory::of)?;
         trajectory.withdraws = Flag::Set;
-        Some(PlanningResult { number: query.number, trajectory: Some(trajectory), grip: None })
+        Some(PlanningResult { trajectory: Some(trajectory), grip: None })
     }
 
     fn problem<'a>(
@@ -182,11 +182,11 @@ impl SkillPlanner {
 }
 
 /// A plan as the answer to a query. With `fingers_wait`, the fingers take their shape at its end.
-fn result(number: u64, plan: &Plan, goals: &[GripGoal], fingers_wait: bool) -> PlanningResult {
+fn result(plan: &Plan, goals: &[GripGoal], fingers_wait: bool) -> PlanningResult {
     let grip = plan.target.and_then(|target| goals.get(target.goal)?.grip);
     let mut trajectory = ArmTrajectory::of(plan);
     if let Some(trajectory) = trajectory.as_mut().filter(|_| fingers_wait) {
         trajectory.fingers_begin = trajectory.duration();
     }
-    PlanningResult { number, trajectory, grip }
+    PlanningResult { trajectory, grip }
 }
