@@ -53,6 +53,8 @@ const EXACT: f64 = 1e-9;
 const STOP_ERROR: f64 = 0.006;
 /// Time in which fingers that move come to a stand, s: at half of their usual speed, 1 rad/s, at the joints' acceleration.
 const FINGERS_STOP: f64 = 0.05;
+/// How far their bases turn meanwhile, rad, and some.
+const FINGERS_STEP: f64 = 0.05;
 /// No point of a link moves faster than this for each rad/s of all joints together, m: the arm's length with the hand, and
 /// some.
 const LEVER: f64 = 1.3;
@@ -116,7 +118,8 @@ impl Guard {
         look(now, &moving.posture);
         let touches = moving.state.may_touch_person(points[0].at);
         let step = Step { now, next: start, hands };
-        if person.parts().any(|part| step.closes_on(part, touches, kept)) {
+        // What is not seen may be anywhere: braking alone is judged.
+        if person.parts().filter(|part| part.is_seen).any(|part| step.closes_on(part, touches, kept, 0.0)) {
             return false;
         }
         links.clone_from(start);
@@ -133,36 +136,47 @@ impl Guard {
 }
 
 impl Guard {
-    /// Whether the fingers of an empty hand may go on towards `closure`, rad: with them it comes no nearer to the person than it
-    /// is while she moves, or keeps the protective separation.
+    /// Whether the fingers of an empty hand may go on towards `closure`, rad: no link of theirs comes nearer to the person than
+    /// it is while she moves, or all keep the protective separation.
     pub fn admits_fingers(&mut self, moving: &Moving, closure: f64, person: &PersonCapsules) -> bool {
-        let Self { limits, mechanism, empty, bases, start, links, .. } = self;
+        let Self { limits, mechanism, empty, bases, now, start, links, .. } = self;
         let (progress, kept) = (moving.state.arm.progress, limits.protective_separation);
         let posture = moving.state.arm.trajectory.posture(progress.elapsed);
-        let (present, target) = (shape(bases, moving.closure), shape(bases, closure));
-        empty[present].moving_bounding_capsules(mechanism, &posture, start);
+        let hands = empty[0].moving_hands();
         let touches = moving.state.may_touch_person(progress.elapsed);
-        // Fingers swing out on their way: the shape that they take next counts as well as the last one.
-        let next = if target > present { present + 1 } else { present.saturating_sub(1) };
-        [next.min(present.max(target)).max(present.min(target)), target].into_iter().all(|shape| {
-            let model = &empty[shape];
-            model.moving_bounding_capsules(mechanism, &posture, links);
-            let robot = Approach { start, before: start, links, hands: model.moving_hands(), span: PERIOD_S };
+        let mut look = |into: &mut Vec<Capsule>, closure: f64| {
+            let (open, more, fraction) = between_shapes(bases, closure);
+            empty[open].moving_bounding_capsules(mechanism, &posture, into);
+            empty[more].moving_bounding_capsules(mechanism, &posture, links);
+            for (link, more) in into.iter_mut().zip(links.iter()) {
+                link.start += fraction * (more.start - link.start);
+                link.end += fraction * (more.end - link.end);
+            }
+        };
+        look(now, moving.closure);
+        // Fingers swing out on their way: where they will be soon counts as well as where they are going.
+        let soon = moving.closure + (closure - moving.closure).clamp(-FINGERS_STEP, FINGERS_STEP);
+        [soon, closure].into_iter().all(|next| {
+            look(start, next);
+            let step = Step { now, next: start, hands };
             // Beside a hand that waits they may take their shape: it would wait for them, and they for it.
-            let mut parts = person.parts().filter(|part| part.moves() && !(touches && part.hands_over));
-            parts.all(|part| {
-                let (here, room) = (part.after(0.0), kept + part.growth(FINGERS_STOP));
-                let nearest = robot.nearest(robot.links, true, &here, room);
-                nearest >= room || nearest >= robot.nearest(robot.start, true, &here, room) - EXACT
-            })
+            let mut parts = person.parts().filter(|part| part.moves());
+            !parts.any(|part| step.closes_on(part, touches, kept, FINGERS_STOP))
         })
     }
 }
 
 /// The collision model of an empty hand that is most like one with this finger closure, rad.
 fn shape(bases: &JointLimits, closure: f64) -> usize {
+    let (open, more, fraction) = between_shapes(bases, closure);
+    if fraction < 0.5 { open } else { more }
+}
+
+/// The two shapes between which the fingers are, and where between them, 0 to 1.
+fn between_shapes(bases: &JointLimits, closure: f64) -> (usize, usize, f64) {
     let fraction = (closure - bases.lower) / (bases.upper - bases.lower);
-    (fraction * (SHAPES - 1) as f64).round().clamp(0.0, (SHAPES - 1) as f64) as usize
+    let shape = (fraction * (SHAPES - 1) as f64).clamp(0.0, (SHAPES - 1) as f64);
+    (shape.floor() as usize, shape.ceil() as usize, shape.fract())
 }
 
 /// Whether arm and person cannot come nearer than `kept` m to each other while the arm brakes.
@@ -187,14 +201,10 @@ struct Step<'a> {
 }
 
 impl Step<'_> {
-    /// Whether it brings any link nearer to where a part of the body may be now, and nearer than `kept` m. In a handover the
-    /// robot's hand may close on the person's.
-    fn closes_on(&self, part: &BodyPart, touches: bool, kept: f64) -> bool {
-        // What is not seen may be anywhere: braking alone is judged.
-        if !part.is_seen {
-            return false;
-        }
-        let (here, room) = (part.after(0.0), kept + part.growth(0.0));
+    /// Whether it brings any link nearer to where a part of the body is now, and nearer than `kept` m to where it may be `ahead` s
+    /// from now. In a handover the robot's hand may close on the person's.
+    fn closes_on(&self, part: &BodyPart, touches: bool, kept: f64, ahead: f64) -> bool {
+        let (here, room) = (part.after(0.0), kept + part.growth(ahead));
         let links = self.now.iter().zip(self.next).zip(self.hands);
         links.filter(|(_, of_hand)| !(touches && **of_hand && part.hands_over)).any(|((now, next), _)| {
             next.least_distance(&here) < room && {

@@ -9,11 +9,15 @@ pub struct SeparationReport {
     pub ticks: u64,
     /// Smallest distance, m; none when nobody was there.
     pub nearest_m: Option<f64>,
-    /// Time in which they were nearer than the protective separation and the robot came nearer by its own motion, ms. None is
+    /// Time in which they were nearer than the protective separation, but did not touch, and the robot came nearer by its own motion, ms. None is
     /// allowed.
     pub robot_closing_ms: u64,
     /// The same by the person's own motion.
     pub person_closing_ms: u64,
+    /// Time in which their bounding capsules touched, ms, and the greatest speed of what touched of the robot, m/s.
+    pub contact_ms: u64,
+    /// See `contact_ms`.
+    pub contact_speed_mps: f64,
     /// Time in which the arm was held back below its planned speed, and stopped, ms.
     pub held_back_ms: u64,
     /// See `held_back_ms`.

@@ -82,12 +82,20 @@ fn judgement(name: &str, judgement: &Judgement) -> Vec<String> {
 }
 
 fn separation(separation: &SeparationReport) -> String {
-    let SeparationReport { ticks, nearest_m, robot_closing_ms, person_closing_ms, held_back_ms, stopped_ms } =
-        separation;
+    let SeparationReport {
+        ticks,
+        nearest_m,
+        robot_closing_ms,
+        person_closing_ms,
+        contact_ms,
+        contact_speed_mps,
+        held_back_ms,
+        stopped_ms,
+    } = separation;
     let Some(nearest) = nearest_m else { return "person        nobody was there".into() };
     format!(
         "person        {:.0} mm away at the least; nearer than is kept: robot closing {robot_closing_ms} ms, person \
-         {person_closing_ms} ms; held back {:.1} % of the time, stopped {:.1} %",
+         {person_closing_ms} ms; contact {contact_ms} ms, at {contact_speed_mps:.2} m/s at most; held back {:.1} % of the time, stopped {:.1} %",
         1e3 * nearest,
         100.0 * *held_back_ms as f64 / (*ticks).max(1) as f64,
         100.0 * *stopped_ms as f64 / (*ticks).max(1) as f64,

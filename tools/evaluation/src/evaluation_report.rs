@@ -47,6 +47,11 @@ pub struct EvaluationReport {
     pub robot_closing_ms: u64,
     /// See `nearest_m`.
     pub person_closing_ms: u64,
+    /// Time in which bounding capsules of robot and person touched outside handovers, ms, and the greatest speed of what touched of
+    /// the robot, m/s.
+    pub contact_ms: u64,
+    /// See `contact_ms`.
+    pub contact_speed_mps: f64,
     /// Time in which the arm was held back, and stopped, for the person's sake, as fractions of all time.
     pub held_back: f64,
     /// See `held_back`.
@@ -126,6 +131,11 @@ impl EvaluationReport {
             nearest_m: trials.iter().filter_map(|trial| trial.separation.nearest_m).min_by(f64::total_cmp),
             robot_closing_ms: of_separation(|separation| separation.robot_closing_ms),
             person_closing_ms: of_separation(|separation| separation.person_closing_ms),
+            contact_ms: of_separation(|separation| separation.contact_ms),
+            contact_speed_mps: trials
+                .iter()
+                .map(|trial| trial.separation.contact_speed_mps)
+                .fold(0.0, f64::max),
             held_back: of_separation(|separation| separation.held_back_ms) as f64 / ticks,
             stopped: of_separation(|separation| separation.stopped_ms) as f64 / ticks,
             human_idle: mean(&|trial| trial.fluency.human_idle),

@@ -146,6 +146,8 @@ impl Total {
                 [separation.nearest_m, one.nearest_m].into_iter().flatten().min_by(f64::total_cmp);
             separation.robot_closing_ms += one.robot_closing_ms;
             separation.person_closing_ms += one.person_closing_ms;
+            separation.contact_ms += one.contact_ms;
+            separation.contact_speed_mps = separation.contact_speed_mps.max(one.contact_speed_mps);
             separation.held_back_ms += one.held_back_ms;
             separation.stopped_ms += one.stopped_ms;
         }

@@ -58,6 +58,7 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
         ),
         row("  robot closing beyond the separation, ms", report.robot_closing_ms.to_string()),
         row("  person closing, ms", report.person_closing_ms.to_string()),
+        row("  contact, ms", format!("{}, at most {:.2} m/s", report.contact_ms, report.contact_speed_mps)),
         row(
             "arm held back, stopped",
             format!("{:.1} %, {:.1} %", 100.0 * report.held_back, 100.0 * report.stopped),

@@ -19,6 +19,8 @@ pub(super) fn print(separation: &Separation, folder: &Path) {
         "nearest mm",
         "robot closes ms",
         "person closes ms",
+        "contact ms",
+        "at most m/s",
         "moved s",
         "held back s",
         "stopped s",
@@ -39,12 +41,14 @@ pub(super) fn print(separation: &Separation, folder: &Path) {
     );
 }
 
-fn numbers(separation: &SeparationReport, moved_ms: u64) -> [String; 6] {
+fn numbers(separation: &SeparationReport, moved_ms: u64) -> [String; 8] {
     let seconds = |ms: u64| format!("{:.1}", ms as f64 / 1e3);
     [
         separation.nearest_m.map_or("-".into(), |nearest| format!("{:.0}", 1e3 * nearest)),
         separation.robot_closing_ms.to_string(),
         separation.person_closing_ms.to_string(),
+        separation.contact_ms.to_string(),
+        format!("{:.2}", separation.contact_speed_mps),
         seconds(moved_ms),
         seconds(separation.held_back_ms),
         seconds(separation.stopped_ms),
