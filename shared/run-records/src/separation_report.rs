@@ -15,8 +15,10 @@ pub struct SeparationReport {
     /// The same by the person's own motion.
     pub person_closing_ms: u64,
     /// Time in which their bounding capsules touched, ms, and the greatest speed of what touched of the robot, m/s.
+    #[serde(default)]
     pub contact_ms: u64,
     /// See `contact_ms`.
+    #[serde(default)]
     pub contact_speed_mps: f64,
     /// Time in which the arm was held back below its planned speed, and stopped, ms.
     pub held_back_ms: u64,
