@@ -3,7 +3,6 @@ use crate::person_capsules::{BodyPart, PersonCapsules};
 use crate::robot::{CollisionModels, FingerShape, RobotModel};
 use crate::state::ControlState;
 use coact_motion::{Capsule, CollisionModel, Mechanism};
-use coact_period::PERIOD_S;
 use coact_robot::{JointLimits, Posture, RobotError};
 use coact_safety::GuardLimits;
 
@@ -209,7 +208,8 @@ impl Step<'_> {
         links.filter(|(_, of_hand)| !(touches && **of_hand && part.hands_over)).any(|((now, next), _)| {
             next.least_distance(&here) < room && {
                 let distance = next.distance(&here);
-                distance < room && distance < now.distance(&here) - EXACT
+                let closes = distance < room && distance < now.distance(&here) - EXACT;
+                closes && !part.is_bound_away_from(next, kept, ahead)
             }
         })
     }
