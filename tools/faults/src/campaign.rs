@@ -2,6 +2,7 @@ use crate::judge::judge;
 use crate::trial::Trial;
 use crate::{Cell, JudgedCell, Outcome, Setup, Trouble, matrix};
 use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Does cells in as few runs as possible, and judges each.
@@ -10,13 +11,15 @@ pub struct Campaign<'a> {
     setup: &'a Setup,
     /// No run is begun after this instant.
     until: Option<Instant>,
+    /// No run is begun once this is set.
+    interrupted: &'a AtomicBool,
 }
 
 /// What a campaign tells while it goes on.
 #[derive(Debug)]
 pub enum Step<'a> {
-    /// A run begins with these cells.
-    Run(&'a [Cell]),
+    /// A run begins with these cells; so many are left after it.
+    Run(&'a [Cell], usize),
     /// A cell was judged.
     Judged(&'a JudgedCell),
     /// These cells of a run with several could not be judged; they are done again, each alone.
@@ -24,9 +27,9 @@ pub enum Step<'a> {
 }
 
 impl<'a> Campaign<'a> {
-    /// With this setup; no run is begun after `until`.
-    pub fn new(setup: &'a Setup, until: Option<Instant>) -> Self {
-        Self { setup, until }
+    /// With this setup; no run is begun after `until`, nor once it is `interrupted`.
+    pub fn new(setup: &'a Setup, until: Option<Instant>, interrupted: &'a AtomicBool) -> Self {
+        Self { setup, until, interrupted }
     }
 
     /// Does all cells, and tells each `step`.
@@ -35,18 +38,18 @@ impl<'a> Campaign<'a> {
         let mut runs = VecDeque::from(matrix::runs(cells));
         let mut judged = Vec::new();
         while let Some(run) = runs.pop_front() {
-            let is_late = self.until.is_some_and(|until| Instant::now() >= until);
-            let outcomes = match is_late {
-                true => run.iter().map(|cell| not_judged(cell, "there was no time left")).collect(),
-                false => {
-                    step(Step::Run(&run));
+            let why_not = self.why_not();
+            let outcomes = match why_not {
+                Some(why_not) => run.iter().map(|cell| not_judged(cell, why_not)).collect(),
+                None => {
+                    step(Step::Run(&run, runs.len()));
                     self.outcomes(&run)
                 }
             };
             let is_told = |cell: &JudgedCell| !matches!(cell.outcome, Outcome::Unknown(_));
             let (mut told, unknown): (Vec<_>, Vec<_>) = outcomes.into_iter().partition(is_told);
             let again: Vec<_> = unknown.iter().map(|judged| judged.cell.clone()).collect();
-            if !again.is_empty() && run.len() > 1 && !is_late {
+            if !again.is_empty() && run.len() > 1 && why_not.is_none() {
                 step(Step::Again(&again));
                 runs.extend(again.into_iter().map(|cell| vec![cell]));
             } else {
@@ -59,6 +62,14 @@ impl<'a> Campaign<'a> {
         }
         judged.sort_by_key(|judged| order.iter().position(|cell| *cell == judged.cell));
         judged
+    }
+
+    /// Why no run is to be begun any more.
+    fn why_not(&self) -> Option<&'static str> {
+        if self.interrupted.load(Ordering::Relaxed) {
+            return Some("it was interrupted before");
+        }
+        self.until.is_some_and(|until| Instant::now() >= until).then_some("there was no time left")
     }
 
     fn outcomes(&self, cells: &[Cell]) -> Vec<JudgedCell> {

@@ -6,8 +6,11 @@ use coact_faults::{Campaign, Cell, MatrixReport, Moment, Outcome, Selection, Set
 use coact_pipeline::WorldMode;
 use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 use owo_colors::{OwoColorize, Stream};
+use signal_hook::consts::{SIGINT, SIGTERM};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 /// Breaks real process sets in every way, at every moment, and judges each by what the run left.
@@ -20,6 +23,9 @@ pub struct Args {
     /// These cells only, with commas between: TARGET:FAULT@MOMENT, parts of which may be left out
     #[arg(long, value_name = "CELLS", value_delimiter = ',')]
     only: Vec<Selection>,
+    /// Begin no run after so many minutes; what was not done is unknown
+    #[arg(long, value_name = "M")]
+    minutes: Option<f64>,
     /// Seed of every run
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -42,7 +48,10 @@ fn after_help() -> String {
   coact faults --quick                     four minutes
   coact faults --only kill@moving          SIGKILL of each process while the arm moves
   coact faults --only control:,@shutdown   all of control, and all at the end of a run
-  coact faults --out reports/faults        the whole matrix, as a page; more than an hour";
+  coact faults --out reports/faults        the whole matrix, as a page; about two hours
+  coact faults --minutes 30                as much of it as half an hour allows
+
+Ctrl-C ends it after the present run, with all that was judged by then.";
     let not_covered = matrix::NOT_COVERED.map(|(fault, why)| format!("\n  {fault}: {why}")).concat();
     format!(
         "{examples}\n\nNot covered yet:{not_covered}\n\nExit status: 0, 1 when a cell is red, 2 bad usage or configuration."
@@ -63,7 +72,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     let setup = Setup::load(coact, &configuration, args.seed, args.world)?;
     let begin = Instant::now();
-    let campaign = Campaign::new(&setup, args.quick.then(|| begin + QUICK));
+    let interrupted = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        signal_hook::flag::register(signal, Arc::clone(&interrupted))?;
+    }
+    let campaign = Campaign::new(&setup, limit(&args)?.map(|limit| begin + limit), &interrupted);
     let judged = campaign.run(cells(&args)?, &mut show);
     let report = MatrixReport::new(judged, begin.elapsed().as_secs_f64());
     let json = serde_json::to_string_pretty(&report)?;
@@ -77,6 +90,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(if report.passes() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
+/// How long runs are begun.
+fn limit(args: &Args) -> Result<Option<Duration>> {
+    let Some(minutes) = args.minutes else { return Ok(args.quick.then_some(QUICK)) };
+    let limit = Duration::try_from_secs_f64(60.0 * minutes).ok().filter(|limit| !limit.is_zero());
+    limit.map(Some).with_context(|| format!("--minutes {minutes}: expected minutes above 0, for example 30"))
+}
+
 fn cells(args: &Args) -> Result<Vec<Cell>> {
     let all = if args.quick { matrix::quick() } else { matrix::whole() };
     let is_meant = |cell: &Cell| args.only.is_empty() || args.only.iter().any(|only| only.selects(cell));
@@ -88,7 +108,7 @@ fn cells(args: &Args) -> Result<Vec<Cell>> {
 fn show(step: Step<'_>) {
     let names = |cells: &[Cell]| cells.iter().map(Cell::to_string).collect::<Vec<_>>().join(", ");
     match step {
-        Step::Run(cells) => eprintln!("run: {}", names(cells)),
+        Step::Run(cells, left) => eprintln!("run: {}; {left} left after it", names(cells)),
         Step::Again(cells) => eprintln!("again, each alone: {}", names(cells)),
         Step::Judged(judged) => eprintln!("  {} {}", judged.cell, word(&judged.outcome)),
     }
