@@ -4,6 +4,7 @@
 //! as `tools/test` does.
 #![allow(clippy::unwrap_used, reason = "a library of tests: what fails, fails the test")]
 
+mod alone;
 mod finished;
 mod joint_viewer;
 mod launched;
@@ -12,6 +13,7 @@ mod paths;
 mod thread_faults;
 mod tracer;
 
+pub use alone::alone;
 pub use finished::Finished;
 pub use joint_viewer::JointViewer;
 pub use launched::Launched;

@@ -3,7 +3,7 @@
 
 use coact_pipeline::Run;
 use coact_run_records::{SupervisorEvent, SupervisorEventKind};
-use coact_tests::{JointViewer, Launched, checkout, left_behind, operate, wait_for, wait_within};
+use coact_tests::{JointViewer, Launched, alone, checkout, left_behind, operate, wait_for, wait_within};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;
 use rustix::process::{Pid, PidfdFlags, Signal, kill_process, pidfd_open};
@@ -11,7 +11,6 @@ use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 const PROCESSES: [&str; 6] = ["world", "perception", "fields", "control", "monitor", "voice"];
@@ -21,12 +20,6 @@ const PATIENT: f64 = 40.0;
 const SHORT: f64 = 3.0;
 /// Within so long after their time orphaned processes have ended, on a busy machine too: longer than every grace.
 const ENDS_WITHIN: Duration = Duration::from_secs(20);
-/// Sets that work beside each other are late.
-static ONE_TEST_AT_A_TIME: Mutex<()> = Mutex::new(());
-
-fn alone() -> MutexGuard<'static, ()> {
-    ONE_TEST_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner)
-}
 
 /// The process table of a set that can be adopted, in a folder of its own.
 fn table(folder: &Path, adoptable_for_s: f64) -> PathBuf {

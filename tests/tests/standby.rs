@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_run_records::{Event, FaultEvent, SupervisorEventKind};
-use coact_tests::{Finished, Launched, checkout, coact, left_behind};
+use coact_tests::{Finished, Launched, alone, checkout, coact, left_behind};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::path::Path;
@@ -34,6 +34,7 @@ fn faults(finished: &Finished) -> impl Iterator<Item = &FaultEvent> {
 
 #[test]
 fn whatever_happens_to_a_stage_or_its_standby_no_cycle_goes_without_output() {
+    let _alone = alone();
     let folder = tempfile::tempdir().unwrap();
     let table = with_standby(folder.path());
     let stages = ["fields", "control", "fields-standby", "control-standby"];
@@ -140,6 +141,7 @@ fn decisions(folder: &Path, table: &str, injections: &[String]) -> Vec<(u64, Str
 
 #[test]
 fn kills_of_fields_and_control_change_no_decision() {
+    let _alone = alone();
     let folder = tempfile::tempdir().unwrap();
     let table = with_standby(folder.path());
     let of_run = |injections: &[String]| decisions(folder.path(), &table, injections);

@@ -3,19 +3,12 @@
 
 use coact_pipeline::Run;
 use coact_run_records::{SupervisorEvent, SupervisorEventKind};
-use coact_tests::{JointViewer, Launched, operate, wait_for};
+use coact_tests::{JointViewer, Launched, alone, operate, wait_for};
 use rustix::process::{Pid, Signal, kill_process};
 use std::fs::DirBuilder;
 use std::os::unix::fs::DirBuilderExt;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Sets that work beside each other are late.
-static ONE_TEST_AT_A_TIME: Mutex<()> = Mutex::new(());
 const RUN: [&str; 4] = ["--duration", "120", "--world", "kinematic"];
-
-fn alone() -> MutexGuard<'static, ()> {
-    ONE_TEST_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner)
-}
 
 /// Kills a process of the set, and waits for its replacement.
 fn kill(run: &Run, process: &str, generation: u32) {
