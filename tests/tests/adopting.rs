@@ -1,6 +1,7 @@
 //! The supervisor may die: the arm stands, the processes live on, and a successor goes on with them, or nobody does.
 #![allow(clippy::unwrap_used)]
 
+use coact_messages::SensorSample;
 use coact_pipeline::Run;
 use coact_run_records::{SupervisorEvent, SupervisorEventKind};
 use coact_tests::{JointViewer, Launched, alone, checkout, left_behind, operate, wait_for, wait_within};
@@ -12,6 +13,7 @@ use std::io::{ErrorKind, Write};
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use tempfile::TempDir;
 
 const PROCESSES: [&str; 6] = ["world", "perception", "fields", "control", "monitor", "voice"];
 /// Orphaned processes live on for so long where somebody comes. A test that fails leaves them behind for no longer, s.
@@ -65,6 +67,34 @@ fn write_as(pid: u32, line: &str) {
     });
 }
 
+/// A set whose supervisor was killed while the arm moved, and whose arm stands.
+struct Orphaned {
+    /// Of its process table, as long as the set lives.
+    _folder: TempDir,
+    launched: Launched,
+    run: Run,
+    viewer: JointViewer,
+    /// Process ids, in the order of [`PROCESSES`].
+    before: [u32; 6],
+    /// Where the arm stands.
+    stood: SensorSample,
+}
+
+impl Orphaned {
+    /// One that can be adopted for so long.
+    fn of(adoptable_for_s: f64, duration: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let mut launched = start(&table(folder.path(), adoptable_for_s), duration);
+        let run = launched.when_started();
+        let mut viewer = JointViewer::join(&run);
+        let before = pids(&run);
+        viewer.until_fast();
+        launched.kill();
+        let stood = viewer.until_it_stands();
+        Self { _folder: folder, launched, run, viewer, before, stood }
+    }
+}
+
 fn kill(pid: u32) {
     kill_process(Pid::from_raw(pid.cast_signed()).unwrap(), Signal::KILL).unwrap();
     wait_for("the death of a killed process", || (!lives(pid)).then_some(()));
@@ -83,14 +113,7 @@ fn deaths(supervisor: &[SupervisorEvent]) -> Vec<&SupervisorEvent> {
 #[test]
 fn a_successor_goes_on_with_the_same_processes_and_the_arm_stands_until_an_operator_resumes() {
     let _alone = alone();
-    let folder = tempfile::tempdir().unwrap();
-    let mut launched = start(&table(folder.path(), PATIENT), "75");
-    let run = launched.when_started();
-    let mut viewer = JointViewer::join(&run);
-    let before = pids(&run);
-    viewer.until_fast();
-    launched.kill();
-    let stood = viewer.until_it_stands();
+    let Orphaned { _folder, mut launched, run, mut viewer, before, stood, .. } = Orphaned::of(PATIENT, "75");
     assert!(run.is_orphaned() && before.iter().all(|&pid| lives(pid)));
     let (code, said, _) = operate(&["stop", "--run", run.id()]);
     assert_eq!(code, Some(2), "{said}");
@@ -134,14 +157,7 @@ fn a_successor_goes_on_with_the_same_processes_and_the_arm_stands_until_an_opera
 #[test]
 fn what_died_while_nobody_supervised_is_replaced_and_a_successor_can_have_a_successor() {
     let _alone = alone();
-    let folder = tempfile::tempdir().unwrap();
-    let mut launched = start(&table(folder.path(), PATIENT), "100");
-    let run = launched.when_started();
-    let mut viewer = JointViewer::join(&run);
-    let before = pids(&run);
-    viewer.until_fast();
-    launched.kill();
-    viewer.until_it_stands();
+    let Orphaned { _folder, mut launched, run, mut viewer, before, .. } = Orphaned::of(PATIENT, "100");
     // More than a pipe holds: nobody waits for a reader, nor dies for want of one.
     (0..200).for_each(|_| write_as(before[0], &"long ago ".repeat(100)));
     write_as(before[0], "just now");
@@ -179,14 +195,8 @@ fn what_died_while_nobody_supervised_is_replaced_and_a_successor_can_have_a_succ
 #[test]
 fn when_nobody_comes_all_processes_end_and_the_next_launch_removes_what_is_left() {
     let _alone = alone();
-    let folder = tempfile::tempdir().unwrap();
-    let mut launched = start(&table(folder.path(), SHORT), "60");
-    let run = launched.when_started();
-    let mut viewer = JointViewer::join(&run);
-    let before = pids(&run);
-    viewer.until_fast();
-    launched.kill();
-    viewer.until_it_stands();
+    let Orphaned { _folder, launched: _launched, run, viewer: _viewer, before, .. } =
+        Orphaned::of(SHORT, "60");
     assert!(before.iter().all(|&pid| lives(pid)));
     let most = Duration::from_secs_f64(SHORT) + ENDS_WITHIN;
     wait_within(most, "the end of all processes", || before.iter().all(|&pid| !lives(pid)).then_some(()));

@@ -148,8 +148,7 @@ impl Guard {
             empty[open].moving_bounding_capsules(mechanism, &posture, into);
             empty[more].moving_bounding_capsules(mechanism, &posture, links);
             for (link, more) in into.iter_mut().zip(links.iter()) {
-                link.start += fraction * (more.start - link.start);
-                link.end += fraction * (more.end - link.end);
+                *link = link.towards(more, fraction);
             }
         };
         look(now, moving.closure);

@@ -134,8 +134,7 @@ impl SeparationMeter {
         models[open].moving_bounding_capsules(mechanism, &posture, links);
         models[closed].moving_bounding_capsules(mechanism, &posture, more_closed);
         for (link, closed) in links.iter_mut().zip(more_closed.iter()) {
-            link.start += shape.fract() * (closed.start - link.start);
-            link.end += shape.fract() * (closed.end - link.end);
+            *link = link.towards(closed, shape.fract());
         }
     }
 }
