@@ -3,7 +3,7 @@
 use coact_control::Control;
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, Header, Percept, SensorSample, topic};
-use coact_realtime::{Cycle, Input, PortError, Process, StandIn, Tick, end_for_hung_thread};
+use coact_realtime::{Candidate, Cycle, Input, PortError, StandIn, Tick, end_for_hung_thread};
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
 
@@ -45,14 +45,15 @@ impl Cycle for ControlCycle {
 }
 
 fn main() -> anyhow::Result<()> {
-    let mut process = Process::from_arguments("control")?;
-    let run = process.run().settings();
+    let candidate = Candidate::from_arguments("control")?;
+    let run = candidate.run().settings();
     let (task, robot) = (Task::load(&run.task)?, Robot::load(&run.robot)?);
     let limits = SafetyLimits::load(&run.safety)?;
-    let (mut control, planner) = match process.generation() {
+    let (mut control, planner) = match candidate.generation() {
         0 => Control::in_real_time(robot, &task, &limits)?,
         _ => Control::of_replacement(robot, &task, &limits)?,
     };
+    let mut process = candidate.join()?;
     let sample = process.bus().input(topic::SENSORS)?;
     let percept = process.bus().input(topic::PERCEPT)?;
     let frame = process.bus().trigger(topic::FIELDS)?;

@@ -3,7 +3,7 @@
 use coact_fields::Network;
 use coact_joint_task::NetworkPlan;
 use coact_messages::{FieldFrame, Header, Percept, topic};
-use coact_realtime::{Cycle, Input, PortError, Process, StandIn, Tick};
+use coact_realtime::{Candidate, Cycle, Input, PortError, StandIn, Tick};
 
 struct Fields {
     network: Network,
@@ -32,9 +32,10 @@ impl Cycle for Fields {
 }
 
 fn main() -> anyhow::Result<()> {
-    let mut process = Process::from_arguments("fields")?;
-    let (task, plan) = NetworkPlan::load(&process.run().settings().task)?;
-    let network = Network::new(plan, task.fingerprint, process.run().settings().seed)?;
+    let candidate = Candidate::from_arguments("fields")?;
+    let (task, plan) = NetworkPlan::load(&candidate.run().settings().task)?;
+    let network = Network::new(plan, task.fingerprint, candidate.run().settings().seed)?;
+    let mut process = candidate.join()?;
     let percept = process.bus().trigger(topic::PERCEPT)?;
     let mut frame: StandIn<FieldFrame> = process.stand_in(topic::FIELDS)?;
     let start = match process.checkpoint(frame.output())? {

@@ -3,7 +3,7 @@
 use coact_joint_task::Task;
 use coact_messages::{Header, Percept, SensorSample, topic};
 use coact_perception::{Perception, PreshapeModel};
-use coact_realtime::{Cycle, Input, Output, PortError, Process, Tick};
+use coact_realtime::{Candidate, Cycle, Input, Output, PortError, Tick};
 use coact_robot::Robot;
 
 struct Observer {
@@ -28,10 +28,11 @@ impl Cycle for Observer {
 }
 
 fn main() -> anyhow::Result<()> {
-    let mut process = Process::from_arguments("perception")?;
-    let run = process.run().settings();
+    let candidate = Candidate::from_arguments("perception")?;
+    let run = candidate.run().settings();
     let (task, robot) = (Task::load(&run.task)?, Robot::load(&run.robot)?);
     let mut perception = Perception::new(&task, &PreshapeModel::load(&run.model)?)?.with_robot(robot);
+    let mut process = candidate.join()?;
     let sample = process.bus().trigger(topic::SENSORS)?;
     let mut percept = process.bus().output(topic::PERCEPT)?;
     if let Some(last) = process.checkpoint(&mut percept)?

@@ -12,7 +12,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd, OwnedFd};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
-use std::process::{Command, ExitStatus, Stdio};
+use std::path::Path;
+use std::process::{ChildStdin, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
 /// A running process, to be watched, signalled and reaped.
@@ -27,8 +28,11 @@ pub struct RunningChild {
     pid: Pid,
     /// False of a process that a predecessor of the supervisor started: its exit status goes to whoever reaps it.
     is_child: bool,
-    /// Becomes readable when the process dies. Unlike a process id, it never comes to mean another process.
+    /// Becomes readable when nothing of the process is left. Unlike a process id, it never comes to mean another process.
     pidfd: OwnedFd,
+    /// Becomes readable when its sentinel has ended, if it has one: it does nothing from then on, but gives its memory back for
+    /// milliseconds.
+    sentinel: Option<OwnedFd>,
     stderr: StderrTail,
 }
 
@@ -44,11 +48,37 @@ impl RunningChild {
         on_line: impl FnMut(&str) + Send + 'static,
     ) -> io::Result<Self> {
         let mut command = Command::new(&spec.program);
-        command.args(&spec.arguments).env(GENERATION_VARIABLE, generation.to_string());
-        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+        command.args(&spec.arguments).env(GENERATION_VARIABLE, generation.to_string()).stdin(Stdio::null());
+        Ok(Self::of(command, spec.realtime, on_line)?.0)
+    }
+
+    /// The same as a spare, in no hurry: it waits until it can read a byte from its standard input, whose other end is
+    /// returned.
+    ///
+    /// # Errors
+    /// As [`RunningChild::spawn`].
+    pub(crate) fn spawn_spare(
+        spec: &ProcessSpec,
+        generation: u32,
+        on_line: impl FnMut(&str) + Send + 'static,
+    ) -> io::Result<(Self, ChildStdin)> {
+        let mut command = Command::new(&spec.program);
+        command.args(&spec.arguments).arg("--spare");
+        command.env(GENERATION_VARIABLE, generation.to_string()).stdin(Stdio::piped());
+        let (child, stdin) = Self::of(command, false, on_line)?;
+        Ok((child, stdin.ok_or(io::ErrorKind::BrokenPipe)?))
+    }
+
+    /// Starts it, in the supervisor's scheduling class if `realtime`.
+    fn of(
+        mut command: Command,
+        realtime: bool,
+        on_line: impl FnMut(&str) + Send + 'static,
+    ) -> io::Result<(Self, Option<ChildStdin>)> {
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
         // A group of its own: Ctrl-C in the terminal reaches the supervisor alone, which stops the set in order.
         command.process_group(0);
-        let (supervisor, realtime) = (rustix::process::getpid(), spec.realtime);
+        let supervisor = rustix::process::getpid();
         // SAFETY: between fork and exec only async-signal-safe system calls are made, and nothing is allocated.
         unsafe { command.pre_exec(move || prepare(supervisor, realtime)) };
         let mut child = command.spawn()?;
@@ -62,7 +92,8 @@ impl RunningChild {
             }
         };
         let stderr = child.stderr.take().ok_or(io::ErrorKind::BrokenPipe)?;
-        Ok(Self { pid, is_child: true, pidfd, stderr: StderrTail::follow(stderr, on_line) })
+        let stderr = StderrTail::follow(stderr, on_line);
+        Ok((Self { pid, is_child: true, pidfd, sentinel: None, stderr }, child.stdin.take()))
     }
 
     /// The process that reported this to a predecessor of the supervisor; `None` when it is dead, whatever process has its id now.
@@ -82,7 +113,20 @@ impl RunningChild {
                 Box::new(io::empty())
             }
         };
-        Some(Self { pid, is_child: false, pidfd, stderr: StderrTail::follow(stderr, on_line) })
+        let stderr = StderrTail::follow(stderr, on_line);
+        let mut adopted = Self { pid, is_child: false, pidfd, sentinel: None, stderr };
+        adopted.watch_sentinel(ready.sentinel);
+        Some(adopted)
+    }
+
+    /// Lets its death be noticed by that of the thread with this id, if it is one of its threads.
+    pub(crate) fn watch_sentinel(&mut self, thread: u32) {
+        // Linux before 6.9 has no descriptors of threads.
+        let flags = PidfdFlags::from_bits_retain(libc::PIDFD_THREAD);
+        let opened = Pid::from_raw(thread.cast_signed()).and_then(|thread| pidfd_open(thread, flags).ok());
+        // Looked at when the descriptor is open: that cannot come to mean another thread.
+        let is_its_own = || Path::new(&format!("/proc/{}/task/{thread}", self.pid())).exists();
+        self.sentinel = opened.filter(|_| is_its_own());
     }
 
     /// Its process id.
@@ -92,7 +136,7 @@ impl RunningChild {
 
     /// Readable once the process is dead.
     pub fn death(&self) -> BorrowedFd<'_> {
-        self.pidfd.as_fd()
+        self.sentinel.as_ref().unwrap_or(&self.pidfd).as_fd()
     }
 
     /// Sends a signal. It is no error that the process is dead already: its death is noticed in any case.
@@ -128,12 +172,15 @@ impl RunningChild {
         }
     }
 
+    /// Gives it the class of a real-time process that starts: its turn has come. Not granted, it keeps its class.
+    pub(crate) fn promote(&self) {
+        SchedulingClass::STARTING.apply_to(self.pid()).ok();
+    }
+
     /// Makes it an ordinary process, on the supervisor's own cores: killed, it then gives back its memory, which takes
     /// milliseconds, without keeping others from theirs. Not granted, it keeps its class.
     pub(crate) fn demote(&self) {
-        let (pid, ordinary) = (self.pid() as i32, libc::sched_param { sched_priority: 0 });
-        // SAFETY: a system call that reads the parameters it is given.
-        unsafe { libc::sched_setscheduler(pid, libc::SCHED_OTHER, &raw const ordinary) };
+        SchedulingClass::Other.apply_to(self.pid()).ok();
         if let Ok(cores) = sched_getaffinity(None) {
             sched_setaffinity(Some(self.pid), &cores).ok();
         }
@@ -160,15 +207,34 @@ impl RunningChild {
         (!failed).then(|| Duration::new(time.tv_sec as u64, time.tv_nsec as u32))
     }
 
-    /// Whether it has ended.
+    /// Whether it has ended: it does nothing any more, but may still have its memory.
     pub fn is_dead(&self) -> bool {
+        poll(&mut [PollFd::from_borrowed_fd(self.death(), PollFlags::IN)], Some(&NO_TIME)) == Ok(1)
+    }
+
+    /// Whether nothing is left of it.
+    pub(crate) fn is_gone(&self) -> bool {
         waits_for_death(&self.pidfd, Some(&NO_TIME))
     }
 
-    /// How it ended, if it did and this supervisor has started it. It is reaped when this is dropped.
+    /// Waits until nothing is left of one that is dead: some milliseconds.
+    pub(crate) fn wait_until_gone(&self) {
+        // An interrupting signal ends no wait.
+        while !waits_for_death(&self.pidfd, None) {}
+    }
+
+    /// How it ended, once it is dead; `None` when another supervisor had started it. It is reaped when this is dropped.
     pub fn exit_status(&self) -> Option<ExitStatus> {
-        let ended = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT | WaitIdOptions::NOHANG;
-        let status = waitid(WaitId::PidFd(self.pidfd.as_fd()), ended).ok().flatten()?;
+        if !self.is_child {
+            return None;
+        }
+        // Parents are told as soon as nothing is left of it.
+        let told = if self.is_gone() { None } else { ProcessStat::of(self.pid()).ok() };
+        if let Some(stat) = told {
+            return Some(ExitStatus::from_raw(stat.exit_code));
+        }
+        let status = waitid(WaitId::PidFd(self.pidfd.as_fd()), WaitIdOptions::EXITED | WaitIdOptions::NOWAIT);
+        let status = status.ok().flatten()?;
         // As wait(2) encodes it: a status in the second byte, or a signal in the first.
         let code = status.exit_status().map(|code| (code & 0xff) << 8);
         Some(ExitStatus::from_raw(code.or(status.terminating_signal()).unwrap_or_default()))
@@ -194,7 +260,9 @@ impl Drop for RunningChild {
         self.signal(Signal::KILL);
         if !self.is_child {
             // Who took it over from the dead supervisor reaps it. An interrupting signal ends no wait.
-            while !is_dead && !waits_for_death(&self.pidfd, None) {}
+            if !is_dead {
+                self.wait_until_gone();
+            }
             return;
         }
         // The replacement of a dead one does not wait for its reaping.

@@ -192,6 +192,7 @@ impl Launch {
             order: entry.order,
             needed: entry.needed,
             realtime: entry.realtime,
+            spare: entry.spare,
             program: self.program(entry),
             arguments: arguments(run, entry),
             ready_directory: run.directory().join("ready"),

@@ -35,6 +35,7 @@ mod run_topics;
 mod running;
 mod service_manager;
 mod set_request;
+mod spare;
 mod start_fault;
 mod stderr_tail;
 mod supervised;

@@ -146,6 +146,7 @@ impl ProcessSet {
         let watched = self.watch_clock.watched();
         if watched >= self.heartbeats_at {
             self.heartbeats_at = watched + Self::HEARTBEAT_POLL;
+            self.keep_spares();
             for process in self.processes.iter_mut().filter(|process| process.spec.hung_after.is_none()) {
                 process.take_heartbeat(watched);
                 process.watch_heartbeat(watched);
@@ -163,6 +164,18 @@ impl ProcessSet {
             if let (Some(limit), Some(running)) = (limit, self.processes[index].running_mut()) {
                 running.kill(KillReason::Hung(limit));
             }
+        }
+    }
+
+    /// Not before the run's clock runs: what is needed first is started first.
+    fn keep_spares(&mut self) {
+        let now = monotonic_time();
+        if self.pulses_from.is_none_or(|from| now < from) {
+            return;
+        }
+        for process in &mut self.processes {
+            let (sink, name) = (self.on_line.clone(), process.spec.name.clone());
+            process.keep_spare(now, move |line| sink(&name, line));
         }
     }
 
@@ -218,6 +231,11 @@ impl ProcessSet {
             target.fault = None;
         }
         Ok(())
+    }
+
+    /// True while a process runs that is not ready yet.
+    pub(crate) fn anyone_starts(&self) -> bool {
+        self.processes.iter().filter_map(Supervised::running).any(|running| !running.ready)
     }
 
     /// True while every process is ready.
@@ -278,6 +296,7 @@ impl ProcessSet {
     fn stop_together(&mut self, group: &[usize], meanwhile: &mut impl FnMut()) {
         let begin = monotonic_time();
         for &index in group {
+            self.processes[index].spare = None;
             self.record(index, SupervisorEventKind::StopRequested, None, None);
             self.processes[index].request_stop();
         }
@@ -298,7 +317,8 @@ impl ProcessSet {
     /// the sake of one that is dead already, and keep this core from them.
     fn reap(&mut self, stopping: &[usize]) {
         for index in 0..self.processes.len() {
-            if let Some(Death { pid, reason, .. }) = self.processes[index].died(monotonic_time()) {
+            if let Some(Death { pid, reason, child, .. }) = self.processes[index].died(monotonic_time()) {
+                child.wait_until_gone();
                 let was_asked = stopping.contains(&index);
                 let kind = if was_asked { SupervisorEventKind::Stopped } else { SupervisorEventKind::Died };
                 self.record(index, kind, Some(pid), Some(reason));
@@ -425,7 +445,7 @@ impl ProcessSet {
         let Self { processes, on_line, .. } = self;
         let process = &mut processes[index];
         let (sink, name) = (on_line.clone(), process.spec.name.clone());
-        match RunningChild::spawn(&process.spec, process.generation, move |line| sink(&name, line)) {
+        match process.next(move |line| sink(&name, line)) {
             Ok(child) => {
                 process.started(child, monotonic_time());
                 self.record(index, kind, None, None);

@@ -53,9 +53,11 @@ pub(crate) struct RunLoop<'a> {
     status_at: Duration,
 }
 
-/// A death wakes the supervisor at once; everything else is looked at this often. A trade-off between the time that a
-/// replacement waits for its checkpoint and the supervisor's load.
+/// A death wakes the supervisor at once; everything else is looked at this often. A trade-off between how soon a hang is found and
+/// the supervisor's load.
 const POLL_INTERVAL: Duration = Duration::from_millis(2);
+/// The same while a process starts: so long at most it waits for its checkpoint, once it can take it. Chosen by hand.
+const POLL_WHILE_STARTING: Duration = Duration::from_micros(500);
 /// From "all are ready" to tick 0. Every process polls for the start once in a millisecond: all have seen it by then, also
 /// on a busy machine.
 const START_DELAY: Duration = Duration::from_millis(50);
@@ -146,7 +148,7 @@ impl<'a> RunLoop<'a> {
 
     fn supervise(&mut self) -> Result<Ending, LaunchError> {
         loop {
-            self.set.wait(POLL_INTERVAL);
+            self.set.wait(if self.set.anyone_starts() { POLL_WHILE_STARTING } else { POLL_INTERVAL });
             self.service_manager.is_alive(monotonic_time());
             self.set.replace_dead(&mut self.topics)?;
             self.topics.poll();

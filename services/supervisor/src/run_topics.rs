@@ -12,7 +12,7 @@ pub(crate) struct RunTopics {
     anchors: TopicAnchors,
     run: Run,
     pipeline: Pipeline,
-    /// For the replacement of each process; released while it starts.
+    /// For the replacement of each process; released while it starts, where no other places are left for it.
     reservations: BTreeMap<String, Reservation>,
     /// The living processes for which nothing is reserved.
     unreserved: BTreeSet<String>,
@@ -139,7 +139,10 @@ impl Checkpoints for RunTopics {
         if let Some(Err(error)) = self.reserve.as_ref().map(MemoryReserve::release) {
             tracing::warn!("a replacement may find no room: {error}");
         }
-        self.reservations.remove(process);
+        // To give places back takes milliseconds: it is done only where there are no others.
+        if self.anchors.crowd(process).is_some() {
+            self.reservations.remove(process);
+        }
         self.unreserved.remove(process);
         let outcome = self.store.publish(process);
         let published = outcome.as_ref().is_ok_and(|header| header.is_some());
@@ -164,7 +167,9 @@ impl Checkpoints for RunTopics {
     }
 
     fn recovered(&mut self, process: &str) {
-        self.unreserved.insert(process.to_owned());
+        if !self.reservations.contains_key(process) {
+            self.unreserved.insert(process.to_owned());
+        }
         self.clean_at = Some(monotonic_time() + Self::CLEANUP_DELAY);
     }
 }

@@ -1,6 +1,6 @@
-use crate::RunningChild;
 use crate::kill_reason::KillReason;
 use crate::start_fault::StartFault;
+use crate::{RunningChild, watchdog};
 use rustix::process::Signal;
 use std::time::{Duration, SystemTime};
 
@@ -56,24 +56,27 @@ impl Running {
         self.watched_closely = None;
     }
 
-    /// Whether it certainly hangs, after a `silence` that is looked at from half its `limit` on: it is stopped, or it computes
-    /// without end. One that waits for its core or for another process does neither.
-    pub(crate) fn hangs_for_certain(
+    /// How long it may be silent whose `limit` of silence is this, if it certainly hangs: it is stopped, or it computes without end.
+    /// One that waits for its core or for another process does neither.
+    pub(crate) fn certain_limit(
         &mut self,
         silence: Duration,
         limit: Duration,
         watched: Duration,
-    ) -> bool {
-        if silence < limit / 2 {
-            return false;
+    ) -> Option<Duration> {
+        let (stopped, computes) = (watchdog::stopped(limit), watchdog::computes(limit));
+        if silence > stopped && self.child.is_stopped() {
+            return Some(stopped);
         }
-        if self.child.is_stopped() {
-            return true;
-        }
+        (silence >= computes / 2 && self.computes_without_end(computes, watched)).then_some(computes)
+    }
+
+    /// Looked at from half its limit on, `computes`.
+    fn computes_without_end(&mut self, computes: Duration, watched: Duration) -> bool {
         let Some(computed) = self.child.computed() else { return false };
         let (since, before) = *self.watched_closely.get_or_insert((watched, computed));
         let (span, busy) = (watched.saturating_sub(since), computed.saturating_sub(before));
-        self.has_pulsed && span >= limit / 2 && busy >= span.mul_f64(BUSY)
+        self.has_pulsed && span >= computes / 2 && busy >= span.mul_f64(BUSY)
     }
 
     /// Kills it, once, for this reason.

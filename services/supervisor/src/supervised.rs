@@ -1,12 +1,13 @@
 use crate::death::Death;
 use crate::kill_reason::KillReason;
 use crate::running::Running;
+use crate::spare::Spare;
 use crate::start_fault::StartFault;
-use crate::watchdog::{self, Silence};
+use crate::watchdog::Silence;
 use crate::{Fault, ProcessSpec, RestartHistory, RunningChild};
 use coact_pipeline::Ready;
 use rustix::process::Signal;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::time::Duration;
 
 /// One process of the set, in all its generations.
@@ -28,6 +29,8 @@ pub(crate) struct Supervised {
     pub(crate) begins_anew: bool,
     /// It died while the run had no supervisor, who would have kept its checkpoint.
     pub(crate) died_unseen: bool,
+    /// The next one, started ahead.
+    pub(crate) spare: Option<Spare>,
     /// How long the first start took until it was ready.
     pub(crate) first_start: Option<Duration>,
     /// The supervisor itself cannot see whether it is ready: for want of a file handle.
@@ -76,6 +79,7 @@ impl Supervised {
             resumed: false,
             begins_anew: false,
             died_unseen: false,
+            spare: None,
             first_start: None,
             cannot_look: false,
         }
@@ -107,6 +111,32 @@ impl Supervised {
     /// Whether the others need not wait for it: it is ready, or it is not needed and has died already.
     pub(crate) fn keeps_nobody_waiting(&self) -> bool {
         self.is_ready() || !self.spec.needed && self.history.has_deaths()
+    }
+
+    /// Starts its spare, when it has none and has been ready for long enough. One that cannot be started is tried again.
+    pub(crate) fn keep_spare(&mut self, now: Duration, on_line: impl FnMut(&str) + Send + 'static) {
+        self.spare = self.spare.take().filter(|spare| !spare.is_dead());
+        let settled =
+            self.running().is_some_and(|running| running.ready && now >= running.since + Spare::AFTER);
+        if !self.spec.spare || self.spare.is_some() || !settled {
+            return;
+        }
+        match Spare::start(&self.spec, self.generation + 1, on_line) {
+            Ok(spare) => self.spare = Some(spare),
+            Err(error) => tracing::debug!("no spare of {}: {error}", self.spec.name),
+        }
+    }
+
+    /// The process of this generation: its spare, or else one that is started now.
+    ///
+    /// # Errors
+    /// The program cannot be executed.
+    pub(crate) fn next(&mut self, on_line: impl FnMut(&str) + Send + 'static) -> io::Result<RunningChild> {
+        let spare = self.spare.take().and_then(|spare| spare.take_turn(self.generation, self.spec.realtime));
+        match spare {
+            Some(child) => Ok(child),
+            None => RunningChild::spawn(&self.spec, self.generation, on_line),
+        }
     }
 
     /// Enters a child that was just started.
@@ -153,7 +183,9 @@ impl Supervised {
         running.ready = true;
         running.last_sign = watched;
         // Whatever does not say that it is real time is not taken for it.
-        running.is_realtime = serde_json::from_slice::<Ready>(&report).is_ok_and(|ready| ready.priority > 0);
+        let ready = serde_json::from_slice::<Ready>(&report).unwrap_or_default();
+        running.is_realtime = ready.priority > 0;
+        running.child.watch_sentinel(ready.sentinel);
         let took = now.saturating_sub(running.since);
         if is_first {
             self.first_start = Some(took);
@@ -199,7 +231,7 @@ impl Supervised {
             for_time,
             limit,
             is_steady: running.has_pulsed && running.is_realtime,
-            is_certain: running.hangs_for_certain(for_time, watchdog::certain(limit), watched),
+            certain: running.certain_limit(for_time, limit, watched),
         })
     }
 

@@ -9,20 +9,29 @@ pub(crate) struct Silence {
     pub(crate) limit: Duration,
     /// It is real time and has sent a pulse already: others' load does not delay it, and what it does once is done.
     pub(crate) is_steady: bool,
-    /// It is stopped, or computes without end: no late machine explains its silence.
-    pub(crate) is_certain: bool,
+    /// How long it may be when no late machine explains it: it is stopped, or computes without end.
+    pub(crate) certain: Option<Duration>,
 }
 
-/// How long a process may be silent at least, even if it certainly hangs. Chosen by hand: more than the longest cycle that a
+/// How long a process may be silent at least that computes without end. Chosen by hand: more than the longest cycle that a
 /// machine's stall or an injected slowness makes, of some periods.
-const CERTAIN: Duration = Duration::from_millis(10);
-/// One that certainly hangs is killed after this part of its limit. Chosen by hand: 10 ms of the shipped table's 100. A table
-/// that is patient, because somebody looks into its processes with a debugger, stays so.
-const CERTAIN_PART: u32 = 10;
+const COMPUTES: Duration = Duration::from_millis(10);
+/// How long one at least that is stopped. Chosen by hand: it has missed a cycle, and nothing but somebody else's signal lets it do
+/// another.
+const STOPPED: Duration = Duration::from_millis(2);
+/// They are killed after these parts of their limit. Chosen by hand: 10 ms and 2 ms of the shipped table's 100. A table that is
+/// patient, because somebody looks into its processes with a debugger, stays so.
+const COMPUTES_PART: u32 = 10;
+const STOPPED_PART: u32 = 50;
 
-/// How long a process with this limit may be silent that certainly hangs.
-pub(crate) fn certain(limit: Duration) -> Duration {
-    (limit / CERTAIN_PART).max(CERTAIN).min(limit)
+/// How long a process with this limit may be silent that computes without end.
+pub(crate) fn computes(limit: Duration) -> Duration {
+    (limit / COMPUTES_PART).max(COMPUTES).min(limit)
+}
+
+/// How long one that is stopped.
+pub(crate) fn stopped(limit: Duration) -> Duration {
+    (limit / STOPPED_PART).max(STOPPED).min(limit)
 }
 
 /// How long a process may be silent that is not real time, has not sent its first pulse yet, or is silent together with all
@@ -35,10 +44,10 @@ pub(crate) const MACHINE_LATE: Duration = Duration::from_millis(500);
 /// keeps it from the others: that is waited for as long as machines are late.
 pub(crate) fn hung(watched: &[Silence]) -> Vec<Option<Duration>> {
     let all_silent = watched.len() > 1 && watched.iter().all(|silence| silence.for_time > silence.limit);
-    let limit = |silence: &Silence| match silence.is_steady && !all_silent {
-        _ if silence.is_certain => certain(silence.limit),
-        true => silence.limit,
-        false => silence.limit.max(MACHINE_LATE),
+    let limit = |silence: &Silence| match (silence.certain, silence.is_steady && !all_silent) {
+        (Some(limit), _) => limit,
+        (None, true) => silence.limit,
+        (None, false) => silence.limit.max(MACHINE_LATE),
     };
     watched.iter().map(|silence| Some(limit(silence)).filter(|&limit| silence.for_time > limit)).collect()
 }
@@ -50,7 +59,7 @@ mod tests {
     const LIMIT: Duration = Duration::from_millis(10);
 
     fn silent(ms: u64) -> Silence {
-        Silence { for_time: Duration::from_millis(ms), limit: LIMIT, is_steady: true, is_certain: false }
+        Silence { for_time: Duration::from_millis(ms), limit: LIMIT, is_steady: true, certain: None }
     }
 
     #[test]
@@ -78,12 +87,14 @@ mod tests {
     #[test]
     fn one_that_certainly_hangs_is_not_waited_for() {
         let limit = Duration::from_millis(100);
-        let stopped = |ms| Silence { limit, is_certain: true, ..silent(ms) };
+        let computing = |ms| Silence { limit, certain: Some(computes(limit)), ..silent(ms) };
         let waits = |ms| Silence { limit, ..silent(ms) };
-        assert_eq!(hung(&[stopped(10), stopped(11), waits(99)]), [None, Some(CERTAIN), None]);
-        assert_eq!(hung(&[stopped(101), waits(101)]), [Some(CERTAIN), None], "though all are silent");
-        let beginning = Silence { is_steady: false, ..stopped(11) };
-        assert_eq!(hung(&[beginning, waits(1)]), [Some(CERTAIN), None]);
+        assert_eq!(hung(&[computing(10), computing(11), waits(99)]), [None, Some(COMPUTES), None]);
+        assert_eq!(hung(&[computing(101), waits(101)]), [Some(COMPUTES), None], "though all are silent");
+        let beginning = Silence { is_steady: false, ..computing(11) };
+        assert_eq!(hung(&[beginning, waits(1)]), [Some(COMPUTES), None]);
+        let stands = |ms| Silence { limit, certain: Some(stopped(limit)), ..silent(ms) };
+        assert_eq!(hung(&[stands(2), stands(3), waits(99)]), [None, Some(STOPPED), None]);
     }
 
     #[test]
@@ -92,8 +103,8 @@ mod tests {
         let patient = |ms| Silence { limit, ..silent(ms) };
         assert_eq!(hung(&[patient(1900), patient(2001)]), [None, Some(limit)]);
         assert_eq!(hung(&[patient(2001), patient(2001)]), [Some(limit), Some(limit)]);
-        let stopped = |ms| Silence { is_certain: true, ..patient(ms) };
-        assert_eq!(hung(&[stopped(199), stopped(201)]), [None, Some(limit / CERTAIN_PART)]);
-        assert_eq!(certain(LIMIT / 2), LIMIT / 2, "certainty makes nobody more patient");
+        let stands = |ms| Silence { certain: Some(stopped(limit)), ..patient(ms) };
+        assert_eq!(hung(&[stands(39), stands(41)]), [None, Some(limit / STOPPED_PART)]);
+        assert_eq!(computes(LIMIT / 2), LIMIT / 2, "certainty makes nobody more patient");
     }
 }

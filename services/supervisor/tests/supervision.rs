@@ -1,130 +1,14 @@
 //! The supervision of real processes, with shell scripts in place of services.
 #![allow(clippy::unwrap_used)]
 
-use coact_pipeline::{ProcessStat, Ready, RestartPolicy};
+mod trial;
+
+use coact_pipeline::{ProcessStat, Ready};
 use coact_run_records::{RunLog, SupervisorEvent, SupervisorEventKind};
-use coact_supervisor::{
-    Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSet, ProcessSpec, RunningChild, SupervisorLog,
-};
+use coact_supervisor::{Checkpoints, Fault, InjectionRefusal, RunningChild};
 use rustix::process::{Pid, Signal};
-use std::path::Path;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-const READY_AND_RUN: &str = "touch \"$READY\"; exec sleep 600";
-
-/// A folder for ready files and report, and the set under test.
-struct Trial {
-    folder: tempfile::TempDir,
-    set: ProcessSet,
-    events: Vec<SupervisorEvent>,
-}
-
-/// The calls that it got, in order.
-#[derive(Default)]
-struct RecordedCalls(Vec<String>);
-
-impl Checkpoints for RecordedCalls {
-    fn publish(&mut self, process: &str) -> Option<String> {
-        self.0.push(format!("publish {process}"));
-        None
-    }
-    fn drop_newest(&mut self, process: &str) -> Option<String> {
-        self.0.push(format!("drop {process}"));
-        Some("its memory".into())
-    }
-    fn recovered(&mut self, process: &str) {
-        self.0.push(format!("recovered {process}"));
-    }
-}
-
-fn script(folder: &Path, name: &str, script: &str) -> ProcessSpec {
-    let script =
-        format!("DIR='{}'; READY=\"$DIR/{name}.$COACT_GENERATION.json\"; {script}", folder.display());
-    ProcessSpec {
-        name: name.into(),
-        program: "/bin/sh".into(),
-        arguments: vec!["-c".into(), script.into()],
-        order: 0,
-        needed: true,
-        realtime: false,
-        ready_directory: folder.to_owned(),
-        stop_grace: Duration::from_millis(300),
-        ready_within: Duration::from_secs(60),
-        heartbeat_file: folder.join(format!("{name}.heartbeat")),
-        hung_after: None,
-    }
-}
-
-impl Trial {
-    fn of(scripts: &[(&str, &str)]) -> Self {
-        Self::with(scripts, |_| {})
-    }
-
-    fn with(scripts: &[(&str, &str)], change: impl Fn(&mut ProcessSpec)) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let mut specs: Vec<_> =
-            scripts.iter().map(|(name, text)| script(folder.path(), name, text)).collect();
-        specs.iter_mut().for_each(change);
-        let policy = RestartPolicy {
-            intensity: 3,
-            window: Duration::from_secs(600),
-            backoff_initial: Duration::from_millis(1),
-            backoff_max: Duration::from_millis(4),
-            hung_after: Duration::from_millis(300),
-        };
-        let log = SupervisorLog::create(folder.path()).unwrap();
-        let set = ProcessSet::new(specs, policy, log, Arc::new(|_, _| {}));
-        Self { folder, set, events: Vec::new() }
-    }
-
-    /// Each process in its own step: the first of `scripts` is started first.
-    fn in_steps(scripts: &[(&str, &str)]) -> Self {
-        let position = |name: &str| scripts.iter().position(|(other, _)| *other == name).unwrap();
-        Self::with(scripts, |spec| spec.order = position(&spec.name) as u32)
-    }
-
-    /// Advances until `done`, or the set is given up.
-    fn until(
-        &mut self,
-        checkpoints: &mut dyn Checkpoints,
-        done: impl Fn(&Self) -> bool,
-    ) -> Result<(), GaveUp> {
-        let begin = Instant::now();
-        while !done(self) {
-            assert!(begin.elapsed() < Duration::from_secs(60), "it never came: {:#?}", self.events);
-            self.set.wait(Duration::from_millis(2));
-            let outcome = self.set.advance(checkpoints);
-            self.events.extend(self.set.take_events());
-            outcome?;
-        }
-        Ok(())
-    }
-
-    fn run_until_ready(&mut self) {
-        self.until(&mut (), |trial| trial.set.all_ready()).unwrap();
-    }
-
-    fn gives_up(&mut self) -> GaveUp {
-        self.until(&mut (), |_| false).unwrap_err()
-    }
-
-    fn pid(&self, name: &str) -> u32 {
-        self.set.pids().find(|(other, _)| *other == name).unwrap().1
-    }
-
-    fn count(&self, kind: SupervisorEventKind, process: &str) -> usize {
-        self.events.iter().filter(|event| event.event == kind && event.process == process).count()
-    }
-
-    fn sequence(&self) -> Vec<(SupervisorEventKind, &str)> {
-        self.events.iter().map(|event| (event.event, event.process.as_str())).collect()
-    }
-}
-
-fn exists(pid: u32) -> bool {
-    Path::new(&format!("/proc/{pid}")).exists()
-}
+use trial::{READY_AND_RUN, RecordedCalls, Trial, exists};
 
 #[test]
 fn each_process_starts_when_those_before_it_are_ready() {
@@ -276,7 +160,7 @@ fn a_stopped_process_is_killed_as_hung_and_replaced_at_once_and_a_silent_one_aft
         trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
         let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
         // The script does not say that it is real time: silent, it gets as long as machines are late.
-        let within = if fault.is_some() { "10 ms" } else { "500 ms" };
+        let within = if fault.is_some() { "2 ms" } else { "500 ms" };
         assert_eq!(died.reason.as_deref(), Some(&*format!("hung: no pulse for more than {within}")));
         assert_eq!(died.fault.as_deref(), fault.map(|fault| fault.name()));
     }

@@ -7,7 +7,7 @@ use anyhow::Context;
 use coact_joint_task::Task;
 use coact_messages::{Command, Header, HoldReason, SensorSample, Truth, WorldState, topic};
 use coact_pipeline::RunSettings;
-use coact_realtime::{Cycle, DropOuts, Input, Output, PortError, Process, Tick, now};
+use coact_realtime::{Candidate, Cycle, DropOuts, Input, Output, PortError, Tick, now};
 use coact_recordings::{Order, read_folder};
 use coact_robot::Robot;
 use coact_safety::{DriveLimits, SafetyLimits};
@@ -103,16 +103,16 @@ impl Cycle for Recording {
 }
 
 fn main() -> anyhow::Result<()> {
-    let process = Process::from_arguments("world")?;
-    match process.run().settings().partner.strip_prefix(REPLAY).map(str::to_owned) {
-        Some(recording) => play(process, &recording),
-        None => simulate(process),
+    let candidate = Candidate::from_arguments("world")?;
+    match candidate.run().settings().partner.strip_prefix(REPLAY).map(str::to_owned) {
+        Some(recording) => play(candidate, &recording),
+        None => simulate(candidate),
     }
 }
 
 /// Plays the reaches of one person; `recording` is `PARTICIPANT:DIR`.
-fn play(process: Process, recording: &str) -> anyhow::Result<()> {
-    let run = process.run().settings();
+fn play(candidate: Candidate, recording: &str) -> anyhow::Result<()> {
+    let run = candidate.run().settings();
     let (task, robot) = (Task::load(&run.task)?, Robot::load(&run.robot)?);
     let (participant, folder) = recording
         .split_once(':')
@@ -125,16 +125,18 @@ fn play(process: Process, recording: &str) -> anyhow::Result<()> {
         .find(|person| person[0].participant == participant)
         .with_context(|| format!("{}: no reach of participant {participant}", folder.display()))?;
     let replay = Replay::new(&task, &robot, person, |reach| has_part_for(&task, reach));
+    let process = candidate.join()?;
     let command = process.bus().input(topic::COMMAND)?;
     let (sample, truth) = (process.bus().output(topic::SENSORS)?, process.bus().output(topic::TRUTH)?);
     Ok(process.run_cycles(Recording { replay, command, sample, truth })?)
 }
 
-fn simulate(mut process: Process) -> anyhow::Result<()> {
+fn simulate(candidate: Candidate) -> anyhow::Result<()> {
+    let drive = SafetyLimits::load(&candidate.run().settings().safety)?.drive;
+    let mut world = world(candidate.run().settings(), drive)?;
+    let mut process = candidate.join()?;
     process.outlive_supervisor()?;
-    let drive = SafetyLimits::load(&process.run().settings().safety)?.drive;
     let stop = StopInput::open(process.bus(), drive.stop_unheard_after)?;
-    let mut world = world(process.run().settings(), drive)?;
     let command = process.bus().input(topic::COMMAND)?;
     let mut sample: Output<SensorSample> = process.bus().output(topic::SENSORS)?;
     let mut truth: Output<Truth> = process.bus().output(topic::TRUTH)?;

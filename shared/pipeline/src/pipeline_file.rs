@@ -69,6 +69,7 @@ struct ProcessText {
     core: Option<usize>,
     #[serde(default)]
     standby: bool,
+    spare: Option<Spanned<bool>>,
     trigger: Option<String>,
     latest_start_us: Option<Spanned<u64>>,
     ready_within_ms: Option<u64>,
@@ -162,6 +163,7 @@ impl Source<'_> {
             None => Trigger::None,
         };
         let latest_start = self.latest_start(&raw, &name, &trigger)?;
+        let spare = self.spare(&raw, &trigger)?;
         Ok(ProcessEntry {
             name,
             program: raw.program,
@@ -170,6 +172,7 @@ impl Source<'_> {
             realtime: raw.realtime,
             priority,
             standby_of: None,
+            spare,
             core: raw.core,
             trigger,
             latest_start,
@@ -190,6 +193,15 @@ impl Source<'_> {
                 Err(self.error(&raw.name, "name", name, expected))
             }
             None => Ok(0),
+        }
+    }
+
+    fn spare(&self, raw: &ProcessText, trigger: &Trigger) -> Result<bool, PipelineError> {
+        match &raw.spare {
+            Some(value) if *value.get_ref() && *trigger == Trigger::None => {
+                Err(self.error(value, "spare", true, "false of a process without a trigger"))
+            }
+            value => Ok(value.as_ref().is_some_and(|value| *value.get_ref())),
         }
     }
 

@@ -18,6 +18,8 @@ pub struct ProcessEntry {
     pub priority: u8,
     /// The process that it stands by for, if it is a standby: in each cycle in which that one sends nothing, it does.
     pub standby_of: Option<String>,
+    /// True if the next one is started ahead: loaded, and out of the run until this one dies.
+    pub spare: bool,
     /// Core to which it is pinned; any core when absent.
     pub core: Option<usize>,
     /// What starts its cycles.
@@ -41,7 +43,14 @@ impl ProcessEntry {
     pub(crate) fn standby(&self) -> Self {
         let name = format!("{}-standby", self.name);
         let priority = if self.realtime { (self.priority + 1).min(Self::HIGHEST) } else { self.priority };
-        Self { name, standby_of: Some(self.name.clone()), needed: false, priority, ..self.clone() }
+        Self {
+            name,
+            standby_of: Some(self.name.clone()),
+            needed: false,
+            priority,
+            spare: false,
+            ..self.clone()
+        }
     }
 }
 

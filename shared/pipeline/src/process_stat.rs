@@ -9,6 +9,8 @@ pub struct ProcessStat {
     pub started: u64,
     /// Whether a signal has stopped it (SIGSTOP), or a debugger.
     pub is_stopped: bool,
+    /// How it ends, once it does, as wait(2) encodes it; 0 before, and to those who may not know.
+    pub exit_code: i32,
 }
 
 impl ProcessStat {
@@ -31,7 +33,9 @@ impl ProcessStat {
         let state = fields.next()?;
         // Field 22 of proc_pid_stat(5); the state is field 3.
         let started = fields.nth(18)?.parse().ok()?;
-        Some(Self { started, is_stopped: matches!(state, "T" | "t") })
+        // Field 52.
+        let exit_code = fields.nth(29).and_then(|code| code.parse().ok()).unwrap_or(0);
+        Some(Self { started, is_stopped: matches!(state, "T" | "t"), exit_code })
     }
 }
 
@@ -42,8 +46,11 @@ mod tests {
 
     #[test]
     fn it_is_read_behind_a_name_that_contains_anything() {
-        let text = "7 (a) T (b 1) T 1 7 7 0 -1 4194560 1 0 0 0 0 0 0 0 20 0 1 0 98765 1 2 3\n";
-        assert_eq!(ProcessStat::parse(text), Some(ProcessStat { started: 98765, is_stopped: true }));
+        let text = "7 (a) T (b 1) T 1 7 7 0 -1 4194560 1 0 0 0 0 0 0 0 20 0 1 0 98765 1 2 3";
+        let mut expected = ProcessStat { started: 98765, is_stopped: true, exit_code: 0 };
+        assert_eq!(ProcessStat::parse(text), Some(expected));
+        expected.exit_code = 9;
+        assert_eq!(ProcessStat::parse(&format!("{text}{} 9\n", " 5".repeat(26))), Some(expected));
         for bad in ["", "7 (a", "7 (a) R 1 2", "7 (a) R 1 7 7 0 -1 4 1 0 0 0 0 0 0 0 20 0 1 0 soon 1"] {
             assert_eq!(ProcessStat::parse(bad), None, "{bad}");
         }

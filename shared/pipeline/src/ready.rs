@@ -16,6 +16,10 @@ pub struct Ready {
     /// by it that the process id has not come to mean another process.
     #[serde(default)]
     pub started: u64,
+    /// Id of its sentinel, a thread that ends as soon as the process does; 0 without one. The last thread to end still gives the
+    /// memory back, for milliseconds.
+    #[serde(default)]
+    pub sentinel: u32,
     /// Scheduling class obtained: "SCHED_FIFO" or "SCHED_OTHER".
     pub scheduler: String,
     /// Real-time priority obtained; 0 for SCHED_OTHER.

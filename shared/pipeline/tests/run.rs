@@ -12,6 +12,7 @@ fn ready(process: &str) -> Ready {
         generation: 2,
         pid: 1,
         started: 7,
+        sentinel: 8,
         scheduler: "SCHED_OTHER".to_owned(),
         priority: 0,
         core: None,

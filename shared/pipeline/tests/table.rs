@@ -171,3 +171,15 @@ fn a_set_ends_with_its_supervisor_unless_the_table_says_for_how_long_it_can_be_a
     let adoptable = Pipeline::parse(&table, "p.toml".as_ref()).unwrap();
     assert_eq!(adoptable.adoptable_for, Duration::from_millis(2500));
 }
+
+#[test]
+fn what_has_a_trigger_may_have_a_spare_and_nothing_else() {
+    let with = GOOD.replacen("priority = 81\n", "priority = 81\nspare = true\nstandby = true\n", 1);
+    let pipeline = Pipeline::parse(&with, "p.toml".as_ref()).unwrap();
+    assert!(pipeline.process("fields").unwrap().spare && !pipeline.process("world").unwrap().spare);
+    assert!(!pipeline.process("fields-standby").unwrap().spare, "it is no standby's");
+    let without =
+        format!("{GOOD}\n[[process]]\nname = \"viewer\"\nprogram = \"view\"\norder = 2\nspare = true\n");
+    let error = Pipeline::parse(&without, "p.toml".as_ref()).unwrap_err().to_string();
+    assert!(error.contains("spare: is true") && error.contains("without a trigger"), "{error}");
+}

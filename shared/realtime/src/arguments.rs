@@ -10,4 +10,7 @@ pub struct Arguments {
     /// Take part as the standby of the stage.
     #[arg(long)]
     pub standby: bool,
+    /// Take part only when a byte comes on standard input; end when that is closed.
+    #[arg(long)]
+    pub spare: bool,
 }

@@ -1,7 +1,7 @@
 //! The real-time shell around the stages: ports, cycles, deadlines, memory, and resuming after a crash.
 //!
-//! A service's `main` opens its [`Process`] and its ports on the [`Bus`], and hands a [`Cycle`] to
-//! [`Process::run_cycles`]. That waits for each period's release or for the arrival of the input, calls the stage, which
+//! A service's `main` loads what it needs as a [`Candidate`], joins the run as a [`Process`], opens its ports on the [`Bus`], and
+//! hands a [`Cycle`] to [`Process::run_cycles`]. That waits for each period's release or for the arrival of the input, calls the stage, which
 //! publishes, and counts deadline misses, stale inputs and skipped cycles. The counters leave the process in its
 //! [`Pulse`](coact_messages::Pulse).
 //!
@@ -43,6 +43,7 @@
 mod any_topic;
 mod arguments;
 mod bus;
+mod candidate;
 mod checkpoint;
 mod checkpoint_store;
 mod cycle;
@@ -89,6 +90,7 @@ mod zero_copy_writer;
 
 pub use arguments::Arguments;
 pub use bus::Bus;
+pub use candidate::Candidate;
 pub use checkpoint_store::CheckpointStore;
 pub use cycle::Cycle;
 pub use drop_outs::DropOuts;

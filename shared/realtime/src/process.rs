@@ -2,16 +2,14 @@ use crate::executor::Executor;
 use crate::owner_watch::OwnerWatch;
 use crate::signals::Signals;
 use crate::{
-    Arguments, Bus, Cycle, DropOuts, Heartbeat, LogStyle, Message, Output, PortError, ProcessError, Schedule,
-    StandIn, memory_lock, scheduling,
+    Bus, Candidate, Cycle, DropOuts, Heartbeat, Message, Output, PortError, ProcessError, Schedule, StandIn,
+    memory_lock, scheduling,
 };
-use clap::Parser;
 use coact_messages::{Refusal, topic};
-use coact_pipeline::{GENERATION_VARIABLE, Pipeline, ProcessEntry, ProcessStat, Ready, Run};
+use coact_pipeline::{Pipeline, ProcessEntry, ProcessStat, Ready, Run};
 use rustix::process::Signal;
 use std::io;
 use std::panic::AssertUnwindSafe;
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -23,7 +21,7 @@ const CHECKPOINT_TIMEOUT: Duration = Duration::from_millis(500);
 /// ahead, so that this delays nothing.
 const START_POLL: Duration = Duration::from_millis(1);
 
-/// A process of a set, from its command line to its last cycle.
+/// A process of a set, from when it joins the run to its last cycle.
 #[derive(Debug)]
 pub struct Process {
     run: Run,
@@ -39,46 +37,24 @@ pub struct Process {
 
 impl Process {
     /// Joins the run that the command line names, as the process called `name`, or as its standby; ends the program on bad usage.
+    /// What takes long to load is better loaded by a [`Candidate`].
     ///
     /// # Errors
     /// [`ProcessError`] says what about the run, its process table or its topics is wrong.
     pub fn from_arguments(name: &str) -> Result<Self, ProcessError> {
-        let arguments = Arguments::parse();
-        LogStyle::Process.log_to_stderr();
-        let standby = arguments.standby.then(|| topic::standby(name));
-        let name = match &standby {
-            Some(Some(standby)) => standby,
-            Some(None) => return Err(ProcessError::NoStandby { process: name.to_owned() }),
-            None => name,
-        };
-        Self::open(name, &arguments.run, generation()?)
+        Candidate::from_arguments(name)?.join()
     }
 
-    /// Joins the run in `directory` as the process called `name`, in its `generation`-th restart.
-    ///
-    /// # Errors
-    /// As [`Process::from_arguments`].
-    pub fn open(name: &str, directory: &Path, generation: u32) -> Result<Self, ProcessError> {
-        let signals = Signals::install().map_err(ProcessError::Signals)?;
-        let run = Run::load(directory)?;
-        let pipeline = Pipeline::load(&run.settings().pipeline)?;
-        let entry = pipeline.process(name)?.clone();
-        if entry.realtime {
-            scheduling::prepare_start(entry.core);
-        } else {
-            scheduling::exclude_real_time_cores(&pipeline);
-        }
-        let bus = Bus::open(&run, name, generation)?;
-        Ok(Self {
-            run,
-            pipeline,
-            entry,
-            generation,
-            bus,
-            signals,
-            resumed: false,
-            warned: [false; Refusal::COUNT],
-        })
+    pub(crate) fn new(
+        run: Run,
+        pipeline: Pipeline,
+        entry: ProcessEntry,
+        generation: u32,
+        bus: Bus,
+        signals: Signals,
+    ) -> Self {
+        let (resumed, warned) = (false, [false; Refusal::COUNT]);
+        Self { run, pipeline, entry, generation, bus, signals, resumed, warned }
     }
 
     /// The run that it takes part in.
@@ -235,12 +211,14 @@ impl Process {
         let memory_locked = matches!(lock, Some(Ok(())));
         let mut why_not: Vec<_> = lock.and_then(Result::err).into_iter().collect();
         why_not.extend(scheduling::apply(&self.entry));
+        let sentinel = if self.entry.realtime { start_sentinel()? } else { 0 };
         let mut ready = Ready {
             process: self.entry.name.clone(),
             generation: self.generation,
             pid: std::process::id(),
             // Without it, no successor of the supervisor takes the process for this one.
             started: ProcessStat::of(std::process::id()).map_or(0, |stat| stat.started),
+            sentinel,
             scheduler: String::new(),
             priority: 0,
             core: None,
@@ -292,11 +270,6 @@ impl Process {
     }
 }
 
-fn generation() -> Result<u32, ProcessError> {
-    let Ok(found) = std::env::var(GENERATION_VARIABLE) else { return Ok(0) };
-    found.parse().map_err(|_| ProcessError::Generation { variable: GENERATION_VARIABLE, found })
-}
-
 /// Whether the process was started by a supervisor, which has the kernel end it with itself. One that was started by hand has none,
 /// and needs none.
 fn has_supervisor() -> Result<bool, ProcessError> {
@@ -308,6 +281,18 @@ fn has_supervisor() -> Result<bool, ProcessError> {
 fn on_death_of_supervisor(signal: Option<Signal>) -> Result<(), ProcessError> {
     let set = rustix::process::set_parent_process_death_signal(signal);
     set.map_err(|error| ProcessError::Signals(error.into()))
+}
+
+/// Starts a thread of the caller's class that does nothing, and returns its id: killed, the process loses it at once.
+fn start_sentinel() -> Result<u32, ProcessError> {
+    let (tell, told) = std::sync::mpsc::sync_channel(1);
+    let wait = move || {
+        tell.send(rustix::thread::gettid().as_raw_nonzero().get().cast_unsigned()).ok();
+        park();
+    };
+    std::thread::Builder::new().name("sentinel".into()).spawn(wait).map_err(ProcessError::Thread)?;
+    // One that told nothing is none.
+    Ok(told.recv().unwrap_or(0))
 }
 
 fn park() {

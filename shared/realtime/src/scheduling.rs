@@ -5,15 +5,11 @@ use coact_pipeline::{Pipeline, ProcessEntry, Ready};
 use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity, set_current_timer_slack};
 use std::num::NonZeroU64;
 
-/// SCHED_FIFO priority of a real-time process that is not ready yet: the lowest, so that it runs before all ordinary
-/// programs and behind every process that is ready.
-const STARTING_PRIORITY: u8 = 1;
-
 /// Prepares a real-time process to start soon, because a replacement is needed at once, but not on its own core:
 /// locking its memory there would delay the processes that run on that core.
 pub(crate) fn prepare_start(core: Option<usize>) {
     // Refused, it starts as any program does; `apply` reports what is refused.
-    let _ = SchedulingClass::Fifo(STARTING_PRIORITY).apply();
+    let _ = SchedulingClass::STARTING.apply();
     let mut others = sched_getaffinity(None).unwrap_or_default();
     if let Some(core) = core.filter(|&core| core < CpuSet::MAX_CPU) {
         others.unset(core);

@@ -10,6 +10,10 @@ pub enum SchedulingClass {
 }
 
 impl SchedulingClass {
+    /// Of a real-time process that is not ready yet: the lowest priority of all, so that it runs before ordinary programs and behind
+    /// every process that is ready.
+    pub const STARTING: Self = Self::Fifo(1);
+
     /// Puts the calling thread, and every thread and process that it starts from then on, into this class.
     ///
     /// Async-signal-safe: it may be called between fork and exec.
@@ -17,6 +21,14 @@ impl SchedulingClass {
     /// # Errors
     /// The system's refusal: SCHED_FIFO needs a right (`ulimit -r`). To become an ordinary thread is always granted.
     pub fn apply(self) -> io::Result<()> {
+        self.apply_to(0)
+    }
+
+    /// The same for the thread with this id; 0 is the calling one.
+    ///
+    /// # Errors
+    /// As [`SchedulingClass::apply`]; also when there is no such thread.
+    pub fn apply_to(self, thread: u32) -> io::Result<()> {
         let (policy, priority) = match self {
             Self::Fifo(priority) => (libc::SCHED_FIFO, priority),
             Self::Other => (libc::SCHED_OTHER, 0),
@@ -25,7 +37,7 @@ impl SchedulingClass {
         let status = unsafe {
             let mut parameter = std::mem::zeroed::<libc::sched_param>();
             parameter.sched_priority = i32::from(priority);
-            libc::sched_setscheduler(0, policy, &raw const parameter)
+            libc::sched_setscheduler(thread.cast_signed(), policy, &raw const parameter)
         };
         if status == 0 { Ok(()) } else { Err(io::Error::last_os_error()) }
     }

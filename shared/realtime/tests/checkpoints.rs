@@ -6,7 +6,7 @@ mod support;
 use coact_messages::{FieldFrame, topic};
 use coact_period::PERIOD;
 use coact_pipeline::Pipeline;
-use coact_realtime::{Bus, CheckpointStore, Input, Process, Schedule, TopicAnchors, now};
+use coact_realtime::{Bus, Candidate, CheckpointStore, Input, Schedule, TopicAnchors, now};
 use std::io::Read;
 use std::time::Duration;
 use support::{TestRun, child_run, ready, spawn};
@@ -37,7 +37,7 @@ fn sender() {
 #[ignore = "the replacement, started by the tests below"]
 fn replacement() {
     let Some(run) = child_run() else { return };
-    let mut process = Process::open("fields", run.directory(), 1).unwrap();
+    let mut process = Candidate::open("fields", run.directory(), 1).unwrap().join().unwrap();
     let mut output = process.bus().output::<FieldFrame>(topic::FIELDS).unwrap();
     match process.checkpoint(&mut output).unwrap() {
         Some(frame) => {

@@ -6,7 +6,7 @@ mod support;
 use coact_messages::{FieldFrame, Header, LAYOUT, Percept, Pulse, topic};
 use coact_period::PERIOD_NS;
 use coact_realtime::{
-    Bus, Cycle, Input, Message, Output, PortError, Process, RequestedFault, Schedule, Tick, now,
+    Bus, Candidate, Cycle, Input, Message, Output, PortError, RequestedFault, Schedule, Tick, now,
 };
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -73,7 +73,7 @@ fn start<In: Message, Out: Message>(
 ) -> JoinHandle<()> {
     let run: PathBuf = run.to_owned();
     std::thread::spawn(move || {
-        let process = Process::open(name, &run, 0).unwrap();
+        let process = Candidate::open(name, &run, 0).unwrap().join().unwrap();
         let [from, to] = topics;
         let input = process.bus().trigger(from).unwrap();
         let cycle = Relay::<In, Out> { input, output: process.bus().output(to).unwrap(), last };
@@ -180,9 +180,11 @@ fn readiness_tells_what_was_obtained_and_why_not_more() {
                  core = 1000\ntrigger = \"timer\"\n";
     let run = TestRun::new(table);
     let directory = run.0.directory().to_owned();
-    std::thread::spawn(move || Process::open("world", &directory, 4).unwrap().report_ready().unwrap())
-        .join()
-        .unwrap();
+    std::thread::spawn(move || {
+        Candidate::open("world", &directory, 4).unwrap().join().unwrap().report_ready().unwrap()
+    })
+    .join()
+    .unwrap();
     let ready = run.0.ready("world", 4).unwrap().unwrap();
     let refused = |what: &str| ready.why_not.iter().any(|reason| reason.starts_with(what));
     assert!(refused("core 1000: "), "{:?}", ready.why_not);
@@ -196,7 +198,7 @@ fn readiness_tells_what_was_obtained_and_why_not_more() {
 fn table_that_starts_a_process_by_something_else_than_its_input_is_refused() {
     let _lock = one_at_a_time();
     let run = TestRun::new(&TABLE.replace("coact/percept", "coact/sensors"));
-    let process = Process::open("fields", run.0.directory(), 0).unwrap();
+    let process = Candidate::open("fields", run.0.directory(), 0).unwrap().join().unwrap();
     let input: Input<Percept> = process.bus().trigger(topic::PERCEPT).unwrap();
     let output: Output<FieldFrame> = process.bus().output(topic::FIELDS).unwrap();
     let error = process.run_cycles(Relay { input, output, last: 0 }).unwrap_err().to_string();
