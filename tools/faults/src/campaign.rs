@@ -84,7 +84,7 @@ impl<'a> Campaign<'a> {
             Ok(run) => run,
             Err(trouble) => return cells.iter().map(|cell| not_judged(cell, &trouble.0)).collect(),
         };
-        let judged = |record: &crate::trial::Record| JudgedCell {
+        let judged = |record: &crate::record::Record| JudgedCell {
             cell: record.cell.clone(),
             outcome: judge(record, &evidence, &self.setup.rules, cells.len() == 1),
         };

@@ -2,7 +2,7 @@
 
 use crate::evidence::Evidence;
 use crate::matrix::CHAIN;
-use crate::trial::Record;
+use crate::record::Record;
 use crate::{Cell, FaultKind, Moment, Outcome, Target};
 use coact_messages::{Refusal, topic};
 use coact_monitor::Rules;

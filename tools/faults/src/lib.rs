@@ -17,6 +17,7 @@ mod moment;
 mod outcome;
 mod page;
 mod private_mounts;
+mod record;
 mod running_set;
 mod selection;
 mod setup;

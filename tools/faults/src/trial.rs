@@ -1,5 +1,6 @@
 use crate::evidence::Evidence;
 use crate::private_mounts::Filler;
+use crate::record::Record;
 use crate::running_set::{POLL, RunningSet};
 use crate::stranger::Stranger;
 use crate::viewer::Viewer;
@@ -8,24 +9,9 @@ use coact_realtime::{Schedule, now};
 use coact_run_records::{Event, LogFollower, MotionReport};
 use coact_supervisor::{Fault, request_fault};
 use rustix::process::Signal;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::time::{Duration, Instant};
-
-/// What happened in one cell.
-#[derive(Debug, Clone)]
-pub(crate) struct Record {
-    pub(crate) cell: Cell,
-    /// From just before the fault until the set had time to come over it, ns of `CLOCK_MONOTONIC`.
-    pub(crate) from_ns: u64,
-    pub(crate) until_ns: u64,
-    /// Whether each replacement went on from its predecessor's state, by its own report.
-    pub(crate) resumed: BTreeMap<&'static str, bool>,
-    /// How the joints moved, from before the moment came, as a viewer saw it.
-    pub(crate) motion: MotionReport,
-    /// Why the fault was not done, or not seen.
-    pub(crate) trouble: Option<Trouble>,
-}
 
 /// A run in which faults are done one after another.
 pub(crate) struct Trial<'a> {
@@ -71,7 +57,7 @@ impl<'a> Trial<'a> {
         let any = |is: fn(FaultKind) -> bool| cells.iter().any(|cell| is(cell.fault));
         let set = RunningSet::launch(setup, any(private), any(adoptable))?;
         let mut trial = Self { setup, set, viewer: None };
-        let records: Vec<_> = cells.iter().map(|cell| trial.perform(cell)).collect();
+        let records = trial.perform_all(cells);
         let start_ns = trial.set.run().start_ns().ok().flatten();
         if records.iter().all(|record| record.trouble.is_none()) {
             trial.wait_for_progress(&records, start_ns);
@@ -79,15 +65,27 @@ impl<'a> Trial<'a> {
         trial.finish(cells, start_ns).map(|evidence| (records, evidence))
     }
 
+    /// Whichever cell's moment comes first is done first.
+    fn perform_all(&mut self, cells: &[Cell]) -> Vec<Record> {
+        let mut left: Vec<_> = cells.iter().collect();
+        let mut records = Vec::new();
+        while !left.is_empty() {
+            if let Some(viewer) = &mut self.viewer {
+                viewer.begin();
+            }
+            match self.wait_for_any(&left) {
+                Ok(index) => records.push(self.perform(left.remove(index))),
+                Err(trouble) => {
+                    let missed = |cell: &Cell| Record::of(cell, Some(Trouble(trouble.0.clone())));
+                    records.extend(left.drain(..).map(missed));
+                }
+            }
+        }
+        records
+    }
+
     fn perform(&mut self, cell: &Cell) -> Record {
-        let mut record = Record {
-            cell: cell.clone(),
-            from_ns: 0,
-            until_ns: u64::MAX,
-            resumed: BTreeMap::new(),
-            motion: MotionReport::default(),
-            trouble: None,
-        };
+        let mut record = Record::of(cell, None);
         if let Err(trouble) = self.attempt(&mut record) {
             record.trouble = Some(trouble);
         }
@@ -96,23 +94,41 @@ impl<'a> Trial<'a> {
         record
     }
 
+    /// Index of the first cell whose moment has come.
+    fn wait_for_any(&mut self, cells: &[&Cell]) -> Result<usize, Trouble> {
+        if let Some(index) = cells.iter().position(|cell| cell.moment == Moment::StartUp) {
+            self.wait_for_start_of(cells[index].target.processes()[0])?;
+            return Ok(index);
+        }
+        self.wait_for_start()?;
+        // The end of the run comes last, from a movement.
+        let is_over = cells.iter().all(|cell| cell.moment == Moment::Shutdown);
+        let (schedule, begin) = (self.schedule()?, Instant::now());
+        while begin.elapsed() < MOMENT_WITHIN {
+            self.look()?;
+            let sight = self.viewer.as_ref().map(Viewer::sight).unwrap_or_default();
+            let tick = schedule.tick_at(now());
+            let has_come = |cell: &&Cell| match cell.moment {
+                Moment::Shutdown => is_over && Moment::Moving.is_at(&sight),
+                moment => moment.is_at(&sight) && is_possible(cell.fault, tick),
+            };
+            if let Some(index) = cells.iter().position(has_come) {
+                return Ok(index);
+            }
+            if self.set.has_ended() {
+                return Err(Trouble("the set had ended already".into()));
+            }
+        }
+        let moments: BTreeSet<_> = cells.iter().map(|cell| cell.moment.name()).collect();
+        let moments = moments.into_iter().collect::<Vec<_>>().join(" or ");
+        Err(Trouble(format!("the robot was not {moments} within {} s", MOMENT_WITHIN.as_secs())))
+    }
+
+    /// Its moment has come.
     fn attempt(&mut self, record: &mut Record) -> Result<(), Trouble> {
         let cell = record.cell.clone();
-        if let Some(viewer) = &mut self.viewer {
-            viewer.begin();
-        }
-        match cell.moment {
-            Moment::StartUp => self.wait_for_start_of(cell.target.processes()[0])?,
-            Moment::Shutdown => {
-                self.wait_for_start()?;
-                self.wait_for(Moment::Moving)?;
-                self.set.signal(Signal::INT)?;
-            }
-            moment => {
-                self.wait_for_start()?;
-                self.wait_until_possible(cell.fault)?;
-                self.wait_for(moment)?;
-            }
+        if cell.moment == Moment::Shutdown {
+            self.set.signal(Signal::INT)?;
         }
         let generations = self.generations(&cell);
         record.from_ns = now();
@@ -180,32 +196,9 @@ impl<'a> Trial<'a> {
         }
     }
 
-    fn wait_until_possible(&mut self, fault: FaultKind) -> Result<(), Trouble> {
-        let FaultKind::Message(fault) = fault else { return Ok(()) };
-        let schedule = self.schedule()?;
-        while schedule.tick_at(now()) < fault.possible_from() {
-            self.look()?;
-        }
-        Ok(())
-    }
-
     fn schedule(&self) -> Result<Schedule, Trouble> {
         let start_ns = self.set.run().start_ns().ok().flatten();
         Ok(Schedule { start_ns: start_ns.ok_or_else(|| Trouble("the run has no clock".into()))? })
-    }
-
-    fn wait_for(&mut self, moment: Moment) -> Result<(), Trouble> {
-        let begin = Instant::now();
-        while begin.elapsed() < MOMENT_WITHIN {
-            self.look()?;
-            if self.viewer.as_ref().is_some_and(|viewer| moment.is_at(&viewer.sight())) {
-                return Ok(());
-            }
-            if self.set.has_ended() {
-                return Err(Trouble("the set had ended already".into()));
-            }
-        }
-        Err(Trouble(format!("the robot was not {moment} within {} s", MOMENT_WITHIN.as_secs())))
     }
 
     /// How often each process that is struck has been restarted.
@@ -424,6 +417,11 @@ impl<'a> Trial<'a> {
         let last_speed = viewer.as_ref().map_or(0.0, |viewer| viewer.sight().speed);
         Ok(Evidence { ending, start_ns, last_speed, ..read })
     }
+}
+
+/// Whether the fault can be done in this cycle already.
+fn is_possible(fault: FaultKind, tick: u64) -> bool {
+    !matches!(fault, FaultKind::Message(fault) if tick < fault.possible_from())
 }
 
 /// The signal by which a fault strikes that needs nobody to listen.
