@@ -63,11 +63,12 @@ impl Cycle for Hardware {
         let Self { world, command, sample, truth, state, .. } = self;
         let (mut sample, mut truth, mut state) = (sample.loan()?, truth.loan()?, state.loan()?);
         world.step(tick.cycle, command.latest(), &mut sample, &mut truth, &mut state);
-        // The sensors are read now. What the simulation of the bodies before them cost is no part of a real robot.
-        let sensor_ns = now();
-        let header = sample.send(tick.cycle, sensor_ns)?;
-        truth.send(tick.cycle, sensor_ns)?;
-        state.send(tick.cycle, sensor_ns)?;
+        let simulated_ns = now();
+        truth.send(tick.cycle, simulated_ns)?;
+        state.send(tick.cycle, simulated_ns)?;
+        // The sensors are read now. What the simulation of the bodies before them cost is no part of a real robot. They are sent
+        // last: perception waits for them, on this core.
+        let header = sample.send(tick.cycle, now())?;
         if self.world.skipped() > self.skipped {
             self.skipped = self.world.skipped();
             tracing::warn!("the script's next action was left out: no part for it came within reach");
@@ -95,10 +96,8 @@ impl Cycle for Recording {
     fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
         let (mut sample, mut truth) = (self.sample.loan()?, self.truth.loan()?);
         self.replay.step(tick.cycle, &mut sample, &mut truth);
-        let sensor_ns = now();
-        let header = sample.send(tick.cycle, sensor_ns)?;
-        truth.send(tick.cycle, sensor_ns)?;
-        Ok(header)
+        truth.send(tick.cycle, now())?;
+        sample.send(tick.cycle, now())
     }
 }
 
