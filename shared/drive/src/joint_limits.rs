@@ -5,8 +5,13 @@ use coact_robot::{JointLimits, Robot};
 const RESERVED: JointLimits =
     JointLimits { lower: -1.0, upper: 1.0, velocity: 1.0, effort: 1.0, acceleration: 1.0, jerk: 1.0 };
 
-/// Limits of a robot's joints in the order of the messages.
+/// The fraction of a joint's speed limit that setpoints may reach. Chosen by hand: movements are planned for 0.95; the joints
+/// follow with some overshoot, and encoders scatter, where the limit itself is never to be exceeded.
+const KEPT: f64 = 0.99;
+
+/// Limits of a robot's joints for their setpoints, in the order of the messages.
 pub fn joint_limits(robot: &Robot) -> [JointLimits; JOINTS] {
     let own = robot.limits();
-    std::array::from_fn(|joint| own.get(joint).copied().unwrap_or(RESERVED))
+    let kept = |limits: JointLimits| JointLimits { velocity: KEPT * limits.velocity, ..limits };
+    std::array::from_fn(|joint| own.get(joint).copied().map_or(RESERVED, kept))
 }
