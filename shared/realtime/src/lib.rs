@@ -75,6 +75,7 @@ mod process_error;
 mod refusals;
 mod requested_fault;
 mod reservation;
+mod run_node;
 mod run_view;
 mod schedule;
 mod scheduling;

@@ -34,7 +34,7 @@ impl EachTopic for Reservation {
         if topic::reads(&self.process, topic) {
             self.ports.push(Box::new(self.bus.port(topic, &message_type::<T>(), false)?));
         } else if topic::writes(&self.process, topic) {
-            self.ports.push(Box::new(self.bus.service(topic, &message_type::<T>())?));
+            self.ports.push(Box::new(self.bus.node().service(topic, &message_type::<T>())?));
         }
         Ok(())
     }

@@ -46,9 +46,9 @@ struct Creation<'a> {
 
 impl EachTopic for Creation<'_> {
     fn topic<T: Message>(&mut self, topic: &str) -> Result<(), PortError> {
-        self.anchors.topics.push((topic.to_owned(), self.bus.service(topic, &message_type::<T>())?));
+        self.anchors.topics.push((topic.to_owned(), self.bus.node().service(topic, &message_type::<T>())?));
         if topic::announces(topic) {
-            self.anchors.events.push(self.bus.event(topic)?);
+            self.anchors.events.push(self.bus.node().event(topic)?);
         }
         Ok(())
     }

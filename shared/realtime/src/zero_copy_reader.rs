@@ -1,8 +1,8 @@
 use crate::any_topic::{Bytes, NoHeader};
-use crate::bus::MAX_WRITERS;
 use crate::monotonic_clock::timespec;
 use crate::port::Reader;
-use crate::{Bus, Origin, PortError, places};
+use crate::run_node::{MAX_WRITERS, RunNode};
+use crate::{Origin, PortError, places};
 use coact_messages::topic;
 use iceoryx2::port::{ReceiveError, listener::Listener, port_name::PortName, subscriber::Subscriber};
 use iceoryx2::prelude::{FileDescriptorBased, PayloadHeader, ipc};
@@ -25,16 +25,16 @@ pub(crate) struct ZeroCopyReader {
 }
 
 impl ZeroCopyReader {
-    pub fn open(bus: &Bus, topic: &str, kind: &TypeDetail, waits: bool) -> Result<Self, PortError> {
+    pub fn open(node: &RunNode, topic: &str, kind: &TypeDetail, waits: bool) -> Result<Self, PortError> {
         let listener = match waits {
-            true => Some(bus.event(topic)?.listener_builder().create()),
+            true => Some(node.event(topic)?.listener_builder().create()),
             false => None,
         };
         let listener = listener.transpose().map_err(|error| PortError::refused(topic, "listening", error))?;
-        let service = bus.service(topic, kind)?;
-        places::admit(topic, bus.process(), &service)?;
+        let service = node.service(topic, kind)?;
+        places::admit(topic, node.process(), &service)?;
         // By its name a reader is known for one of the set, or for a viewer.
-        let name = PortName::new(bus.process());
+        let name = PortName::new(node.process());
         let name = name.map_err(|error| PortError::refused(topic, "naming", error))?;
         let subscriber = service.subscriber_builder().name(&name).create();
         let subscriber = subscriber.map_err(|error| PortError::refused(topic, "reading", error))?;

@@ -1,6 +1,7 @@
+use crate::PortError;
 use crate::any_topic::{Bytes, NoHeader};
 use crate::port::Writer;
-use crate::{Bus, PortError};
+use crate::run_node::RunNode;
 use coact_messages::topic;
 use iceoryx2::port::{notifier::Notifier, publisher::Publisher, update_connections::UpdateConnections};
 use iceoryx2::prelude::{BackpressureStrategy, ipc};
@@ -18,10 +19,10 @@ pub(crate) struct ZeroCopyWriter {
 }
 
 impl ZeroCopyWriter {
-    pub fn open(bus: &Bus, topic: &str, kind: &TypeDetail) -> Result<Self, PortError> {
-        let service = bus.service(topic, kind)?;
+    pub fn open(node: &RunNode, topic: &str, kind: &TypeDetail) -> Result<Self, PortError> {
+        let service = node.service(topic, kind)?;
         let notifier = match topic::announces(topic) {
-            true => Some(bus.event(topic)?.notifier_builder().create()),
+            true => Some(node.event(topic)?.notifier_builder().create()),
             false => None,
         };
         let notifier =
