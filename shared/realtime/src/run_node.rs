@@ -12,6 +12,7 @@ pub(crate) const MAX_WRITERS: usize = 7;
 /// Processes that may have one topic open: the set (9 with the supervisor), the reservations for their replacements (8),
 /// the dead until they are cleaned up after, and operators' tools. Chosen by hand; more would only cost shared memory.
 const MAX_NODES: usize = 32;
+
 /// A process's iceoryx2 node in one run: opens the run's topics and events.
 #[derive(Debug)]
 pub(crate) struct RunNode {
