@@ -5,6 +5,7 @@ use crate::running_set::{POLL, RunningSet};
 use crate::stranger::Stranger;
 use crate::viewer::Viewer;
 use crate::{Cell, FaultKind, MessageFault, Moment, Setup, Target, Trouble};
+use coact_period::cycles;
 use coact_realtime::{Schedule, now};
 use coact_run_records::{Event, LogFollower, MotionReport};
 use coact_supervisor::{Fault, request_fault};
@@ -22,6 +23,9 @@ pub(crate) struct Trial<'a> {
 
 /// Longest wait for a moment: in an assembly of a minute each comes several times.
 const MOMENT_WITHIN: Duration = Duration::from_secs(90);
+/// From this cycle on stages are known to be fast enough, and one that is not any more is replaced (it takes a second), and spares
+/// are loaded. Before it a run still starts.
+const SETTLED: u64 = cycles(Duration::from_millis(1500));
 /// Longest start of a set.
 const STARTED_WITHIN: Duration = Duration::from_secs(40);
 /// Longest wait for a replacement: what is not needed is restarted after pauses of two seconds at most.
@@ -421,7 +425,7 @@ impl<'a> Trial<'a> {
 
 /// Whether the fault can be done in this cycle already.
 fn is_possible(fault: FaultKind, tick: u64) -> bool {
-    !matches!(fault, FaultKind::Message(fault) if tick < fault.possible_from())
+    tick >= SETTLED && !matches!(fault, FaultKind::Message(fault) if tick < fault.possible_from())
 }
 
 /// The signal by which a fault strikes that needs nobody to listen.
