@@ -3,9 +3,16 @@
 //! Data flow of one tick: the percept's channels and the previous frame's signals go through the synapse table into
 //! each population's input; each layer is integrated from the previous frame straight into the new one; signals,
 //! peaks and the decision are read off it. The frame is the whole state: nothing else is remembered.
+//!
+//! [`Explanation`] tells of any population of a frame what it gets, from where, and why it is wired so.
 
+mod explanation;
 mod network;
 mod projections;
+mod share;
+mod sources;
 
+pub use explanation::Explanation;
 pub use network::Network;
 use projections::Projections;
+pub use share::Share;

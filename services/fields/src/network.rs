@@ -1,16 +1,12 @@
-use crate::Projections;
-use coact_joint_task::{Channel, LayerPlan, NetworkPlan, Synapse};
+use crate::{Projections, sources};
+use coact_joint_task::{LayerPlan, NetworkPlan, Synapse};
 use coact_messages::{Decision, FieldFrame, LayerKind, NONE, Percept};
 use coact_neural_field::{Field, ParameterError, forget};
-use coact_period::{PERIOD, cycles};
+use coact_period::PERIOD;
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
-use std::time::Duration;
 
-/// Age up to which a percept tells what is now; beyond it, memories stay and everything else loses its input. Chosen by
-/// hand: it bridges gaps of some frames, and is short beside a reach of 350 to 900 ms.
-const PERCEPT_LIFETIME: u64 = cycles(Duration::from_millis(200));
 /// Step of the integration in ms, the unit in which layers give their tau.
 const STEP_MS: f64 = PERIOD.as_millis() as f64;
 /// Signal of a population above which its peak has formed: half of a full peak's.
@@ -103,7 +99,7 @@ impl Network {
         out: &mut FieldFrame,
     ) {
         self.describe(out);
-        self.collect(tick, percept, previous);
+        sources::collect(&self.plan, tick, percept, &previous.signal, &mut self.sources);
         self.transmit(tick);
         for index in 0..self.plan.layers.len() {
             self.integrate(index, previous, out);
@@ -133,19 +129,6 @@ impl Network {
             out.layers.sites[index] = (last - first) as u32;
             out.layers.first_population[index] = layer.populations.start as u32;
             out.layers.populations[index] = layer.populations.len() as u32;
-        }
-    }
-
-    /// Gathers the signals of all populations and the values of all channels.
-    fn collect(&mut self, tick: u64, percept: Option<&Percept>, previous: &FieldFrame) {
-        let populations = self.strength.len();
-        self.sources[..populations].copy_from_slice(&previous.signal[..populations]);
-        let fresh = percept.filter(|percept| tick.saturating_sub(percept.header.cycle) <= PERCEPT_LIFETIME);
-        for (source, plan) in self.sources[populations..].iter_mut().zip(&self.plan.channels) {
-            let value = fresh
-                .map_or(f64::from(plan.channel == Channel::Always), |percept| read(percept, plan.channel));
-            // A broken sensor may deliver anything; evidence is a number between 0 and 1.
-            *source = if value.is_finite() { value.clamp(0.0, 1.0) } else { 0.0 };
         }
     }
 
@@ -213,18 +196,4 @@ struct SiteRange {
 
 fn sites(layer: &LayerPlan, width: usize) -> SiteRange {
     SiteRange { first: layer.populations.start * width, last: layer.populations.end * width }
-}
-
-fn read(percept: &Percept, channel: Channel) -> f64 {
-    match channel {
-        Channel::Always => 1.0,
-        Channel::Act(act) => percept.act[act],
-        Channel::Seen { workspace, kind } => percept.workspace[workspace].seen[kind],
-        Channel::Gone { workspace, kind } => percept.workspace[workspace].gone[kind],
-        Channel::Achieved(subgoal) => percept.achieved[subgoal],
-        Channel::Open(subgoal) => percept.open[subgoal],
-        Channel::RobotHolds(kind) => percept.robot_holds[kind],
-        Channel::PersonHolds(kind) => percept.person_holds[kind],
-        Channel::Lost(kind) => percept.lost[kind],
-    }
 }

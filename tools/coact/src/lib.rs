@@ -22,6 +22,7 @@ mod run_report;
 mod say;
 mod snapshots;
 mod studies;
+mod why;
 
 use anyhow::Result;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -63,6 +64,8 @@ enum Command {
     Inject(inject::Args),
     /// Say something to the robot of a running process set
     Say(say::Args),
+    /// Ask the robot of a running process set why it does what it does
+    Why(why::Args),
     /// Show how punctual and how fast a run was, or is
     Latency(latency::Args),
     /// Draw a run's snapshots: pictures of who took what
@@ -96,6 +99,7 @@ fn run(arguments: &[OsString]) -> Result<ExitCode> {
         Command::Resume(args) => operator_stop::resume(&args),
         Command::Inject(args) => inject::run(args),
         Command::Say(args) => say::run(args),
+        Command::Why(args) => why::run(args),
         Command::Latency(args) => latency::run(args),
         Command::Snapshots(args) => snapshots::run(args),
     }

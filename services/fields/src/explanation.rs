@@ -1,0 +1,101 @@
+use crate::{Share, sources};
+use coact_joint_task::{NetworkPlan, Pool, Synapse};
+use coact_messages::{FieldFrame, Percept};
+
+/// Why a population holds a peak, or holds none: what it gets right now, synapse by synapse (chapter, eq. 4).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Explanation {
+    /// The population: place in the plan's row of all.
+    pub population: usize,
+    /// Its signal, 0 at rest, 1 with a full peak.
+    pub signal: f64,
+    /// Cycle at which its peak crossed threshold; `None` while it holds none.
+    pub since: Option<u64>,
+    /// What it gets from its synapses, those that give most, or take most, first. Those that give nothing stand at the end.
+    pub shares: Vec<Share>,
+}
+
+impl Explanation {
+    /// Explains a population of the network of `plan` from the newest frame and percept: the input from which the next frame is
+    /// computed, without its noise.
+    pub fn of(plan: &NetworkPlan, population: usize, frame: &FieldFrame, percept: Option<&Percept>) -> Self {
+        let mut signals = vec![0.0; plan.populations.len() + plan.channels.len()];
+        sources::collect(plan, frame.header.cycle + 1, percept, &frame.signal, &mut signals);
+        let of_it = plan.synapses.iter().filter(|synapse| synapse.to == population);
+        let of_it: Vec<Synapse> = of_it.copied().collect();
+        let mut shares: Vec<Share> = of_it
+            .chunk_by(|one, other| one.rule == other.rule)
+            .flat_map(|group| shares(group, plan.pools[group[0].rule], &signals))
+            .collect();
+        shares.sort_by(|one, other| other.amount.abs().total_cmp(&one.amount.abs()));
+        let since = Some(frame.since[population]).filter(|since| *since > 0);
+        Self { population, signal: frame.signal[population], since, shares }
+    }
+
+    /// All that it gets: 1 ignites a population at rest.
+    pub fn input(&self) -> f64 {
+        self.shares.iter().map(|share| share.amount).sum()
+    }
+}
+
+/// Synapses that add up are shares of their own.
+fn shares(group: &[Synapse], pool: Pool, signals: &[f64]) -> Vec<Share> {
+    let source = |synapse: &Synapse| (synapse.from, signals[synapse.from]);
+    let Synapse { rule, weight, .. } = group[0];
+    match pool {
+        Pool::Sum => {
+            let single = |synapse: &Synapse| Share::new(rule, pool, synapse.weight, vec![source(synapse)]);
+            group.iter().map(single).collect()
+        }
+        Pool::Any | Pool::Every => {
+            vec![Share::new(rule, pool, weight, group.iter().map(source).collect())]
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+mod tests {
+    use super::*;
+    use crate::Projections;
+    use rand::{RngExt, SeedableRng};
+    use std::path::Path;
+
+    #[test]
+    fn the_shares_are_what_the_network_gathers() {
+        let task = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/toy-vehicle.toml");
+        let (_, plan) = NetworkPlan::load(&task).unwrap();
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(18);
+        let mut given = 0;
+        for _ in 0..20 {
+            let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
+            for signal in &mut frame.signal[..plan.populations.len()] {
+                *signal = if random.random_bool(0.4) { random.random_range(0.0..1.0) } else { 0.0 };
+            }
+            let mut percept: Box<Percept> = bytemuck::zeroed_box();
+            percept.act.fill_with(|| random.random_range(0.0..1.0));
+            percept.achieved.fill_with(|| random.random_range(0.0..1.0));
+            let mut signals = vec![0.0; plan.populations.len() + plan.channels.len()];
+            let mut strength = vec![0.0; plan.populations.len()];
+            sources::collect(&plan, 1, Some(&percept), &frame.signal, &mut signals);
+            Projections::of(&plan).gather(&signals, &mut strength);
+            for (population, strength) in strength.iter().enumerate() {
+                let explained = Explanation::of(&plan, population, &frame, Some(&percept));
+                assert!(
+                    (explained.input() - strength).abs() < 1e-9,
+                    "{population}: {explained:?}, {strength}"
+                );
+                given += usize::from(*strength != 0.0);
+            }
+        }
+        assert!(given > 1000, "hardly any population got anything: {given}");
+    }
+
+    #[test]
+    fn of_sources_that_are_all_needed_the_missing_one_decides() {
+        let share = Share::new(0, Pool::Every, 1.2, vec![(3, 1.0), (5, 0.0), (7, 0.5)]);
+        assert_eq!((share.amount, share.decisive()), (0.0, (5, 0.0)));
+        let share = Share::new(0, Pool::Any, 1.2, vec![(3, 0.25), (5, 0.5)]);
+        assert_eq!((share.amount, share.decisive()), (0.6, (5, 0.5)));
+    }
+}
