@@ -20,7 +20,8 @@ use std::time::{Duration, Instant};
   coact why IL                    all inferred goals
   coact why \"IL insert\" --json    the same for a program
 
-Amounts are in units of the input that ignites a population at rest; negative ones hold it down. A peak that stands needs less.")]
+Amounts are in units of the input that ignites a population at rest; negative ones hold it down.
+A peak that stands needs less.")]
 pub struct Args {
     /// Layer and words of the population's name [default: what is decided]
     population: Option<String>,
