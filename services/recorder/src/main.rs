@@ -7,6 +7,8 @@ use std::time::Duration;
 
 /// How often the topics are looked at: before the percepts, of which the fewest are kept, are too many.
 const LOOK_EVERY: Duration = Duration::from_millis(2);
+/// Of ordinary threads the one that listens comes first, where that is allowed: it needs little, but in time. Chosen by hand.
+const NICENESS: i32 = -10;
 
 fn main() -> anyhow::Result<()> {
     let mut process = Process::from_arguments("recorder")?;
@@ -19,6 +21,8 @@ fn main() -> anyhow::Result<()> {
     process.report_ready()?;
     let Some(schedule) = process.wait_for_start()? else { return Ok(()) };
     let mut recorder = Recorder::begin(&process, schedule, sources, topics)?;
+    // Only this thread's; refused, more is lost on a busy machine, and counted.
+    rustix::process::setpriority_process(None, NICENESS).ok();
     let mut heartbeat = process.heartbeat()?;
     while !process.stop_requested() {
         heartbeat.beat()?;

@@ -82,8 +82,11 @@ impl Recorder {
         queue.end(gaps.lost().clone());
         let written =
             outcome.recv_timeout(END_WITHIN).context("the disk is too slow: the end is missing")??;
-        let bytes = std::fs::metadata(&path).map_or(0, |file| file.len());
-        tracing::info!("{}: {written} messages, {:.1} MB; lost: {said}", path.display(), bytes as f64 / 1e6);
+        let told = format!("{}: {written} messages recorded; lost: {said}", path.display());
+        match gaps.lost().is_empty() {
+            true => tracing::info!("{told}"),
+            false => tracing::warn!("{told}"),
+        }
         Ok(())
     }
 }

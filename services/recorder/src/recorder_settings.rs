@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn the_shipped_settings_are_read_and_others_are_refused_with_what_is_expected() {
         let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/recorder.toml");
-        assert_eq!(RecorderSettings::load(&shipped).unwrap().frames_every, 20);
+        assert_eq!(RecorderSettings::load(&shipped).unwrap().frames_every, 50);
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("recorder.toml");
         let text = std::fs::read_to_string(shipped).unwrap();
@@ -77,9 +77,9 @@ mod tests {
             RecorderSettings::load(&path).unwrap_err().to_string()
         };
         assert!(
-            refused("frames_every = 20", "frames_every = 0").contains("frames_every: is 0, not 1 to 1000")
+            refused("frames_every = 50", "frames_every = 0").contains("frames_every: is 0, not 1 to 1000")
         );
-        assert!(refused("frames_every = 20", "").contains("missing field `frames_every`"));
+        assert!(refused("frames_every = 50", "").contains("missing field `frames_every`"));
         assert!(refused("frames_every", "frame_every").contains("frame_every"));
     }
 }
