@@ -4,6 +4,7 @@ use rustix::process::{Pid, Signal, kill_process};
 use std::fs::File;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
+use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 /// A killed process is dead after this time. Chosen by hand: the kernel gives back its locked memory first, some milliseconds.
@@ -13,7 +14,7 @@ const DYING: Duration = Duration::from_secs(20);
 #[derive(Debug)]
 pub struct Launched {
     child: Child,
-    folder: tempfile::TempDir,
+    folder: Rc<tempfile::TempDir>,
 }
 
 impl Launched {
@@ -24,7 +25,7 @@ impl Launched {
 
     /// The same, by a command that ends in the program `coact`: under another user's limits, for example.
     pub fn start_by(mut command: Command, arguments: &[&str]) -> Self {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = Rc::new(tempfile::tempdir().unwrap());
         let file = |name: &str| Stdio::from(File::create(folder.path().join(name)).unwrap());
         command.arg("launch").arg("--report").arg(folder.path().join("report")).args(arguments);
         command.current_dir(checkout()).stdin(Stdio::null()).stdout(file("stdout")).stderr(file("stderr"));
@@ -92,8 +93,14 @@ impl Launched {
         Finished::read(&self.report(), status.code(), read("stdout"), read("stderr"))
     }
 
-    fn report(&self) -> PathBuf {
+    /// Its report folder. It is there as long as this or [`Launched::folder`] is.
+    pub fn report(&self) -> PathBuf {
         self.folder.path().join("report")
+    }
+
+    /// What keeps its report folder beyond its end.
+    pub fn folder(&self) -> Rc<tempfile::TempDir> {
+        self.folder.clone()
     }
 }
 

@@ -23,7 +23,7 @@ pub(crate) fn load(path: &Path) -> Result<(Task, PathBuf, Option<PathBuf>), Task
     ranges::check(&source)?;
     let beside = |name: &Name| path.parent().unwrap_or(Path::new(".")).join(name.get_ref());
     let network = beside(&file.network);
-    if !network.is_file() {
+    if !coact_input_file::exists(&network) {
         let problem = format!("no file {}; expected a network file, relative to this one", network.display());
         return Err(source.error(file.network.span(), "network", problem));
     }

@@ -44,6 +44,7 @@
 
 mod arm_path;
 mod command;
+mod description;
 mod drive_report;
 mod field_frame;
 mod header;
@@ -65,6 +66,7 @@ mod world_state;
 
 pub use arm_path::{ArmPath, PathKnot};
 pub use command::{Command, MotionPhase};
+pub use description::{Described, Description};
 pub use drive_report::{CommandRefusal, DriveMode, DriveReport, HoldReason};
 pub use field_frame::{Decision, FieldFrame, LayerKind, LayerTable};
 pub use header::{Header, LAYOUT};

@@ -58,6 +58,9 @@ const EVERY_CYCLE: usize = 512;
 /// Depth of the sensor samples: the monitor, which looks every 5 ms, measures at the joints what they did in each cycle. It may
 /// be held up six times as long; what it then misses, it reports.
 const JOINTS_EACH_CYCLE: usize = 32;
+/// Depth of the percepts: the recorder, which looks every 2 ms, keeps each of them. It may be held up four times as long; what it
+/// then misses, it counts. A trade-off: each message more is 17 kB of shared memory for each reader.
+const PERCEPTS_EACH_CYCLE: usize = 8;
 /// Depth of spoken sentences: many more than are said while nobody looks.
 const SENTENCES: usize = 32;
 
@@ -87,7 +90,7 @@ pub const ALL: [TopicEntry; 11] = [
         name: SENSORS,
         message: "SensorSample",
         writers: &["world"],
-        readers: &["perception", "control", "monitor"],
+        readers: &["perception", "control", "monitor", "recorder"],
         checkpoint: false,
         depth: JOINTS_EACH_CYCLE,
         ..CHAIN
@@ -96,7 +99,8 @@ pub const ALL: [TopicEntry; 11] = [
         name: PERCEPT,
         message: "Percept",
         writers: &["perception"],
-        readers: &["fields", "control", "supervisor"],
+        readers: &["fields", "control", "recorder", "supervisor"],
+        depth: PERCEPTS_EACH_CYCLE,
         ..CHAIN
     },
     TopicEntry {
@@ -104,7 +108,7 @@ pub const ALL: [TopicEntry; 11] = [
         message: "FieldFrame",
         writers: &["fields"],
         // A frame is integrated from the one before: fields reads its own topic.
-        readers: &["fields", "control", "voice", "monitor", "supervisor"],
+        readers: &["fields", "control", "voice", "monitor", "recorder", "supervisor"],
         ..CHAIN
     },
     TopicEntry {
@@ -112,14 +116,14 @@ pub const ALL: [TopicEntry; 11] = [
         message: "Command",
         writers: &["control"],
         // Control looks whether its standby has sent the command of a cycle already, and the standby whether control has.
-        readers: &["world", "control", "monitor", "supervisor"],
+        readers: &["world", "control", "monitor", "recorder", "supervisor"],
         ..CHAIN
     },
     TopicEntry {
         name: "coact/pulse/*",
         message: "Pulse",
         writers: STAGES,
-        readers: &["monitor", "supervisor"],
+        readers: &["monitor", "recorder", "supervisor"],
         depth: EVERY_CYCLE,
         ..PLAIN
     },
@@ -127,7 +131,7 @@ pub const ALL: [TopicEntry; 11] = [
         name: SPEECH,
         message: "Speech",
         writers: &["voice"],
-        readers: &["monitor", "supervisor"],
+        readers: &["monitor", "recorder", "supervisor"],
         lifetime: None,
         depth: SENTENCES,
         ..PLAIN

@@ -1,4 +1,4 @@
-use crate::{PipelineError, ProcessEntry, RestartPolicy};
+use crate::{PipelineError, ProcessEntry, RestartPolicy, RunSettings};
 use std::path::Path;
 use std::time::Duration;
 
@@ -23,6 +23,24 @@ impl Pipeline {
         let text = coact_input_file::read_text(path)
             .map_err(|cause| PipelineError::Unreadable { file: path.to_owned(), cause })?;
         Self::parse(&text, path)
+    }
+
+    /// The process table of a run: without the processes that start only on request and that it has not requested.
+    ///
+    /// # Errors
+    /// As [`Pipeline::load`]; [`PipelineError::UnknownProcess`] for a request of a process that the table does not have.
+    pub fn of_run(settings: &RunSettings) -> Result<Self, PipelineError> {
+        Self::load(&settings.pipeline)?.with_requested(&settings.requested)
+    }
+
+    /// The table without the processes that start only on request and are not `requested`.
+    ///
+    /// # Errors
+    /// [`PipelineError::UnknownProcess`].
+    pub fn with_requested(mut self, requested: &[String]) -> Result<Self, PipelineError> {
+        requested.iter().try_for_each(|name| self.process(name).map(drop))?;
+        self.processes.retain(|entry| !entry.on_request || requested.contains(&entry.name));
+        Ok(self)
     }
 
     /// The entry of the process called `name`.

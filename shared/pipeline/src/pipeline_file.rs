@@ -64,6 +64,8 @@ struct ProcessText {
     order: u32,
     needed: Option<bool>,
     #[serde(default)]
+    on_request: bool,
+    #[serde(default)]
     realtime: bool,
     priority: Option<Spanned<u8>>,
     core: Option<usize>,
@@ -169,6 +171,7 @@ impl Source<'_> {
             program: raw.program,
             order: raw.order,
             needed: raw.needed.unwrap_or(true),
+            on_request: raw.on_request,
             realtime: raw.realtime,
             priority,
             standby_of: None,

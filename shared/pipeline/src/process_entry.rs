@@ -12,6 +12,8 @@ pub struct ProcessEntry {
     /// True if the task cannot go on without it: when the restart policy is exhausted, the run is given up. Another one is
     /// restarted for ever.
     pub needed: bool,
+    /// True if it is started only in a run that asks for it by its name ([`RunSettings::requested`](crate::RunSettings)).
+    pub on_request: bool,
     /// True if it is to run under SCHED_FIFO with locked memory.
     pub realtime: bool,
     /// SCHED_FIFO priority, 1 to 99; used when `realtime`.

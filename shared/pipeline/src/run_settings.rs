@@ -30,6 +30,9 @@ pub struct RunSettings {
     /// How long the run lasts; without it, until all subgoals are achieved, or the supervisor has waited long enough.
     #[serde(default)]
     pub duration: Option<Duration>,
+    /// Processes of the table that are started although it says `on_request`: those that the operator asks for.
+    #[serde(default)]
+    pub requested: Vec<String>,
 }
 
 impl RunSettings {
@@ -47,6 +50,7 @@ impl RunSettings {
             partner: "synthetic".into(),
             world: WorldMode::Physics,
             duration: None,
+            requested: Vec::new(),
         }
     }
 }

@@ -183,3 +183,19 @@ fn what_has_a_trigger_may_have_a_spare_and_nothing_else() {
     let error = Pipeline::parse(&without, "p.toml".as_ref()).unwrap_err().to_string();
     assert!(error.contains("spare: is true") && error.contains("without a trigger"), "{error}");
 }
+
+#[test]
+fn what_starts_on_request_is_in_the_table_of_a_run_that_asks_for_it_and_in_no_other() {
+    let pipeline = Pipeline::parse(REFERENCE, "pipeline.toml".as_ref()).unwrap();
+    let names = |requested: &[&str]| -> Result<Vec<String>, String> {
+        let requested: Vec<_> = requested.iter().map(|name| (*name).to_owned()).collect();
+        let table = pipeline.clone().with_requested(&requested).map_err(|error| error.to_string())?;
+        Ok(table.processes.into_iter().map(|entry| entry.name).collect())
+    };
+    let has_recorder = |names: Vec<String>| names.iter().any(|name| name == "recorder");
+    assert!(!has_recorder(names(&[]).unwrap()));
+    assert!(has_recorder(names(&["recorder"]).unwrap()));
+    assert_eq!(names(&["voice"]).unwrap(), names(&[]).unwrap(), "it is there anyway");
+    let refused = names(&["camera"]).unwrap_err();
+    assert!(refused.starts_with("no process is called \"camera\"; expected one of: "), "{refused}");
+}

@@ -49,7 +49,7 @@ impl Candidate {
     fn new(name: &str, directory: &Path, generation: u32, is_spare: bool) -> Result<Self, ProcessError> {
         let signals = Signals::install().map_err(ProcessError::Signals)?;
         let run = Run::load(directory)?;
-        let pipeline = Pipeline::load(&run.settings().pipeline)?;
+        let pipeline = Pipeline::of_run(run.settings())?;
         let entry = pipeline.process(name)?.clone();
         if entry.realtime && !is_spare {
             scheduling::prepare_start(entry.core);

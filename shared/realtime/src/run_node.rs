@@ -5,6 +5,7 @@ use coact_pipeline::Run;
 use iceoryx2::prelude::*;
 use iceoryx2::service::port_factory::event;
 use iceoryx2::service::static_config::message_type_details::TypeDetail;
+use std::time::Duration;
 
 /// Writers of one topic: the living one and its standby, and dead ones until the supervisor has cleaned up after them. It does
 /// so before each restart but the first, so there are two dead ones of each at most; one more is reserve.
@@ -12,6 +13,11 @@ pub(crate) const MAX_WRITERS: usize = 7;
 /// Processes that may have one topic open: the set (9 with the supervisor), the reservations for their replacements (8),
 /// the dead until they are cleaned up after, and operators' tools. Chosen by hand; more would only cost shared memory.
 const MAX_NODES: usize = 32;
+
+/// So long it is waited for what another process is making: a connection, some microseconds of work. By default it is a second,
+/// and whoever was killed while it joined a topic kept every stage that writes or reads it from its cycles for as long. Chosen by
+/// hand: far above what a joining process that is held up needs, and short beside the watchdog's limits.
+const HALF_MADE_FOR: Duration = Duration::from_millis(20);
 
 /// A process's iceoryx2 node in one run: opens the run's topics and events.
 #[derive(Debug)]
@@ -117,6 +123,7 @@ fn config(run: &Run) -> Result<Config, String> {
     let root_bytes = root.as_os_str().as_encoded_bytes();
     let path = Path::new(root_bytes).map_err(|error| format!("{}: {error:?}", root.display()))?;
     config.global.set_root_path(&path);
+    config.global.creation_timeout = HALF_MADE_FOR;
     // Scanning for the dead takes milliseconds; only the supervisor does it, by `Bus::clean_dead`.
     config.global.service.cleanup_dead_nodes_on_open = false;
     config.global.node.cleanup_dead_nodes_on_creation = false;

@@ -9,6 +9,7 @@ use coact_messages::FieldFrame;
 use coact_monitor::Rules;
 use coact_perception::{Perception, PreshapeModel};
 use coact_pipeline::Pipeline;
+use coact_recorder::RecorderSettings;
 use coact_safety::SafetyLimits;
 use coact_world::Scenario;
 use std::path::Path;
@@ -32,6 +33,10 @@ pub(crate) fn taken<T, E: std::fmt::Display>(read: Result<T, E>) -> Option<T> {
 
 pub(crate) fn process_table(bytes: &[u8]) -> bool {
     Scratch::with("pipeline.toml", bytes, |path| taken(Pipeline::load(path)).is_some())
+}
+
+pub(crate) fn recorder_settings(bytes: &[u8]) -> bool {
+    Scratch::with("recorder.toml", bytes, |path| taken(RecorderSettings::load(path)).is_some())
 }
 
 pub(crate) fn safety_limits(bytes: &[u8]) -> bool {

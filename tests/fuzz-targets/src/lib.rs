@@ -28,6 +28,7 @@ mod patch;
 mod records;
 mod requests;
 mod robots;
+mod run_recordings;
 mod scratch;
 mod seeds;
 mod states;

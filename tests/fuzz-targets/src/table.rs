@@ -1,4 +1,4 @@
-use crate::{Input, Target, configuration, messages, records, requests, robots, states};
+use crate::{Input, Target, configuration, messages, records, requests, robots, run_recordings, states};
 
 const fn target(
     name: &'static str,
@@ -10,10 +10,11 @@ const fn target(
 }
 
 /// Every target.
-pub const TARGETS: [Target; 41] = [
+pub const TARGETS: [Target; 43] = [
     target("process-table", Input::Text, &["rt-config/pipeline.toml"], configuration::process_table),
     target("safety-limits", Input::Text, &["rt-config/safety.toml"], configuration::safety_limits),
     target("verdict-rules", Input::Text, &["rt-config/verdict.toml"], configuration::verdict_rules),
+    target("recorder-settings", Input::Text, &["rt-config/recorder.toml"], configuration::recorder_settings),
     target("network-file", Input::Text, &["rt-config/joint-action.toml"], configuration::network_file),
     target("task-file", Input::Text, &["rt-config/tasks/*.toml"], configuration::task_file),
     target("learned-mapping", Input::Text, &["rt-config/learned/*.toml"], configuration::learned_mapping),
@@ -33,6 +34,7 @@ pub const TARGETS: [Target; 41] = [
     target("mesh-collada", Input::Text, &[], robots::mesh_collada),
     target("recording", Input::Text, &[], records::recording),
     target("compressed-recording", Input::Bytes, &[], records::compressed_recording),
+    target("run-recording", Input::Patch, &[], run_recordings::run_recording),
     target("event-log", Input::Text, &[], records::event_log),
     target("supervisor-log", Input::Text, &[], records::supervisor_log),
     target("snapshot-log", Input::Text, &[], records::snapshot_log),

@@ -52,6 +52,6 @@ pub fn run(args: Args) -> Result<ExitCode> {
 fn prepare(run: &Run, injections: Vec<Injection>) -> Result<Launch> {
     let settings = run.settings().clone();
     let (task, _) = NetworkPlan::load(&settings.task)?;
-    let pipeline = Pipeline::load(&settings.pipeline)?;
+    let pipeline = Pipeline::of_run(&settings)?;
     Ok(Launch { settings, pipeline, task, programs: Installation::programs()?, injections })
 }

@@ -14,6 +14,9 @@ use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
 use std::time::Duration;
 
+/// The process that records a run, which is started only on request.
+const RECORDER: &str = "recorder";
+
 /// Starts the processes of the pipeline, shows their progress, and reports how fast, punctual and anticipatory they
 /// were.
 #[derive(Debug, clap::Args)]
@@ -23,6 +26,7 @@ use std::time::Duration;
   coact launch --inject fields:kill@20s               what if fields is killed after 20 s?
   coact launch --partner recorded                     hands of real people; recorded:DIR for others
   coact launch --partner right-arm:FILE               an arm of motion capture, that takes no part
+  coact launch --record --report reports/long         all that was seen and decided, in run.mcap
   coact launch --lockstep --world kinematic --json    as fast as the machine can
 
 Exit status: 0 the work was done (with --strict: in time, too), 1 it was not, 2 bad usage or configuration.")]
@@ -58,6 +62,9 @@ pub struct Args {
     /// The limits that keep the person safe [default: rt-config/safety.toml]
     #[arg(long, value_name = "FILE")]
     safety: Option<PathBuf>,
+    /// Record the run: run.mcap in the report's folder, for Foxglove and coact replay
+    #[arg(long, conflicts_with = "lockstep")]
+    record: bool,
     /// Fail also when the timing was not what it should be
     #[arg(long)]
     strict: bool,
@@ -114,6 +121,7 @@ fn show(settings: &RunSettings, json: bool, strict: bool) -> Result<ExitCode> {
 fn prepare(args: Args) -> Result<Launch> {
     let Installation { programs, configuration, reaches } = Installation::find()?;
     let shipped = RunSettings::shipped(&configuration);
+    let requested = args.record.then_some(RECORDER);
     let settings = RunSettings {
         task: absolute(args.task.unwrap_or(shipped.task))?,
         pipeline: absolute(args.pipeline.unwrap_or(shipped.pipeline))?,
@@ -123,6 +131,7 @@ fn prepare(args: Args) -> Result<Launch> {
         partner: partner::setting(&args.partner, &reaches),
         world: args.world,
         duration: args.duration,
+        requested: requested.map(str::to_owned).into_iter().collect(),
         ..shipped
     };
     let (task, _) = NetworkPlan::load(&settings.task)?;
@@ -130,13 +139,7 @@ fn prepare(args: Args) -> Result<Launch> {
     SafetyLimits::load(&settings.safety)?;
     PreshapeModel::load(&settings.model)?;
     Partner::load(&settings.partner, &task, settings.seed)?;
-    Ok(Launch {
-        pipeline: Pipeline::load(&settings.pipeline)?,
-        settings,
-        task,
-        programs,
-        injections: args.inject,
-    })
+    Ok(Launch { pipeline: Pipeline::of_run(&settings)?, settings, task, programs, injections: args.inject })
 }
 
 /// The run has its verdict without them: snapshots that cannot be drawn cost a warning only.

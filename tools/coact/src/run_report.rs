@@ -64,6 +64,10 @@ fn render(summary: &Summary, report: &Path) -> String {
         lines.push(format!("monitor       saw nothing for {:.1} s", summary.blind_s));
     }
     lines.push(format!("report        {}", report.display()));
+    let recording = report.join("run.mcap");
+    if let Ok(file) = recording.metadata() {
+        lines.push(format!("recording     {} ({:.0} MB)", recording.display(), file.len() as f64 / 1e6));
+    }
     let sheet = snapshots::sheet(report);
     if sheet.is_file() {
         lines.push(format!("snapshots     {}", sheet.display()));

@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 use std::time::SystemTime;
 
 /// Name and description of each study.
-pub const STUDIES: [(&str, &str); 11] = [
+pub const STUDIES: [(&str, &str); 12] = [
     ("task", "Show what is made of a task file"),
     ("learn", "Learn connections of the network: a plan from demonstrations, what acts show"),
     ("reaches", "Measure anticipation on recorded reaches of real people"),
@@ -18,6 +18,7 @@ pub const STUDIES: [(&str, &str); 11] = [
     ("bench", "Measure latencies beside an idle thread and iceoryx2 alone, under load and with kills"),
     ("separation", "Measure the separation of the working robot from recorded people"),
     ("faults", "Break process sets in every way, and judge what happens"),
+    ("replay", "Compute a recorded run again, and compare it with the recording to the bit"),
     ("figures", "Draw the chapter's figures from runs made now"),
     ("motion", "Plan a movement of the arm, or measure the planner"),
     ("train", "Train the model of preshaping from recorded reaches"),

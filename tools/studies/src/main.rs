@@ -8,6 +8,7 @@ mod figures;
 mod learn;
 mod motion;
 mod reaches;
+mod replay;
 mod separation;
 mod task;
 mod train;
@@ -41,6 +42,8 @@ enum Command {
     Separation(separation::Args),
     /// Break process sets in every way, and judge what happens
     Faults(faults::Args),
+    /// Compute a recorded run again, and compare it with the recording to the bit
+    Replay(replay::Args),
     /// Draw the chapter's figures from runs made now
     Figures(figures::Args),
     /// Plan a movement of the arm, or measure the planner
@@ -66,6 +69,7 @@ fn main() -> ExitCode {
         Command::Bench(args) => bench::run(args),
         Command::Separation(args) => separation::run(args),
         Command::Faults(args) => faults::run(args),
+        Command::Replay(args) => replay::run(&args),
         Command::Figures(args) => figures::run(args),
         Command::Motion(args) => motion::run(args),
         Command::Train(args) => train::run(args),

@@ -8,7 +8,7 @@ use coact_messages::topic::{ALL, ANYONE};
 use std::fmt::Write;
 
 /// The processes from left to right, and what stands below their names.
-const COLUMNS: [(&str, &str); 8] = [
+const COLUMNS: [(&str, &str); 9] = [
     (ANYONE, "coact say, ..."),
     ("world", "simulation"),
     ("perception", "evidence"),
@@ -16,6 +16,7 @@ const COLUMNS: [(&str, &str); 8] = [
     ("control", "the arm"),
     ("voice", "sentences"),
     ("monitor", "the report"),
+    ("recorder", "run.mcap"),
     ("supervisor", "restarts"),
 ];
 /// Where each block of rows begins, and its heading.

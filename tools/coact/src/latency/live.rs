@@ -23,7 +23,7 @@ const CLEAR: &str = "\x1b[H\x1b[J";
 /// Attaches to a run until Ctrl-C or its end.
 pub(super) fn run(id: Option<&str>, json: bool) -> anyhow::Result<()> {
     let run = living_runs::newest(id)?;
-    let pipeline = Pipeline::load(&run.settings().pipeline)?;
+    let pipeline = Pipeline::of_run(run.settings())?;
     let bus = Bus::open(&run, "latency", 0)?;
     let nodes = PipelineNode::all(&pipeline);
     let mut inputs: Vec<(String, Input<Pulse>)> = Vec::new();

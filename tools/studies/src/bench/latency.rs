@@ -93,7 +93,7 @@ fn prepare(args: &Args, out: &Path) -> Result<(Launch, Vec<String>)> {
         world: args.world,
         ..RunSettings::shipped(&configuration)
     };
-    let pipeline = Pipeline::load(&settings.pipeline)?;
+    let pipeline = Pipeline::of_run(&settings)?;
     let chain: Vec<String> = PipelineNode::all(&pipeline).into_iter().map(|node| node.process).collect();
     let (task, _) = NetworkPlan::load(&settings.task)?;
     let injections = kills(&chain, duration);

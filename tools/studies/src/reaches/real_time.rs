@@ -84,7 +84,7 @@ impl RealTime<'_> {
             ..RunSettings::shipped(&self.installation.configuration)
         };
         Ok(Launch {
-            pipeline: Pipeline::load(&settings.pipeline)?,
+            pipeline: Pipeline::of_run(&settings)?,
             settings,
             task: self.evaluation.task.clone(),
             programs: self.installation.programs.clone(),
