@@ -1,7 +1,7 @@
-use coact_messages::{ARM_JOINTS, Command, JOINTS, Truth, finger_closure};
-use coact_motion::{Capsule, CollisionModel, Mechanism};
+use coact_messages::{ARM_JOINTS, Command, JOINTS, Truth};
+use coact_motion::{Capsule, Mechanism, MovingCapsules};
 use coact_period::PERIOD_S;
-use coact_robot::{JointLimits, Robot, RobotError};
+use coact_robot::{Robot, RobotError};
 use coact_run_records::SeparationReport;
 use coact_safety::SafetyLimits;
 use nalgebra::Point3;
@@ -10,25 +10,18 @@ use nalgebra::Point3;
 #[derive(Debug, Clone)]
 pub struct SeparationMeter {
     mechanism: Mechanism,
-    /// Arm and hand, the fingers ever farther closed.
-    models: Vec<CollisionModel>,
-    /// Limits of the fingers' bases.
-    bases: JointLimits,
+    capsules: MovingCapsules,
     /// Radii of the person's upper arm, forearm and hand, m.
     radii: [f64; 3],
     /// Protective separation, m.
     protective: f64,
     /// The tick before: posture of all joints, rad, and the person's arm.
     before: Option<([f64; JOINTS], [Capsule; 3])>,
+    fingers: Vec<Capsule>,
     links: Vec<Capsule>,
-    /// The links with the fingers in the next shape.
-    more_closed: Vec<Capsule>,
     report: SeparationReport,
 }
 
-/// Finger shapes for which there is a model; between two of them, what is between them. Chosen by hand: a finger tip moves by
-/// 10 mm from one to the next.
-const SHAPES: usize = 25;
 /// Who comes nearer by less than this in a tick stands, m: 15 mm/s. A simulated arm that has braked yields by up to half a millimetre,
 /// at up to 13 mm/s, while its servos take up what the other joints leave.
 const STANDING: f64 = 15e-6;
@@ -39,17 +32,13 @@ impl SeparationMeter {
     /// # Errors
     /// [`RobotError`] when the robot's collision geometry cannot be used.
     pub fn new(robot: &Robot, limits: &SafetyLimits) -> Result<Self, RobotError> {
-        let (mechanism, hand) = (Mechanism::of(robot)?, &robot.hand);
-        let bases = hand.joints[1].limits;
-        let base =
-            |shape: usize| bases.lower + (bases.upper - bases.lower) * shape as f64 / (SHAPES - 1) as f64;
-        let models = (0..SHAPES).map(|shape| mechanism.with_fingers(hand, &hand.posture(base(shape))));
-        let models = models.collect::<Result<Vec<_>, _>>()?;
+        let mechanism = Mechanism::of(robot)?;
+        let capsules = MovingCapsules::of(&mechanism, &robot.hand)?;
         let radii = limits.person.radii;
         let protective = limits.guard.protective_separation;
         let (before, report) = (None, SeparationReport::default());
-        let (links, more_closed) = (Vec::new(), Vec::new());
-        Ok(Self { mechanism, models, bases, radii, protective, before, links, more_closed, report })
+        let (fingers, links) = (Vec::new(), Vec::new());
+        Ok(Self { mechanism, capsules, radii, protective, before, fingers, links, report })
     }
 
     /// Goes on from what was measured before.
@@ -123,18 +112,10 @@ impl SeparationMeter {
         })
     }
 
-    /// Puts arm and hand where these joints have them; the fingers between the two shapes that are most like theirs, for one
-    /// that changed its shape by a step would seem to close on somebody.
+    /// Puts arm and hand where these joints have them.
     fn place_links(&mut self, joints: &[f64; JOINTS]) {
-        let Self { mechanism, models, bases, links, more_closed, .. } = self;
-        let posture = std::array::from_fn::<_, ARM_JOINTS, _>(|joint| joints[joint]);
-        let fraction = (finger_closure(joints) - bases.lower) / (bases.upper - bases.lower);
-        let shape = fraction.clamp(0.0, 1.0) * (SHAPES - 1) as f64;
-        let (open, closed) = (shape.floor() as usize, shape.ceil() as usize);
-        models[open].moving_bounding_capsules(mechanism, &posture, links);
-        models[closed].moving_bounding_capsules(mechanism, &posture, more_closed);
-        for (link, closed) in links.iter_mut().zip(more_closed.iter()) {
-            *link = link.towards(closed, shape.fract());
-        }
+        let Self { mechanism, capsules, fingers, links, .. } = self;
+        capsules.close(&std::array::from_fn(|joint| joints[ARM_JOINTS + joint]), fingers);
+        capsules.place(mechanism, &std::array::from_fn(|joint| joints[joint]), fingers, links);
     }
 }
