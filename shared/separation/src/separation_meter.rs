@@ -1,3 +1,4 @@
+use crate::needed_separation::needed_separation;
 use coact_messages::{ARM_JOINTS, Command, JOINTS, Truth};
 use coact_motion::{Capsule, Mechanism, MovingCapsules};
 use coact_period::PERIOD_S;
@@ -15,16 +16,20 @@ pub struct SeparationMeter {
     radii: [f64; 3],
     /// Protective separation, m.
     protective: f64,
-    /// The tick before: posture of all joints, rad, and the person's arm.
-    before: Option<([f64; JOINTS], [Capsule; 3])>,
-    fingers: Vec<Capsule>,
+    /// The tick before: its cycle, and the person's arm. Where the links were then, and are now.
+    before: Option<(u64, [Capsule; 3])>,
+    links_before: Vec<Capsule>,
     links: Vec<Capsule>,
+    fingers: Vec<Capsule>,
     report: SeparationReport,
 }
 
 /// Who comes nearer by less than this in a tick stands, m: 15 mm/s. A simulated arm that has braked yields by up to half a millimetre,
 /// at up to 13 mm/s, while its servos take up what the other joints leave.
 const STANDING: f64 = 15e-6;
+/// Links and limbs farther apart than this are left out of the margin, m: what both need when the robot closes at 1 m/s and the
+/// hand comes at 2.5.
+const NEAR: f64 = 0.45;
 /// An arm below this fraction of its planned speed is stopped.
 const STOPPED: f64 = 0.01;
 
@@ -37,8 +42,8 @@ impl SeparationMeter {
         let radii = limits.person.radii;
         let protective = limits.guard.protective_separation;
         let (before, report) = (None, SeparationReport::default());
-        let (fingers, links) = (Vec::new(), Vec::new());
-        Ok(Self { mechanism, capsules, radii, protective, before, fingers, links, report })
+        let [links_before, links, fingers] = std::array::from_fn(|_| Vec::with_capacity(capsules.most()));
+        Ok(Self { mechanism, capsules, radii, protective, before, links_before, links, fingers, report })
     }
 
     /// Goes on from what was measured before.
@@ -49,6 +54,7 @@ impl SeparationMeter {
     /// Adds one tick, in which this command was the newest. Truth without a person's arm counts for nothing.
     pub fn tick(&mut self, truth: &Truth, command: &Command) {
         if truth.arm.as_flattened().iter().all(|number| *number == 0.0) {
+            self.before = None;
             return;
         }
         let person: [Capsule; 3] = std::array::from_fn(|limb| Capsule {
@@ -56,11 +62,14 @@ impl SeparationMeter {
             end: Point3::from(truth.arm[limb + 1]),
             radius: self.radii[limb],
         });
+        std::mem::swap(&mut self.links, &mut self.links_before);
+        self.place_links(&truth.joints);
         self.count_speed(command);
+        let cycle = truth.header.cycle;
         if command.handover == 0 {
-            self.count_distance(&truth.joints, &person);
+            self.count_distance(cycle, &person);
         }
-        self.before = Some((truth.joints, person));
+        self.before = Some((cycle, person));
     }
 
     /// What was measured so far.
@@ -74,42 +83,54 @@ impl SeparationMeter {
         self.report.stopped_ms += u64::from(command.speed_override < STOPPED);
     }
 
-    fn count_distance(&mut self, joints: &[f64; JOINTS], person: &[Capsule; 3]) {
-        let now = self.distance(joints, person);
+    fn count_distance(&mut self, cycle: u64, person: &[Capsule; 3]) {
+        let now = distance(&self.links, person);
         let nearest = self.report.nearest_m.get_or_insert(now);
         *nearest = nearest.min(now);
-        let Some((own_before, theirs_before)) = self.before.filter(|_| now < self.protective) else { return };
-        if now <= 0.0 {
-            self.count_contact(&own_before, joints, person);
+        let Some((cycle_before, theirs_before)) = self.before else { return };
+        let span = PERIOD_S * cycle.saturating_sub(cycle_before).max(1) as f64;
+        self.count_margin(person, &theirs_before, span);
+        if now >= self.protective {
             return;
         }
-        let robot_closes = now < self.distance(&own_before, person) - STANDING;
-        let person_closes = now < self.distance(joints, &theirs_before) - STANDING;
+        if now <= 0.0 {
+            self.count_contact(person, span);
+            return;
+        }
+        let robot_closes = now < distance(&self.links_before, person) - STANDING;
+        let person_closes = now < distance(&self.links, &theirs_before) - STANDING;
         self.report.robot_closing_ms += u64::from(robot_closes);
         self.report.person_closing_ms += u64::from(person_closes);
     }
 
+    /// What is left of each distance beyond what both need, where the robot's link closes.
+    fn count_margin(&mut self, person: &[Capsule; 3], theirs_before: &[Capsule; 3], span: f64) {
+        for (link, own_before) in self.links.iter().zip(&self.links_before) {
+            for (limb, limb_before) in person.iter().zip(theirs_before) {
+                if link.least_distance(limb) > NEAR {
+                    continue;
+                }
+                let now = link.distance(limb);
+                let closing = own_before.distance(limb) - now;
+                if now > 0.0 && closing > STANDING {
+                    let coming = (link.distance(limb_before) - now).max(0.0);
+                    let margin = now - needed_separation(closing / span, coming / span);
+                    let smallest = self.report.smallest_margin_m.get_or_insert(margin);
+                    *smallest = smallest.min(margin);
+                }
+            }
+        }
+    }
+
     /// Where capsules overlap, no distance tells any more who closes: it is least where their axes cross.
-    fn count_contact(&mut self, own_before: &[f64; JOINTS], joints: &[f64; JOINTS], person: &[Capsule; 3]) {
-        self.place_links(own_before);
-        let before = self.links.clone();
-        self.place_links(joints);
+    fn count_contact(&mut self, person: &[Capsule; 3], span: f64) {
         let touches = |link: &Capsule| person.iter().any(|limb| link.distance(limb) <= 0.0);
-        let touching = before.iter().zip(&self.links).filter(|(_, link)| touches(link));
+        let touching = self.links_before.iter().zip(&self.links).filter(|(_, link)| touches(link));
         let way = touching.fold(0.0, |way: f64, (before, link)| {
             way.max((link.start - before.start).norm()).max((link.end - before.end).norm())
         });
         self.report.contact_ms += 1;
-        self.report.contact_speed_mps = self.report.contact_speed_mps.max(way / PERIOD_S);
-    }
-
-    /// Distance of arm and hand from the person's arm, m.
-    fn distance(&mut self, joints: &[f64; JOINTS], person: &[Capsule; 3]) -> f64 {
-        self.place_links(joints);
-        let pairs = self.links.iter().flat_map(|link| person.iter().map(move |limb| (link, limb)));
-        pairs.fold(f64::INFINITY, |nearest, (link, limb)| {
-            if link.least_distance(limb) < nearest { nearest.min(link.distance(limb)) } else { nearest }
-        })
+        self.report.contact_speed_mps = self.report.contact_speed_mps.max(way / span);
     }
 
     /// Puts arm and hand where these joints have them.
@@ -118,4 +139,12 @@ impl SeparationMeter {
         capsules.close(&std::array::from_fn(|joint| joints[ARM_JOINTS + joint]), fingers);
         capsules.place(mechanism, &std::array::from_fn(|joint| joints[joint]), fingers, links);
     }
+}
+
+/// Distance of arm and hand from the person's arm, m.
+fn distance(links: &[Capsule], person: &[Capsule; 3]) -> f64 {
+    let pairs = links.iter().flat_map(|link| person.iter().map(move |limb| (link, limb)));
+    pairs.fold(f64::INFINITY, |nearest, (link, limb)| {
+        if link.least_distance(limb) < nearest { nearest.min(link.distance(limb)) } else { nearest }
+    })
 }
