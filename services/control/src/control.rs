@@ -37,6 +37,8 @@ pub struct Control {
     pub(crate) state: ControlState,
     /// Whether setpoints have been sent, or resumed from: then they go on from there.
     started: bool,
+    /// Whether the guard has no say.
+    unguarded: bool,
 }
 
 impl Control {
@@ -103,6 +105,7 @@ impl Control {
             goals,
             limits: *limits,
             started: false,
+            unguarded: false,
         };
         Ok((control, thread))
     }
@@ -111,6 +114,11 @@ impl Control {
     /// state is ignored: `false`.
     pub fn resume(&mut self, last: &Command) -> bool {
         self.take_over(last)
+    }
+
+    /// From now on the guard admits everything: to measure in lockstep what it costs, never beside a person.
+    pub fn leave_unguarded(&mut self) {
+        self.unguarded = true;
     }
 
     /// Whether the planner beside the servo hangs: it owes an answer, and its search does not go on. Nothing but another process
@@ -232,7 +240,7 @@ impl Control {
 
     /// Whether the guard lets the fingers go on. Those that hold something stay around it, or let it go where it is.
     fn fingers_may_move(&mut self, inputs: &Inputs, person: &PersonCapsules) -> bool {
-        if self.held_in().is_some() || self.state.fingers.has_arrived() {
+        if self.unguarded || self.held_in().is_some() || self.state.fingers.has_arrived() {
             return true;
         }
         let (fingers, target) = (self.fingers(inputs), hand_of(&self.state.fingers.target));
@@ -292,6 +300,9 @@ impl Control {
     }
 
     fn admits(&mut self, progress: PathProgress, person: &PersonCapsules, spare: f64) -> bool {
+        if self.unguarded {
+            return true;
+        }
         let Self { servo, guard, state, .. } = self;
         let braking = BrakingPath::from(progress, &state.arm.trajectory, servo.arm_limits());
         let moving = Moving { state, posture: servo.posture() };
