@@ -13,7 +13,7 @@ use coact_messages::{
     ARM_JOINTS, Command, DriveReport, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample,
 };
 use coact_period::PERIOD_S;
-use coact_robot::{PathProgress, Robot};
+use coact_robot::{HAND_JOINTS, PathProgress, Robot};
 use coact_safety::SafetyLimits;
 use coact_stage_state::{Flag, StageState};
 
@@ -37,6 +37,8 @@ pub struct Control {
     pub(crate) state: ControlState,
     /// Whether setpoints have been sent, or resumed from: then they go on from there.
     started: bool,
+    /// Whether the guard has no say.
+    unguarded: bool,
 }
 
 impl Control {
@@ -88,7 +90,7 @@ impl Control {
         let model = RobotModel::new(robot, task)?;
         let goals = HandGoals::new(&model, task);
         let models = CollisionModels::new(&model.robot, task)?;
-        let guard = Guard::new(&model, &models, limits.guard)?;
+        let guard = Guard::new(&model, models.mechanism.clone(), limits.guard)?;
         let planner = SkillPlanner::new(model.clone(), models, goals.clone(), task, *limits);
         check(&planner, &goals, task)?;
         let park = model.park();
@@ -103,6 +105,7 @@ impl Control {
             goals,
             limits: *limits,
             started: false,
+            unguarded: false,
         };
         Ok((control, thread))
     }
@@ -111,6 +114,11 @@ impl Control {
     /// state is ignored: `false`.
     pub fn resume(&mut self, last: &Command) -> bool {
         self.take_over(last)
+    }
+
+    /// From now on the guard admits everything: to measure in lockstep what it costs, never beside a person.
+    pub fn leave_unguarded(&mut self) {
+        self.unguarded = true;
     }
 
     /// Whether the planner beside the servo hangs: it owes an answer, and its search does not go on. Nothing but another process
@@ -206,28 +214,37 @@ impl Control {
     /// knows where the person is, all joints brake.
     fn serve(&mut self, inputs: &Inputs) {
         self.state.note_handover();
-        let person = inputs.person(&self.model.part_capsules, &self.limits);
-        match person.filter(|_| !inputs.blind()) {
+        match self.survey(inputs).filter(|_| !inputs.blind()) {
             None => self.servo.brake(&mut self.state.arm, &mut self.state.fingers),
             Some(person) => {
-                let (step, fingers) = (self.arm_step(&person), self.fingers_may_move(&person));
+                let (step, fingers) = (self.arm_step(&person), self.fingers_may_move(inputs, &person));
                 let ControlState { arm, fingers: moved, .. } = &mut self.state;
                 self.servo.advance(arm, step, moved, fingers);
             }
         }
     }
 
+    /// Shows the guard the hand, as it is, and returns the person, as far as she was ever seen.
+    fn survey(&mut self, inputs: &Inputs) -> Option<PersonCapsules> {
+        let hand = &self.state.hand;
+        let held = hand.held().and_then(|kind| self.model.part_capsules.get(kind));
+        let held = held.map(|part| part.within(&hand.in_palm.isometry()));
+        self.guard.see_hand(&self.fingers(inputs), held);
+        inputs.person(&self.model.part_capsules, &self.limits)
+    }
+
+    /// Where the fingers are, rad: parts keep them from their setpoints.
+    fn fingers(&self, inputs: &Inputs) -> [f64; HAND_JOINTS] {
+        inputs.fingers().unwrap_or_else(|| hand_of(&self.servo.position()[ARM_JOINTS..]))
+    }
+
     /// Whether the guard lets the fingers go on. Those that hold something stay around it, or let it go where it is.
-    fn fingers_may_move(&mut self, person: &PersonCapsules) -> bool {
-        let (grip, position) = (self.held_in(), self.servo.position());
-        if grip.is_some() || self.state.fingers.has_arrived() {
+    fn fingers_may_move(&mut self, inputs: &Inputs, person: &PersonCapsules) -> bool {
+        if self.unguarded || self.held_in().is_some() || self.state.fingers.has_arrived() {
             return true;
         }
-        let mut goal = position;
-        goal[ARM_JOINTS..].copy_from_slice(&self.state.fingers.target);
-        let [closure, target] = [position, goal].map(|joints| coact_messages::finger_closure(&joints));
-        let moving = Moving { state: &self.state, posture: self.servo.posture(), grip, closure };
-        self.guard.admits_fingers(&moving, target, person)
+        let (fingers, target) = (self.fingers(inputs), hand_of(&self.state.fingers.target));
+        self.guard.admits_fingers(&self.state, (&fingers, &target), person)
     }
 
     /// The arm's next step, as fast as the guard admits; none: it brakes.
@@ -278,15 +295,17 @@ impl Control {
 
     /// Whether the guard admits that the arm goes on as it moves; not while nobody knows where the person is.
     pub(crate) fn can_brake_clear(&mut self, inputs: &Inputs) -> bool {
-        let person = inputs.person(&self.model.part_capsules, &self.limits);
+        let person = self.survey(inputs);
         person.is_some_and(|person| self.admits(self.state.arm.progress, &person, 0.0))
     }
 
     fn admits(&mut self, progress: PathProgress, person: &PersonCapsules, spare: f64) -> bool {
-        let (grip, closure) = (self.held_in(), coact_messages::finger_closure(&self.servo.position()));
+        if self.unguarded {
+            return true;
+        }
         let Self { servo, guard, state, .. } = self;
         let braking = BrakingPath::from(progress, &state.arm.trajectory, servo.arm_limits());
-        let moving = Moving { state, posture: servo.posture(), grip, closure };
+        let moving = Moving { state, posture: servo.posture() };
         braking.is_some_and(|braking| guard.admits(&moving, &braking, person, spare))
     }
 
@@ -331,6 +350,11 @@ impl Control {
             SkillPhase::Open => MotionPhase::Release,
         }
     }
+}
+
+/// The joints of the hand, which come first.
+fn hand_of(angles: &[f64]) -> [f64; HAND_JOINTS] {
+    std::array::from_fn(|joint| angles[joint])
 }
 
 /// Measured minus commanded position, rad; 0 when nothing usable was measured.

@@ -1,9 +1,9 @@
 use crate::braking_path::{BrakingPath, BrakingPoint};
 use crate::person_capsules::{BodyPart, PersonCapsules};
-use crate::robot::{CollisionModels, FingerShape, RobotModel};
+use crate::robot::RobotModel;
 use crate::state::ControlState;
-use coact_motion::{Capsule, CollisionModel, Mechanism};
-use coact_robot::{JointLimits, Posture, RobotError};
+use coact_motion::{Capsule, Mechanism, MovingCapsules};
+use coact_robot::{HAND_JOINTS, Posture, RobotError};
 use coact_safety::GuardLimits;
 
 /// Keeps the robot, with what it holds, clear of the person: says whether the arm may go on for another cycle.
@@ -15,12 +15,10 @@ use coact_safety::GuardLimits;
 pub(crate) struct Guard {
     limits: GuardLimits,
     mechanism: Mechanism,
-    /// Arm and empty hand, the fingers ever farther closed.
-    empty: Vec<CollisionModel>,
-    /// Arm and hand with a part in it, in each grip of the table.
-    holding: Vec<CollisionModel>,
-    /// Limits of the fingers' bases.
-    bases: JointLimits,
+    capsules: MovingCapsules,
+    /// Capsules of the hand, and of what it holds, in the frame of the arm's last joint: as it is now, and as it would be.
+    hand: Vec<Capsule>,
+    next_hand: Vec<Capsule>,
     /// Capsules of the moving links now, at the start of a braking path, at one of its points, and at the point before.
     now: Vec<Capsule>,
     start: Vec<Capsule>,
@@ -34,17 +32,10 @@ pub(crate) struct Moving<'a> {
     pub state: &'a ControlState,
     /// Where the arm is now, rad.
     pub posture: Posture,
-    /// Grip in which a part is held.
-    pub grip: Option<usize>,
-    /// Finger closure of an empty hand, rad.
-    pub closure: f64,
 }
 
-/// Finger shapes of the empty hand for which there is a collision model. Chosen by hand, between memory and how far the
-/// fingers are from the nearest of them; not sensitive: the hand moves among people with its fingers in a shape at rest.
-const SHAPES: usize = 13;
-/// How much nearer the fingers may be than those of the most similar model, m, and the arm than its computed braking.
-const BETWEEN_SHAPES: f64 = 0.002;
+/// How much nearer the arm may come than is computed, m: its braking differs a little, and a driven arm is behind its setpoints.
+const COMPUTED: f64 = 0.002;
 /// Distances are computed with errors below this, m.
 const EXACT: f64 = 1e-9;
 /// How much farther along its path the arm comes to a stand than is computed, s of the path: seen 3 ms, one step of the
@@ -61,33 +52,26 @@ const LEVER: f64 = 1.3;
 impl Guard {
     /// # Errors
     /// [`RobotError`] when the robot's collision geometry cannot be used.
-    pub fn new(
-        model: &RobotModel,
-        models: &CollisionModels,
-        limits: GuardLimits,
-    ) -> Result<Self, RobotError> {
-        let (hand, bases) = (&model.robot.hand, model.robot.hand.joints[1].limits);
-        let base =
-            |shape: usize| bases.lower + (bases.upper - bases.lower) * shape as f64 / (SHAPES - 1) as f64;
-        let empty = (0..SHAPES).map(|shape| models.of(&[hand.posture(base(shape))], None));
-        let holding = model.grips.all().iter().enumerate().map(|(index, grip)| {
-            let closed = model.hand_angles(FingerShape::Closed(index));
-            models.of(&[closed], Some((grip.kind, grip.in_palm)))
-        });
-        let (empty, holding) =
-            (empty.collect::<Result<Vec<_>, _>>()?, holding.collect::<Result<Vec<_>, _>>()?);
-        let most = empty.iter().chain(&holding).map(|model| model.links().len()).max().unwrap_or(0);
+    pub fn new(model: &RobotModel, mechanism: Mechanism, limits: GuardLimits) -> Result<Self, RobotError> {
+        let capsules = MovingCapsules::of(&mechanism, &model.robot.hand)?;
+        let room = || Vec::with_capacity(capsules.most());
         Ok(Self {
             limits,
-            mechanism: models.mechanism.clone(),
-            empty,
-            holding,
-            bases,
-            now: Vec::with_capacity(most),
-            start: Vec::with_capacity(most),
-            links: Vec::with_capacity(most),
-            before: Vec::with_capacity(most),
+            mechanism,
+            hand: room(),
+            next_hand: room(),
+            now: room(),
+            start: room(),
+            links: room(),
+            before: room(),
+            capsules,
         })
+    }
+
+    /// The hand is like this now: its fingers at these angles (message order), rad, and what it holds, in the palm's frame.
+    pub fn see_hand(&mut self, fingers: &[f64; HAND_JOINTS], held: Option<Capsule>) {
+        self.capsules.close(fingers, &mut self.hand);
+        self.hand.extend(held.map(|held| held.within(&self.mechanism.arm.tool)));
     }
 
     /// Whether the arm may begin this braking path in the next cycle: neither the step to its beginning nor the braking closes on
@@ -99,21 +83,17 @@ impl Guard {
         person: &PersonCapsules,
         spare: f64,
     ) -> bool {
-        let Self { limits, mechanism, now, start, before, links, .. } = self;
-        let model = match moving.grip.and_then(|grip| self.holding.get(grip)) {
-            Some(holding) => holding,
-            None => &self.empty[shape(&self.bases, moving.closure)],
-        };
+        let Self { limits, mechanism, capsules, hand, now, start, before, links, .. } = self;
         let look = |links: &mut Vec<Capsule>, posture: &Posture| {
-            model.moving_bounding_capsules(mechanism, posture, links);
+            capsules.place(mechanism, posture, hand, links);
         };
-        let kept = limits.protective_separation + BETWEEN_SHAPES + spare;
+        let kept = limits.protective_separation + COMPUTED + spare;
         let points = braking.points();
         look(start, &points[0].posture);
         if is_far(start, points, person, kept) {
             return true;
         }
-        let hands = model.moving_hands();
+        let hands = capsules.of_hand();
         look(now, &moving.posture);
         let touches = moving.state.may_touch_person(points[0].at);
         let step = Step { now, next: start, hands };
@@ -135,46 +115,32 @@ impl Guard {
 }
 
 impl Guard {
-    /// Whether the fingers of an empty hand may go on towards `closure`, rad: no link of theirs comes nearer to the person than
-    /// it is while she moves, or all keep the protective separation.
-    pub fn admits_fingers(&mut self, moving: &Moving, closure: f64, person: &PersonCapsules) -> bool {
-        let Self { limits, mechanism, empty, bases, now, start, links, .. } = self;
-        let (progress, kept) = (moving.state.arm.progress, limits.protective_separation);
-        let posture = moving.state.arm.trajectory.posture(progress.elapsed);
-        let hands = empty[0].moving_hands();
-        let touches = moving.state.may_touch_person(progress.elapsed);
-        let mut look = |into: &mut Vec<Capsule>, closure: f64| {
-            let (open, more, fraction) = between_shapes(bases, closure);
-            empty[open].moving_bounding_capsules(mechanism, &posture, into);
-            empty[more].moving_bounding_capsules(mechanism, &posture, links);
-            for (link, more) in into.iter_mut().zip(links.iter()) {
-                *link = link.towards(more, fraction);
-            }
-        };
-        look(now, moving.closure);
+    /// Whether the fingers of an empty hand may go on from where they are towards `target`, rad: no link of theirs comes nearer to
+    /// the person than it is while she moves, or all keep the protective separation.
+    pub fn admits_fingers(
+        &mut self,
+        state: &ControlState,
+        (fingers, target): (&[f64; HAND_JOINTS], &[f64; HAND_JOINTS]),
+        person: &PersonCapsules,
+    ) -> bool {
+        let Self { limits, mechanism, capsules, hand, next_hand, now, start, .. } = self;
+        let (elapsed, kept) = (state.arm.progress.elapsed, limits.protective_separation);
+        let posture = state.arm.trajectory.posture(elapsed);
+        let (hands, touches) = (capsules.of_hand(), state.may_touch_person(elapsed));
+        capsules.place(mechanism, &posture, hand, now);
         // Fingers swing out on their way: where they will be soon counts as well as where they are going.
-        let soon = moving.closure + (closure - moving.closure).clamp(-FINGERS_STEP, FINGERS_STEP);
-        [soon, closure].into_iter().all(|next| {
-            look(start, next);
+        let way: [f64; HAND_JOINTS] = std::array::from_fn(|joint| target[joint] - fingers[joint]);
+        let farthest = way.iter().fold(FINGERS_STEP, |most, way| most.max(way.abs()));
+        let soon = std::array::from_fn(|joint| fingers[joint] + way[joint] * FINGERS_STEP / farthest);
+        [&soon, target].into_iter().all(|next| {
+            capsules.close(next, next_hand);
+            capsules.place(mechanism, &posture, next_hand, start);
             let step = Step { now, next: start, hands };
             // Beside a hand that waits they may take their shape: it would wait for them, and they for it.
             let mut parts = person.parts().filter(|part| part.moves());
             !parts.any(|part| step.closes_on(part, touches, kept, FINGERS_STOP))
         })
     }
-}
-
-/// The collision model of an empty hand that is most like one with this finger closure, rad.
-fn shape(bases: &JointLimits, closure: f64) -> usize {
-    let (open, more, fraction) = between_shapes(bases, closure);
-    if fraction < 0.5 { open } else { more }
-}
-
-/// The two shapes between which the fingers are, and where between them, 0 to 1.
-fn between_shapes(bases: &JointLimits, closure: f64) -> (usize, usize, f64) {
-    let fraction = (closure - bases.lower) / (bases.upper - bases.lower);
-    let shape = (fraction * (SHAPES - 1) as f64).clamp(0.0, (SHAPES - 1) as f64);
-    (shape.floor() as usize, shape.ceil() as usize, shape.fract())
 }
 
 /// Whether arm and person cannot come nearer than `kept` m to each other while the arm brakes.

@@ -1,8 +1,11 @@
 use crate::person_capsules::PersonCapsules;
 use crate::sighting_frame::{SHORTEST, frame_of};
-use coact_messages::{Decision, FieldFrame, Percept, PersonArm, ROBOT, SceneView, SensorSample, Sighting};
+use coact_messages::{
+    ARM_JOINTS, Decision, FieldFrame, Percept, PersonArm, ROBOT, SceneView, SensorSample, Sighting,
+};
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
+use coact_robot::HAND_JOINTS;
 use coact_safety::{SafetyLimits, StaleLimits};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
@@ -67,6 +70,13 @@ impl<'a> Inputs<'a> {
     pub fn touch(&self) -> Option<bool> {
         let touch = self.sample?.joints.touch;
         touch.is_finite().then_some(touch > TOUCH)
+    }
+
+    /// Measured angles of the hand's joints, rad; `None` when they are not known.
+    pub fn fingers(&self) -> Option<[f64; HAND_JOINTS]> {
+        let measured = &self.sample?.joints.position;
+        let fingers = std::array::from_fn(|joint| measured[ARM_JOINTS + joint]);
+        fingers.iter().all(|angle: &f64| angle.is_finite()).then_some(fingers)
     }
 
     /// Frame of the part of this kind in workspace `workspace`, if one is believed to lie there.

@@ -72,6 +72,21 @@ pub(crate) fn hand_links(
     Ok(links)
 }
 
+/// Each link below the palm: the joints from the palm to it, and its forms in the frame of the last of them.
+pub(crate) fn finger_chains(mechanism: &Mechanism) -> Result<Vec<(Vec<Joint>, Vec<Link>)>, RobotError> {
+    let arm = mechanism.joints();
+    let mut chains = Vec::new();
+    for link in mechanism.urdf.links() {
+        let (joints, tail) = mechanism.urdf.chain(None, &link.name)?;
+        if joints.len() > arm && is_along(mechanism, &joints[..arm]) {
+            let mut links = Vec::new();
+            push(mechanism, link, arm, &tail, true, &mut links)?;
+            chains.push((joints[arm..].to_vec(), links));
+        }
+    }
+    Ok(chains)
+}
+
 /// These shapes of a hand, and those between them: so many that no joint turns by more than [`FINGER_STEP`] from one to the
 /// next.
 pub(crate) fn passed(shapes: &[[f64; HAND_JOINTS]]) -> Vec<[f64; HAND_JOINTS]> {

@@ -12,8 +12,6 @@ pub struct CollisionModel {
     pub(crate) pairs: Vec<(usize, usize)>,
     /// A sphere around all links of the hand, in the frame of the arm's last joint.
     pub(crate) hand: Option<Capsule>,
-    /// Of each link that the arm's joints move: whether it belongs to the hand.
-    moving_hands: Vec<bool>,
 }
 
 /// Difference of the numbers of joints that carry two links from which on their distance is watched. Chosen by hand: the
@@ -44,9 +42,7 @@ impl CollisionModel {
             };
             Capsule { start: centre, end: centre, radius: of_hand().map(reach).fold(0.0, f64::max) }
         });
-        let moving = links.iter().filter(|link| link.carriers > 0);
-        let moving_hands = moving.map(|link| link.hand).collect();
-        let (mut collision_model, mut touching) = (Self { links, pairs, hand, moving_hands }, Vec::new());
+        let (mut collision_model, mut touching) = (Self { links, pairs, hand }, Vec::new());
         let scene = Scene::default();
         let mut near = Vec::new();
         for segment in SegmentKind::ALL {
@@ -80,13 +76,7 @@ impl CollisionModel {
         Self::new(mechanism, self.links)
     }
 
-    /// Of each link that the arm's joints move: whether it belongs to the hand.
-    pub fn moving_hands(&self) -> &[bool] {
-        &self.moving_hands
-    }
-
     /// Bounding capsules of all links that the arm's joints move, in the world, for a posture of the arm, into `out`.
-    /// Nothing is allocated where there is room for them.
     pub fn moving_bounding_capsules(&self, mechanism: &Mechanism, posture: &Posture, out: &mut Vec<Capsule>) {
         let frames = Frames::of(mechanism, posture);
         let moving = self.links.iter().filter(|link| link.carriers > 0);

@@ -9,6 +9,10 @@ pub struct SeparationReport {
     pub ticks: u64,
     /// Smallest distance, m; none when nobody was there.
     pub nearest_m: Option<f64>,
+    /// Smallest margin, m: distance of a link that closes by its own motion from a limb, less what ISO/TS 15066 asks for at the speeds of
+    /// both. Below 0 the robot might not stand in time; none when it closed on nobody. Contact apart.
+    #[serde(default)]
+    pub smallest_margin_m: Option<f64>,
     /// Time in which they were nearer than the protective separation, but did not touch, and the robot came nearer by its own motion, ms. None is
     /// allowed.
     pub robot_closing_ms: u64,

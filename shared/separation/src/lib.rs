@@ -19,6 +19,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod needed_separation;
 mod separation_meter;
 
 pub use separation_meter::SeparationMeter;

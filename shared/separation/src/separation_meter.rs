@@ -1,7 +1,8 @@
-use coact_messages::{ARM_JOINTS, Command, JOINTS, Truth, finger_closure};
-use coact_motion::{Capsule, CollisionModel, Mechanism};
+use crate::needed_separation::needed_separation;
+use coact_messages::{ARM_JOINTS, Command, JOINTS, Truth};
+use coact_motion::{Capsule, Mechanism, MovingCapsules};
 use coact_period::PERIOD_S;
-use coact_robot::{JointLimits, Robot, RobotError};
+use coact_robot::{Robot, RobotError};
 use coact_run_records::SeparationReport;
 use coact_safety::SafetyLimits;
 use nalgebra::Point3;
@@ -10,28 +11,25 @@ use nalgebra::Point3;
 #[derive(Debug, Clone)]
 pub struct SeparationMeter {
     mechanism: Mechanism,
-    /// Arm and hand, the fingers ever farther closed.
-    models: Vec<CollisionModel>,
-    /// Limits of the fingers' bases.
-    bases: JointLimits,
+    capsules: MovingCapsules,
     /// Radii of the person's upper arm, forearm and hand, m.
     radii: [f64; 3],
     /// Protective separation, m.
     protective: f64,
-    /// The tick before: posture of all joints, rad, and the person's arm.
-    before: Option<([f64; JOINTS], [Capsule; 3])>,
+    /// The tick before: its cycle, and the person's arm. Where the links were then, and are now.
+    before: Option<(u64, [Capsule; 3])>,
+    links_before: Vec<Capsule>,
     links: Vec<Capsule>,
-    /// The links with the fingers in the next shape.
-    more_closed: Vec<Capsule>,
+    fingers: Vec<Capsule>,
     report: SeparationReport,
 }
 
-/// Finger shapes for which there is a model; between two of them, what is between them. Chosen by hand: a finger tip moves by
-/// 10 mm from one to the next.
-const SHAPES: usize = 25;
 /// Who comes nearer by less than this in a tick stands, m: 15 mm/s. A simulated arm that has braked yields by up to half a millimetre,
 /// at up to 13 mm/s, while its servos take up what the other joints leave.
 const STANDING: f64 = 15e-6;
+/// Links and limbs farther apart than this are left out of the margin, m: what both need when the robot closes at 1 m/s and the
+/// hand comes at 2.5.
+const NEAR: f64 = 0.45;
 /// An arm below this fraction of its planned speed is stopped.
 const STOPPED: f64 = 0.01;
 
@@ -39,17 +37,13 @@ impl SeparationMeter {
     /// # Errors
     /// [`RobotError`] when the robot's collision geometry cannot be used.
     pub fn new(robot: &Robot, limits: &SafetyLimits) -> Result<Self, RobotError> {
-        let (mechanism, hand) = (Mechanism::of(robot)?, &robot.hand);
-        let bases = hand.joints[1].limits;
-        let base =
-            |shape: usize| bases.lower + (bases.upper - bases.lower) * shape as f64 / (SHAPES - 1) as f64;
-        let models = (0..SHAPES).map(|shape| mechanism.with_fingers(hand, &hand.posture(base(shape))));
-        let models = models.collect::<Result<Vec<_>, _>>()?;
+        let mechanism = Mechanism::of(robot)?;
+        let capsules = MovingCapsules::of(&mechanism, &robot.hand)?;
         let radii = limits.person.radii;
         let protective = limits.guard.protective_separation;
         let (before, report) = (None, SeparationReport::default());
-        let (links, more_closed) = (Vec::new(), Vec::new());
-        Ok(Self { mechanism, models, bases, radii, protective, before, links, more_closed, report })
+        let [links_before, links, fingers] = std::array::from_fn(|_| Vec::with_capacity(capsules.most()));
+        Ok(Self { mechanism, capsules, radii, protective, before, links_before, links, fingers, report })
     }
 
     /// Goes on from what was measured before.
@@ -60,6 +54,7 @@ impl SeparationMeter {
     /// Adds one tick, in which this command was the newest. Truth without a person's arm counts for nothing.
     pub fn tick(&mut self, truth: &Truth, command: &Command) {
         if truth.arm.as_flattened().iter().all(|number| *number == 0.0) {
+            self.before = None;
             return;
         }
         let person: [Capsule; 3] = std::array::from_fn(|limb| Capsule {
@@ -67,11 +62,14 @@ impl SeparationMeter {
             end: Point3::from(truth.arm[limb + 1]),
             radius: self.radii[limb],
         });
+        std::mem::swap(&mut self.links, &mut self.links_before);
+        self.place_links(&truth.joints);
         self.count_speed(command);
+        let cycle = truth.header.cycle;
         if command.handover == 0 {
-            self.count_distance(&truth.joints, &person);
+            self.count_distance(cycle, &person);
         }
-        self.before = Some((truth.joints, person));
+        self.before = Some((cycle, person));
     }
 
     /// What was measured so far.
@@ -85,56 +83,68 @@ impl SeparationMeter {
         self.report.stopped_ms += u64::from(command.speed_override < STOPPED);
     }
 
-    fn count_distance(&mut self, joints: &[f64; JOINTS], person: &[Capsule; 3]) {
-        let now = self.distance(joints, person);
+    fn count_distance(&mut self, cycle: u64, person: &[Capsule; 3]) {
+        let now = distance(&self.links, person);
         let nearest = self.report.nearest_m.get_or_insert(now);
         *nearest = nearest.min(now);
-        let Some((own_before, theirs_before)) = self.before.filter(|_| now < self.protective) else { return };
-        if now <= 0.0 {
-            self.count_contact(&own_before, joints, person);
+        let Some((cycle_before, theirs_before)) = self.before else { return };
+        let span = PERIOD_S * cycle.saturating_sub(cycle_before).max(1) as f64;
+        self.count_margin(person, &theirs_before, span);
+        if now >= self.protective {
             return;
         }
-        let robot_closes = now < self.distance(&own_before, person) - STANDING;
-        let person_closes = now < self.distance(joints, &theirs_before) - STANDING;
+        if now <= 0.0 {
+            self.count_contact(person, span);
+            return;
+        }
+        let robot_closes = now < distance(&self.links_before, person) - STANDING;
+        let person_closes = now < distance(&self.links, &theirs_before) - STANDING;
         self.report.robot_closing_ms += u64::from(robot_closes);
         self.report.person_closing_ms += u64::from(person_closes);
     }
 
+    /// What is left of each distance beyond what both need, where the robot's link closes.
+    fn count_margin(&mut self, person: &[Capsule; 3], theirs_before: &[Capsule; 3], span: f64) {
+        for (link, own_before) in self.links.iter().zip(&self.links_before) {
+            for (limb, limb_before) in person.iter().zip(theirs_before) {
+                if link.least_distance(limb) > NEAR {
+                    continue;
+                }
+                let now = link.distance(limb);
+                let closing = own_before.distance(limb) - now;
+                if now > 0.0 && closing > STANDING {
+                    let coming = (link.distance(limb_before) - now).max(0.0);
+                    let margin = now - needed_separation(closing / span, coming / span);
+                    let smallest = self.report.smallest_margin_m.get_or_insert(margin);
+                    *smallest = smallest.min(margin);
+                }
+            }
+        }
+    }
+
     /// Where capsules overlap, no distance tells any more who closes: it is least where their axes cross.
-    fn count_contact(&mut self, own_before: &[f64; JOINTS], joints: &[f64; JOINTS], person: &[Capsule; 3]) {
-        self.place_links(own_before);
-        let before = self.links.clone();
-        self.place_links(joints);
+    fn count_contact(&mut self, person: &[Capsule; 3], span: f64) {
         let touches = |link: &Capsule| person.iter().any(|limb| link.distance(limb) <= 0.0);
-        let touching = before.iter().zip(&self.links).filter(|(_, link)| touches(link));
+        let touching = self.links_before.iter().zip(&self.links).filter(|(_, link)| touches(link));
         let way = touching.fold(0.0, |way: f64, (before, link)| {
             way.max((link.start - before.start).norm()).max((link.end - before.end).norm())
         });
         self.report.contact_ms += 1;
-        self.report.contact_speed_mps = self.report.contact_speed_mps.max(way / PERIOD_S);
+        self.report.contact_speed_mps = self.report.contact_speed_mps.max(way / span);
     }
 
-    /// Distance of arm and hand from the person's arm, m.
-    fn distance(&mut self, joints: &[f64; JOINTS], person: &[Capsule; 3]) -> f64 {
-        self.place_links(joints);
-        let pairs = self.links.iter().flat_map(|link| person.iter().map(move |limb| (link, limb)));
-        pairs.fold(f64::INFINITY, |nearest, (link, limb)| {
-            if link.least_distance(limb) < nearest { nearest.min(link.distance(limb)) } else { nearest }
-        })
-    }
-
-    /// Puts arm and hand where these joints have them; the fingers between the two shapes that are most like theirs, for one
-    /// that changed its shape by a step would seem to close on somebody.
+    /// Puts arm and hand where these joints have them.
     fn place_links(&mut self, joints: &[f64; JOINTS]) {
-        let Self { mechanism, models, bases, links, more_closed, .. } = self;
-        let posture = std::array::from_fn::<_, ARM_JOINTS, _>(|joint| joints[joint]);
-        let fraction = (finger_closure(joints) - bases.lower) / (bases.upper - bases.lower);
-        let shape = fraction.clamp(0.0, 1.0) * (SHAPES - 1) as f64;
-        let (open, closed) = (shape.floor() as usize, shape.ceil() as usize);
-        models[open].moving_bounding_capsules(mechanism, &posture, links);
-        models[closed].moving_bounding_capsules(mechanism, &posture, more_closed);
-        for (link, closed) in links.iter_mut().zip(more_closed.iter()) {
-            *link = link.towards(closed, shape.fract());
-        }
+        let Self { mechanism, capsules, fingers, links, .. } = self;
+        capsules.close(&std::array::from_fn(|joint| joints[ARM_JOINTS + joint]), fingers);
+        capsules.place(mechanism, &std::array::from_fn(|joint| joints[joint]), fingers, links);
     }
+}
+
+/// Distance of arm and hand from the person's arm, m.
+fn distance(links: &[Capsule], person: &[Capsule; 3]) -> f64 {
+    let pairs = links.iter().flat_map(|link| person.iter().map(move |limb| (link, limb)));
+    pairs.fold(f64::INFINITY, |nearest, (link, limb)| {
+        if link.least_distance(limb) < nearest { nearest.min(link.distance(limb)) } else { nearest }
+    })
 }

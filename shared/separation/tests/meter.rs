@@ -126,3 +126,24 @@ fn fingers_that_hardly_move_close_on_nobody() {
     (0..ticks).for_each(|tick| scene.tick(0.0, limits.upper - 1e-4 * f64::from(tick), 0.0));
     assert_eq!(scene.meter.report().robot_closing_ms, 0, "{:?}", scene.meter.report());
 }
+
+#[test]
+fn the_margin_is_what_is_left_beyond_the_way_of_both_until_the_robot_stands() {
+    let measured = |ticks: &[(f64, f64)]| {
+        let mut scene = Scene::with_gap(0.10);
+        ticks.iter().for_each(|(first, nearer)| scene.tick(*first, 0.5, *nearer));
+        let report = scene.meter.report();
+        (report.smallest_margin_m, report.nearest_m.unwrap())
+    };
+    assert_eq!(measured(&[(0.0, 0.0), (0.0, 0.001)]).0, None, "the robot stands");
+    assert_eq!(measured(&[(0.0, 0.0), (-0.001, 0.0)]).0, None, "the robot goes away");
+    let (alone, nearest) = measured(&[(0.0, 0.0), (0.001, 0.0)]);
+    // It has closed by this much in a millisecond, reacts in 35 ms, brakes at 10 m/s², and is known to 20 mm.
+    let speed = (0.10 - nearest) / 1e-3;
+    let left = nearest - (0.02 + 0.035 * speed + speed * speed / 20.0);
+    assert!(speed > 0.1 && (alone.unwrap() - left).abs() < 1e-3, "{alone:?}, {left} m at {speed} m/s");
+    // A hand that comes at 1 m/s takes a millimetre now, and one for each millisecond until the robot stands.
+    let (both, _) = measured(&[(0.0, 0.0), (0.001, 0.001)]);
+    let less = alone.unwrap() - both.unwrap();
+    assert!((less - (0.001 + 0.035 + speed / 10.0)).abs() < 1e-3, "{less} m less");
+}

@@ -89,6 +89,7 @@ fn separation(separation: &SeparationReport) -> String {
     let SeparationReport {
         ticks,
         nearest_m,
+        smallest_margin_m,
         robot_closing_ms,
         person_closing_ms,
         contact_ms,
@@ -98,9 +99,10 @@ fn separation(separation: &SeparationReport) -> String {
     } = separation;
     let Some(nearest) = nearest_m else { return "person        nobody was there".into() };
     format!(
-        "person        {:.0} mm away at the least; nearer than is kept: robot closing {robot_closing_ms} ms, person \
+        "person        {:.0} mm away at the least, smallest margin {}; nearer than is kept: robot closing {robot_closing_ms} ms, person \
          {person_closing_ms} ms; contact {contact_ms} ms, at {contact_speed_mps:.2} m/s at most; held back {:.1} % of the time, stopped {:.1} %",
         1e3 * nearest,
+        smallest_margin_m.map_or("none".into(), |margin| format!("{:.0} mm", 1e3 * margin)),
         100.0 * *held_back_ms as f64 / (*ticks).max(1) as f64,
         100.0 * *stopped_ms as f64 / (*ticks).max(1) as f64,
     )
@@ -242,6 +244,7 @@ mod tests {
             separation: SeparationReport {
                 ticks: 60_000,
                 nearest_m: Some(0.0514),
+                smallest_margin_m: Some(0.0123),
                 person_closing_ms: 12,
                 held_back_ms: 6000,
                 ..SeparationReport::default()

@@ -18,6 +18,8 @@ pub struct Campaign<'a> {
     pub settings: &'a RunSettings,
     /// The robot's network.
     pub network: &'a NetworkVariant,
+    /// Whether the robot's guard holds it back.
+    pub guarded: bool,
     /// How many assemblies.
     pub trials: u64,
     /// How many at the same time.
@@ -40,6 +42,9 @@ pub fn run(campaign: &Campaign, done: impl Fn() + Sync) -> Result<Vec<Trial>, Lo
 fn assemble(campaign: &Campaign, seed: u64) -> Result<Trial, LockstepError> {
     let settings = RunSettings { seed, ..campaign.settings.clone() };
     let mut stages = Lockstep::with_plan(&settings, |plan| campaign.network.apply(plan))?;
+    if !campaign.guarded {
+        stages.leave_unguarded();
+    }
     let (task, plan) = (stages.task().clone(), stages.plan().clone());
     let mut recorder = TrialRecorder::new(&task, &plan, stages.separation_meter()?, seed);
     let (mut achieved, mut advanced) = (0, 0);

@@ -40,9 +40,11 @@ pub struct EvaluationReport {
     pub false_alarms: Proportion,
     /// Ticks with two peaks in one decision layer, in all assemblies.
     pub double_peaks: u64,
-    /// Smallest distance of robot and person outside handovers, m, and time in which the robot, nearer than the protective
+    /// Smallest distance of robot and person outside handovers, m, smallest margin (see [`SeparationReport`]), m, and time in which the robot, nearer than the protective
     /// separation, came nearer by its own motion, and the person by hers, ms; in all assemblies, by the truth.
     pub nearest_m: Option<f64>,
+    /// See `nearest_m`.
+    pub smallest_margin_m: Option<f64>,
     /// See `nearest_m`.
     pub robot_closing_ms: u64,
     /// See `nearest_m`.
@@ -106,6 +108,9 @@ impl EvaluationReport {
         let of_separation = |metric: fn(&SeparationReport) -> u64| -> u64 {
             trials.iter().map(|trial| metric(&trial.separation)).sum()
         };
+        let smallest = |length: &dyn Fn(&SeparationReport) -> Option<f64>| {
+            trials.iter().filter_map(|trial| length(&trial.separation)).min_by(f64::total_cmp)
+        };
         let ticks = of_separation(|separation| separation.ticks).max(1) as f64;
         Self {
             network: network.clone(),
@@ -128,7 +133,8 @@ impl EvaluationReport {
                 valid.len() + hidden.len(),
             ),
             double_peaks: trials.iter().map(|trial| trial.double_peaks).sum(),
-            nearest_m: trials.iter().filter_map(|trial| trial.separation.nearest_m).min_by(f64::total_cmp),
+            nearest_m: smallest(&|separation| separation.nearest_m),
+            smallest_margin_m: smallest(&|separation| separation.smallest_margin_m),
             robot_closing_ms: of_separation(|separation| separation.robot_closing_ms),
             person_closing_ms: of_separation(|separation| separation.person_closing_ms),
             contact_ms: of_separation(|separation| separation.contact_ms),

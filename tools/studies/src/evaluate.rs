@@ -14,6 +14,7 @@ use coact_pipeline::{RunSettings, WorldMode};
 use coact_world::Partner;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
@@ -24,6 +25,7 @@ use std::process::ExitCode;
   coact evaluate                                      100 with a partner who errs now and then
   coact evaluate --trials 10000 --out reports/random  many, with every action written down
   coact evaluate --baseline reactive                  against a robot without anticipation
+  coact evaluate --baseline unguarded                 what keeping clear of the person costs
   coact evaluate --ablate oml                         without object memory
   coact evaluate --partner random:goal=0.2,clarity=0.3..1
 
@@ -76,6 +78,8 @@ pub struct Args {
 enum Baseline {
     /// Without anticipation: it answers what the person has done, never what the person is about to do
     Reactive,
+    /// Without its guard: it goes on at its planned speed however near the person is
+    Unguarded,
 }
 
 /// What is taken away from the network.
@@ -99,6 +103,9 @@ struct Evaluation {
     seed: u64,
     trials: u64,
     report: EvaluationReport,
+    /// What the baseline is without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    without: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     baseline: Option<EvaluationReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -121,12 +128,15 @@ pub fn run(args: Args) -> Result<ExitCode> {
         reactive: false,
         without: args.ablate.iter().map(|layer| layer.ablation()).collect(),
     };
-    let trials = assemble(&args, &settings, &network, "assemblies")?;
+    let trials = assemble(&args, &settings, (&network, true), "assemblies")?;
     let baseline = match args.baseline {
         None => None,
-        Some(Baseline::Reactive) => {
-            let network = NetworkVariant { reactive: true, ..network.clone() };
-            let trials = assemble(&args, &settings, &network, "without anticipation")?;
+        Some(baseline) => {
+            let reactive = baseline == Baseline::Reactive;
+            let network = NetworkVariant { reactive, ..network.clone() };
+            let guarded = baseline != Baseline::Unguarded;
+            let what = format!("without {}", baseline.lacks());
+            let trials = assemble(&args, &settings, (&network, guarded), what)?;
             Some((EvaluationReport::new(&network, &trials), trials))
         }
     };
@@ -136,6 +146,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         seed: args.seed,
         trials: args.trials,
         report: EvaluationReport::new(&network, &trials),
+        without: args.baseline.map(Baseline::lacks),
         comparison: baseline.as_ref().map(|(_, rivals)| Comparison::new(&trials, rivals)),
         baseline: baseline.as_ref().map(|(report, _)| report.clone()),
     };
@@ -147,6 +158,16 @@ pub fn run(args: Args) -> Result<ExitCode> {
         false => tables::print(&evaluation),
     }
     Ok(ExitCode::SUCCESS)
+}
+
+impl Baseline {
+    /// What it is without.
+    fn lacks(self) -> &'static str {
+        match self {
+            Self::Reactive => "anticipation",
+            Self::Unguarded => "guard",
+        }
+    }
 }
 
 impl Ablated {
@@ -178,14 +199,14 @@ fn settings(args: &Args) -> Result<RunSettings> {
 fn assemble(
     args: &Args,
     settings: &RunSettings,
-    network: &NetworkVariant,
-    what: &'static str,
+    (network, guarded): (&NetworkVariant, bool),
+    what: impl Into<Cow<'static, str>>,
 ) -> Result<Vec<Trial>> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = args.threads.map_or(cores, usize::from);
     let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left")?;
     let bar = ProgressBar::new(args.trials).with_style(style).with_message(what);
-    let campaign = Campaign { settings, network, trials: args.trials, threads };
+    let campaign = Campaign { settings, network, guarded, trials: args.trials, threads };
     let trials = coact_evaluation::run(&campaign, || bar.inc(1));
     bar.finish_and_clear();
     Ok(trials?)
@@ -202,7 +223,8 @@ fn write(out: &Path, evaluation: &Evaluation, trials: &[Trial], baseline: Option
         save("baseline.jsonl", lines(baseline)?)?;
     }
     draw_leads(trials, &out.join("leads.svg"))?;
-    let mut variants = vec![("with anticipation", &evaluation.report)];
+    let whole = evaluation.without.map_or("the robot".into(), |lacks| format!("with {lacks}"));
+    let mut variants = vec![(whole.as_str(), &evaluation.report)];
     variants.extend(evaluation.baseline.as_ref().map(|report| ("without", report)));
     draw_fluency(&variants, &out.join("fluency.svg"))?;
     Ok(())

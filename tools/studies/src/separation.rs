@@ -142,8 +142,8 @@ impl Total {
         let mut separation = SeparationReport::default();
         for one in encounters.iter().map(|encounter| &encounter.separation) {
             separation.ticks += one.ticks;
-            separation.nearest_m =
-                [separation.nearest_m, one.nearest_m].into_iter().flatten().min_by(f64::total_cmp);
+            separation.nearest_m = smaller(separation.nearest_m, one.nearest_m);
+            separation.smallest_margin_m = smaller(separation.smallest_margin_m, one.smallest_margin_m);
             separation.robot_closing_ms += one.robot_closing_ms;
             separation.person_closing_ms += one.person_closing_ms;
             separation.contact_ms += one.contact_ms;
@@ -161,4 +161,9 @@ impl Total {
             separation,
         }
     }
+}
+
+/// The smaller one of those that there are.
+fn smaller(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    [one, other].into_iter().flatten().min_by(f64::total_cmp)
 }

@@ -88,22 +88,12 @@ impl GripTable {
     }
 }
 
-/// The grips of one kind of part, each with the first of its goals for a part at the origin: that tells where the part is in
-/// the palm.
-fn part_grips(hand: &Hand, kind: usize, grips: &Grips) -> Vec<PartGrip> {
-    let mut part_grips: Vec<PartGrip> = Vec::with_capacity(grips.all.len());
-    for (index, goal) in grips.goals(&Isometry3::identity(), 0.0, f64::NEG_INFINITY) {
-        if index < part_grips.len() {
-            continue;
-        }
-        let (grip, object) = (grips.all[index], &grips.object);
-        part_grips.push(PartGrip {
-            kind,
-            grip,
-            in_palm: hand.palm_at(&goal.point, &goal.approach, &goal.closing_axis, 0.0).inverse(),
-            closed: grip.fingers(hand, object, -SQUEEZE * object.width),
-            open: grip.open(hand, object),
-        });
-    }
-    part_grips
+/// The grips of one kind of part.
+fn part_grips(hand: &Hand, kind: usize, grips: &Grips) -> impl Iterator<Item = PartGrip> {
+    grips.all.iter().map(move |grip| PartGrip {
+        kind,
+        grip: *grip,
+        closed: grip.fingers(hand, &grips.object, -SQUEEZE * grips.object.width),
+        open: grip.open(hand, &grips.object),
+    })
 }

@@ -65,6 +65,8 @@ pub struct KinematicWorld {
     pub phases: Vec<(MotionPhase, u64)>,
     /// Largest fraction of any velocity, acceleration and jerk limit that the setpoints used.
     pub used: [f64; 3],
+    /// How much less the fingers' bases have closed than they are told, rad: something is between them.
+    pub held_open: f64,
     history: [[f64; JOINTS]; 3],
     in_hand: Isometry3<f64>,
 }
@@ -89,6 +91,7 @@ impl KinematicWorld {
             command: bytemuck::zeroed_box(),
             phases: Vec::new(),
             used: [0.0; 3],
+            held_open: 0.0,
             history: [[0.0; JOINTS]; 3],
             in_hand: Isometry3::identity(),
             task,
@@ -230,6 +233,9 @@ impl KinematicWorld {
             header.cycle = tick;
         }
         self.sample.joints.position = self.command.position;
+        self.sample.joints.position[8..11]
+            .iter_mut()
+            .for_each(|base| *base = (*base - self.held_open).max(0.0));
         self.sample.joints.velocity = self.command.velocity;
         self.sample.joints.touch = if self.held().is_some() { 3.0 } else { 0.0 };
         let Self { percept, parts, task, sample, .. } = self;

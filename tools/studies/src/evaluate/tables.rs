@@ -6,7 +6,8 @@ use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 
 /// Prints all metrics, beside those of the baseline if there is one.
 pub(super) fn print(evaluation: &Evaluation) {
-    let Evaluation { task, partner, seed, trials, report, baseline, comparison } = evaluation;
+    let Evaluation { task, partner, seed, trials, report, without, baseline, comparison } = evaluation;
+    let lacks = without.unwrap_or_default();
     println!("{task}: {trials} assemblies with {partner}, seeds from {seed}; 95 % intervals");
     let mut table = Table::new();
     table.load_style(UTF8_HORIZONTAL_ONLY);
@@ -17,20 +18,20 @@ pub(super) fn print(evaluation: &Evaluation) {
             table.add_rows(one.into_iter().map(|(name, value)| [name, value]));
         }
         Some(other) => {
-            table.set_header(["metric", "with anticipation", "without"]);
+            table.set_header(["metric", &format!("with {lacks}"), "without"]);
             let both = one.into_iter().zip(other);
             table.add_rows(both.map(|((name, value), (_, rival))| [name, value, rival]));
         }
     }
     println!("{table}");
     if let Some(comparison) = comparison {
-        compare(comparison);
+        compare(comparison, lacks);
     }
 }
 
 /// Prints how the robot differs from its baseline, over the assemblies that both completed.
-fn compare(comparison: &Comparison) {
-    println!("with against without anticipation, {} assemblies that both completed:", comparison.pairs);
+fn compare(comparison: &Comparison, lacks: &str) {
+    println!("with against without {lacks}, {} assemblies that both completed:", comparison.pairs);
     for (name, estimate) in [
         ("functional delay, ratio", comparison.functional_delay_ratio),
         ("functional delay, difference", comparison.functional_delay_difference),
@@ -45,6 +46,8 @@ fn compare(comparison: &Comparison) {
 /// Name and value of every metric.
 fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
     let row = |name: &str, value: String| (name.to_owned(), value);
+    let millimetres =
+        |length: Option<f64>| length.map_or("-".into(), |length| format!("{:.0}", 1e3 * length));
     let percent = |fraction: Option<Estimate>| interval(fraction, 100.0, 1, " %");
     let lead =
         report.lead_ms.map_or("-".into(), |lead| format!("{:.0} {:.0} {:.0}", lead.p5, lead.p50, lead.p95));
@@ -52,10 +55,8 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
         row("completed", proportion(&report.completed)),
         row("deadlocks", proportion(&report.deadlocks)),
         row("task time, s", interval(report.seconds, 1.0, 1, "")),
-        row(
-            "nearest to the person, mm",
-            report.nearest_m.map_or("-".into(), |nearest| format!("{:.0}", 1e3 * nearest)),
-        ),
+        row("nearest to the person, mm", millimetres(report.nearest_m)),
+        row("  smallest margin, mm", millimetres(report.smallest_margin_m)),
         row("  robot closing beyond the separation, ms", report.robot_closing_ms.to_string()),
         row("  person closing, ms", report.person_closing_ms.to_string()),
         row("  contact, ms", format!("{}, at most {:.2} m/s", report.contact_ms, report.contact_speed_mps)),

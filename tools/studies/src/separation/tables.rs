@@ -17,6 +17,7 @@ pub(super) fn print(separation: &Separation, folder: &Path) {
         "arm",
         "seed",
         "nearest mm",
+        "margin mm",
         "robot closes ms",
         "person closes ms",
         "contact ms",
@@ -41,10 +42,13 @@ pub(super) fn print(separation: &Separation, folder: &Path) {
     );
 }
 
-fn numbers(separation: &SeparationReport, moved_ms: u64) -> [String; 8] {
+fn numbers(separation: &SeparationReport, moved_ms: u64) -> [String; 9] {
     let seconds = |ms: u64| format!("{:.1}", ms as f64 / 1e3);
+    let millimetres =
+        |length: Option<f64>| length.map_or("-".into(), |length| format!("{:.0}", 1e3 * length));
     [
-        separation.nearest_m.map_or("-".into(), |nearest| format!("{:.0}", 1e3 * nearest)),
+        millimetres(separation.nearest_m),
+        millimetres(separation.smallest_margin_m),
         separation.robot_closing_ms.to_string(),
         separation.person_closing_ms.to_string(),
         separation.contact_ms.to_string(),
