@@ -199,6 +199,24 @@ fn topic_of_a_running_set_is_read_from_python() {
     assert!(told.lines().last().unwrap().ends_with("; 7 deadlines missed so far"), "{told}");
 }
 
+#[test]
+fn hand_of_a_real_person_is_told_line_by_line_from_python() {
+    let mut program = Command::new("python3");
+    program.arg(folder().join("hand.py"));
+    let told = printed(program);
+    let hands: Vec<Vec<f64>> = told
+        .lines()
+        .map(|line| {
+            let numbers = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')).unwrap();
+            numbers.split(',').map(|number| number.trim().parse().unwrap()).collect()
+        })
+        .collect();
+    assert!(hands.len() > 300 && hands.iter().all(|hand| hand.len() == 5), "{told}");
+    let closed = hands.iter().filter(|hand| (0.08..0.091).contains(&hand[4]) && hand[3] < -74.0).count();
+    assert!(closed > 60, "{closed} lines with fingers around a wheel");
+    assert_eq!(hands.first().unwrap()[..3], hands.last().unwrap()[..3], "it ends where it began");
+}
+
 /// Without the Python package nothing else would notice.
 #[test]
 fn programs_in_python_state_the_layout_of_the_messages() {

@@ -3,7 +3,8 @@
 
 use coact_messages::topic::{ALL, ANYONE, resume, state_of};
 use coact_messages::{
-    Command, FieldFrame, Percept, Pulse, SensorSample, Speech, StopState, TopicEntry, Truth, WorldState,
+    Command, FieldFrame, HandPoints, Percept, Pulse, SensorSample, Speech, StopState, TopicEntry, Truth,
+    WorldState,
 };
 use coact_pipeline::Run;
 use coact_tests::{Launched, wait_for};
@@ -55,6 +56,7 @@ impl Client {
         match message {
             "Command" => self.of_type::<Command>(topic),
             "FieldFrame" => self.of_type::<FieldFrame>(topic),
+            "HandPoints" => self.of_type::<HandPoints>(topic),
             "Percept" => self.of_type::<Percept>(topic),
             "Pulse" => self.of_type::<Pulse>(topic),
             "SensorSample" => self.of_type::<SensorSample>(topic),
@@ -116,10 +118,10 @@ fn expected(entry: &TopicEntry) -> Vec<(String, &'static str, Parties)> {
 
 #[test]
 fn processes_open_the_topics_that_the_table_names() {
-    let launched = Launched::start(&["--world", "kinematic", "--record"]);
+    let launched = Launched::start(&["--world", "kinematic", "--record", "--partner", "hand"]);
     let run = launched.when_started();
     let topics: Vec<_> = ALL.iter().flat_map(expected).collect();
-    assert_eq!(topics.len(), 9 + 4 + 4);
+    assert_eq!(topics.len(), 10 + 4 + 4);
     let found = || {
         let client = Client::of(&run);
         topics.iter().find(|(topic, message, parties)| client.parties(topic, message) != *parties)

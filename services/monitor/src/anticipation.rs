@@ -34,6 +34,8 @@ struct OpenAction {
     expectation: Option<Expectation>,
     /// Nothing was decided at grasp completion.
     late: bool,
+    /// No frame has been looked at since it was told.
+    fresh: bool,
 }
 
 impl Anticipation {
@@ -78,11 +80,13 @@ impl Anticipation {
     /// Looks at the fields; an action that is answered is appended to `events`.
     pub fn frame(&mut self, frame: &FieldFrame, events: &mut Vec<Event>) {
         let Some(mut open) = self.open else { return };
-        if open.grasp.is_none() && self.is_served(&open, frame) {
+        // Of a hand that comes from outside an action is told only when its grasp is complete.
+        if (open.grasp.is_none() || open.fresh) && self.is_served(&open, frame) {
             let goal = self.intentions.population(open.chain, open.subgoal);
             open.expectation = goal.map(Expectation::Intention).or(open.expectation);
-            self.open = Some(open);
         }
+        open.fresh = false;
+        self.open = Some(open);
         let Some(grasp) = open.grasp.filter(|&grasp| frame.header.cycle >= grasp) else { return };
         let Some(expectation) = open.expectation else { return self.close(open, None, events) };
         let right = expectation.since(frame).map(|since| (expectation, since));
@@ -127,6 +131,7 @@ impl Anticipation {
             error: truth.error,
             expectation: self.expected(truth),
             late: false,
+            fresh: true,
         });
     }
 

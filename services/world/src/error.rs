@@ -5,7 +5,7 @@ use std::path::PathBuf;
 pub enum WorldError {
     /// The partner's name is none of the known ones.
     #[error(
-        "partner \"{name}\" is unknown; expected synthetic, random, random:KEY=VALUE,..., script:FILE, recorded:DIR, left-arm:FILE or right-arm:FILE"
+        "partner \"{name}\" is unknown; expected synthetic, random, random:KEY=VALUE,..., script:FILE, recorded:DIR, left-arm:FILE, right-arm:FILE or hand"
     )]
     Partner {
         /// What was given.

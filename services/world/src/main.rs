@@ -1,18 +1,20 @@
 //! The process that stands in for the hardware: released by the timer, it starts each cycle of the chain.
 
-mod speech_input;
+mod outside_input;
 mod stop_input;
 
 use anyhow::Context;
 use coact_joint_task::Task;
-use coact_messages::{Command, Header, HoldReason, SensorSample, Truth, WorldState, topic};
+use coact_messages::{
+    Command, HandPoints, Header, HoldReason, SensorSample, Speech, Truth, WorldState, topic,
+};
 use coact_pipeline::RunSettings;
 use coact_realtime::{Candidate, Cycle, DropOuts, Input, Output, PortError, Tick, now};
 use coact_recordings::{Order, read_folder};
 use coact_robot::Robot;
 use coact_safety::{DriveLimits, SafetyLimits};
 use coact_world::{Partner, Replay, Settings, World, has_part_for};
-use speech_input::SpeechInput;
+use outside_input::OutsideInput;
 use std::path::Path;
 use stop_input::StopInput;
 
@@ -26,7 +28,9 @@ struct Hardware {
     sample: Output<SensorSample>,
     truth: Output<Truth>,
     state: Output<WorldState>,
-    heard: SpeechInput,
+    heard: OutsideInput<Speech>,
+    /// The person's hand, if it comes from outside.
+    hand: Option<OutsideInput<HandPoints>>,
     stop: StopInput,
     drop_outs: DropOuts,
     /// The process is told to end.
@@ -59,6 +63,9 @@ impl Cycle for Hardware {
         }
         if let Some(speech) = self.heard.next() {
             self.world.hear(speech.sentence());
+        }
+        if let Some(hand) = self.hand.as_ref().and_then(OutsideInput::newest) {
+            self.world.show_hand(&hand.position);
         }
         let Self { world, command, sample, truth, state, .. } = self;
         let (mut sample, mut truth, mut state) = (sample.loan()?, truth.loan()?, state.loan()?);
@@ -147,8 +154,11 @@ fn simulate(candidate: Candidate) -> anyhow::Result<()> {
         sample.continue_after(&last.header);
         truth.continue_after(&last.header);
     }
-    let (heard, skipped) =
-        (SpeechInput::open(process.run(), process.bus().refusals().clone())?, world.skipped());
+    let (run, refusals) = (process.run(), process.bus().refusals());
+    let heard = OutsideInput::speech(run, refusals.clone())?;
+    let from_outside = run.settings().partner == Partner::HAND;
+    let hand = from_outside.then(|| OutsideInput::hand(run, refusals.clone())).transpose()?;
+    let skipped = world.skipped();
     let (drop_outs, ends) = (process.drop_outs(), false);
     Ok(process.run_cycles(Hardware {
         world,
@@ -157,6 +167,7 @@ fn simulate(candidate: Candidate) -> anyhow::Result<()> {
         truth,
         state,
         heard,
+        hand,
         stop,
         drop_outs,
         ends,

@@ -113,10 +113,7 @@ impl Parts {
 
     /// Distance of `point` from the part's own axis, between its underside and its top, m.
     pub fn distance_to_axis(&self, part: usize, point: DVec3, task: &Task) -> f64 {
-        let foot = self.position(part);
-        let axis = self.orientation(part) * (task.kinds[self.kind(part)].shape.height() * DVec3::Z);
-        let along = ((point - foot).dot(axis) / axis.length_squared().max(1e-12)).clamp(0.0, 1.0);
-        point.distance(foot + along * axis)
+        self.view().distance_to_axis(part, point, task)
     }
 
     /// Bit i is set when subgoal i's part is in its place.

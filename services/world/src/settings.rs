@@ -32,11 +32,17 @@ pub enum Partner {
     Recorded(RecordedReaches),
     /// Moves an arm as it was recorded, whatever the robot does, and takes no part in the task.
     Arm(RecordedArm),
+    /// Moves a hand that is told from outside ([`World::show_hand`](crate::World::show_hand)).
+    Hand,
 }
 
 impl Partner {
+    /// The name of a partner whose hand comes from outside.
+    pub const HAND: &str = "hand";
+
     /// Reads a partner as it is named on a command line: `synthetic`, `random`,
-    /// `random:KEY=VALUE,...` (see [`RandomBehaviour`]), `script:FILE`, `recorded:DIR`, `left-arm:FILE` or `right-arm:FILE`.
+    /// `random:KEY=VALUE,...` (see [`RandomBehaviour`]), `script:FILE`, `recorded:DIR`, `left-arm:FILE`, `right-arm:FILE` or
+    /// `hand`.
     ///
     /// A folder of recordings holds several people: each seed takes another one, in turn. An arm of motion capture is put
     /// elsewhere by each seed.
@@ -46,6 +52,7 @@ impl Partner {
     pub fn load(name: &str, task: &Task, seed: u64) -> Result<Self, WorldError> {
         match name.split_once(':') {
             None if name == "synthetic" => Ok(Self::Synthetic),
+            None if name == Self::HAND => Ok(Self::Hand),
             None if name == "random" => Ok(Self::Random(RandomBehaviour::default())),
             Some(("random", settings)) => Ok(Self::Random(RandomBehaviour::parse(settings)?)),
             Some(("script", file)) => Scenario::load(Path::new(file), task).map(Self::Script),

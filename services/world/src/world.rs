@@ -62,6 +62,7 @@ impl World {
             Partner::Random(behaviour) => (Policy::Random(behaviour), None, Staging::default()),
             Partner::Script(scenario) => (Policy::Script(scenario.script), None, scenario.staging),
             Partner::Arm(arm) => (Policy::Arm(arm), None, Staging::default()),
+            Partner::Hand => (Policy::Live, None, Staging::default()),
             Partner::Recorded(recorded) => (Policy::Synthetic, Some(recorded), Staging::default()),
         };
         let mut task = task.clone();
@@ -159,6 +160,13 @@ impl World {
     pub fn hear(&mut self, sentence: &str) {
         let next = self.last_tick().map_or(0, |last| last + 1);
         self.simulation.heard.hear(next, sentence);
+    }
+
+    /// A program outside has told where the person's hand is, in the order of [`KeypointName`](coact_messages::KeypointName), m: it is on
+    /// its way there from the next step on. Of another partner than [`Partner::Hand`] nothing is told from outside.
+    pub fn show_hand(&mut self, points: &[[f64; 3]; 9]) {
+        let next = self.last_tick().map_or(0, |last| last + 1);
+        self.person.show_hand(&mut self.simulation.person, next, points);
     }
 
     /// Actions of the script that were given up because there was no part to carry them out with.

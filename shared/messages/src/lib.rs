@@ -8,7 +8,7 @@
 //!
 //! Beside the chain stand [`Pulse`] (each process, each cycle: what the deadline accounting knows),
 //! [`Truth`] (world to monitor alone), [`WorldState`] (what a restarted world resumes from), [`Speech`], and [`StopState`]
-//! (whether an operator has stopped the robot).
+//! (whether an operator has stopped the robot), and [`HandPoints`] (a person's hand, told from outside).
 //!
 //! All messages are `repr(C)`, hold no pointer, accept any bit pattern, and begin with a [`Header`]. Their layout
 //! is versioned by [`LAYOUT`]: whoever changes a field raises it.
@@ -47,6 +47,7 @@ mod command;
 mod description;
 mod drive_report;
 mod field_frame;
+mod hand_points;
 mod header;
 mod heard;
 mod line_of_sight;
@@ -69,6 +70,7 @@ pub use command::{Command, MotionPhase};
 pub use description::{Described, Description};
 pub use drive_report::{CommandRefusal, DriveMode, DriveReport, HoldReason};
 pub use field_frame::{Decision, FieldFrame, LayerKind, LayerTable};
+pub use hand_points::HandPoints;
 pub use header::{Header, LAYOUT};
 pub use heard::Heard;
 pub use line_of_sight::is_blocked;

@@ -16,7 +16,7 @@
 //! assert_eq!((topic::writer(topic::TRUTH), topic::writer(topic::HEARD)), (Some("world"), None));
 //! ```
 
-use crate::TopicEntry;
+use crate::{HandPoints, TopicEntry};
 use std::time::Duration;
 
 /// [`SensorSample`](crate::SensorSample), what the sensors tell.
@@ -36,6 +36,10 @@ pub const SPEECH: &str = "coact/speech";
 /// [`Speech`](crate::Speech) of the person, as text: from `coact say` or a recogniser. The world puts it into the sensor
 /// sample.
 pub const HEARD: &str = "coact/heard";
+
+/// [`HandPoints`](crate::HandPoints) of a person whose hand comes from outside (`--partner hand`). The world shows it to its
+/// tracker.
+pub const HAND: &str = "coact/hand";
 
 /// [`StopState`](crate::StopState), whether an operator has stopped the robot.
 pub const STOP: &str = "coact/stop";
@@ -63,6 +67,8 @@ const JOINTS_EACH_CYCLE: usize = 32;
 const PERCEPTS_EACH_CYCLE: usize = 8;
 /// Depth of spoken sentences: many more than are said while nobody looks.
 const SENTENCES: usize = 32;
+/// Depth of hands: as many as may come in half of their lifetime.
+const HANDS: usize = 16;
 
 /// How long ago the cycle of a message may be that is taken in: no writer of a set is silent for so long and lives, so what is
 /// older is a message of long ago that is sent again. Stages have shorter limits of their own. Chosen by hand, far above the
@@ -85,7 +91,7 @@ const CHAIN: TopicEntry = TopicEntry {
 const PLAIN: TopicEntry = TopicEntry { announced: false, checkpoint: false, ..CHAIN };
 
 /// Every topic of a process set: the chain of one cycle in its order, then what stands beside it.
-pub const ALL: [TopicEntry; 11] = [
+pub const ALL: [TopicEntry; 12] = [
     TopicEntry {
         name: SENSORS,
         message: "SensorSample",
@@ -143,6 +149,16 @@ pub const ALL: [TopicEntry; 11] = [
         readers: &["world"],
         lifetime: None,
         depth: SENTENCES,
+        ..PLAIN
+    },
+    TopicEntry {
+        name: HAND,
+        message: "HandPoints",
+        writers: &[ANYONE],
+        // Only of a set whose partner's hand comes from outside.
+        readers: &["world"],
+        lifetime: Some(HandPoints::LIFETIME),
+        depth: HANDS,
         ..PLAIN
     },
     TopicEntry {

@@ -3,8 +3,8 @@
 
 use bytemuck::{Pod, zeroed_box};
 use coact_messages::{
-    Command, FieldFrame, Header, LayerKind, Percept, Plausible, Pulse, SensorSample, Speech, StopState,
-    Truth, WorldState,
+    Command, FieldFrame, HandPoints, Header, LayerKind, Percept, Plausible, Pulse, SensorSample, Speech,
+    StopState, Truth, WorldState,
 };
 use std::hint::black_box;
 use std::time::Instant;
@@ -124,4 +124,39 @@ fn a_pulse_with_a_count_that_no_run_reaches_is_refused() {
     let header = Header { sequence: u64::MAX, ..Header::default() };
     assert_eq!(Pulse { header, ..pulse }.check().unwrap_err().field, "counts");
     assert_eq!(Pulse { missed: u64::MAX, ..pulse }.check().unwrap_err().field, "counts");
+}
+
+/// An arm that reaches over a table.
+fn hand() -> Box<HandPoints> {
+    let mut hand: Box<HandPoints> = zeroed_box();
+    hand.position = [
+        [-1.28, 0.12, 1.18],
+        [-1.15, 0.05, 0.92],
+        [-0.95, 0.14, 1.00],
+        [-0.93, 0.16, 0.99],
+        [-0.88, 0.18, 0.90],
+        [-0.88, 0.16, 0.94],
+        [-0.88, 0.10, 0.90],
+        [-0.87, 0.09, 0.89],
+        [-0.88, 0.10, 0.94],
+    ];
+    hand
+}
+
+#[test]
+fn a_hand_is_near_finite_and_of_a_person_s_size() {
+    assert_eq!(hand().check(), Ok(()));
+    assert!(zeroed_box::<HandPoints>().check().is_err(), "all in one place is no hand");
+    for joint in 0..9 {
+        for value in [f64::NAN, f64::INFINITY, 5.1, -1e9] {
+            let mut hand = hand();
+            hand.position[joint][2] = value;
+            assert!(hand.check().is_err(), "keypoint {joint} at {value}");
+        }
+    }
+    for (joint, moved) in [(1, 0.5), (2, 0.6), (3, 0.2), (4, 0.3), (5, 0.3), (8, 0.3)] {
+        let mut hand = hand();
+        hand.position[joint][0] += moved;
+        assert_eq!(hand.check().unwrap_err().field, "position", "keypoint {joint}");
+    }
 }

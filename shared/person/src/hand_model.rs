@@ -1,4 +1,6 @@
 use crate::HandPose;
+use crate::fingers::Fingers;
+use crate::movement_planning::GRASPING;
 use coact_joint_task::Scene;
 use coact_messages::KeypointName;
 use glam::DVec3;
@@ -30,9 +32,30 @@ impl HandModel {
     }
 
     /// The hand at rest: flat, the fingers half bent, thumb near index.
-    pub(crate) fn rest(&self) -> HandPose {
+    pub fn rest(&self) -> HandPose {
         let wrist = self.rest.into();
         HandPose { wrist, pitch: REST_PITCH, aperture: 0.03, extension: 0.14, ..HandPose::default() }
+    }
+
+    /// The keypoints of an arm whose finger tips have `centre` (m) in their middle and are `aperture` (m) apart, while the hand points
+    /// `pitch` (rad) above the table plane. For those who show a hand ([`HandPoints`](coact_messages::HandPoints)) and have no arm.
+    ///
+    /// Wherever it is: a place that is farther away than the arm is long has it stretched.
+    pub fn reaching(&self, centre: DVec3, pitch: f64, aperture: f64) -> [DVec3; 9] {
+        self.keypoints(&self.grasping(centre, pitch, aperture, (GRASPING, 0.0)))
+    }
+
+    /// The pose that comes nearest to these keypoints.
+    pub(crate) fn pose_of(&self, points: &[DVec3; 9]) -> HandPose {
+        let at = |name: KeypointName| points[name as usize];
+        let (wrist, Fingers { middle, aperture, pitch }) = (at(KeypointName::Wrist), Fingers::of(points));
+        let ahead = at(KeypointName::IndexKnuckle).midpoint(at(KeypointName::LittleKnuckle)) - wrist;
+        let turn = ahead.y.atan2(ahead.x) - self.facing;
+        let heading = turn.sin().atan2(turn.cos());
+        let flat = HandPose { wrist: wrist.into(), heading, pitch, aperture, ..HandPose::default() };
+        let (extension, aside) =
+            ((middle - wrist).dot(self.direction(&flat)), (middle - wrist).dot(self.thumb_side(&flat)));
+        HandPose { extension, aside, ..flat }
     }
 
     /// Heading of a hand that reaches to `point`, rad: along the line from the shoulder.

@@ -17,7 +17,7 @@ use std::time::Duration;
 /// Scatter of the hand's pitch from grasp to grasp, rad. Chosen by hand.
 const PITCH_SCATTER: f64 = 0.08;
 /// Wrist to finger tips of a grasping hand, and of an open one, m: an adult's hand, bent and straight.
-const GRASPING: f64 = 0.15;
+pub(crate) const GRASPING: f64 = 0.15;
 const OPEN: f64 = 0.18;
 /// Thumb to index of an open hand, m. Chosen by hand.
 const OPEN_APERTURE: f64 = 0.11;
@@ -132,7 +132,7 @@ impl Person {
     }
 
     /// From the underside of a part to its centre, m, in its own frame.
-    fn half_height(&self, part: usize, around: &Surroundings) -> DVec3 {
+    pub(crate) fn half_height(&self, part: usize, around: &Surroundings) -> DVec3 {
         0.5 * around.task.kinds[around.parts.kind(part)].shape.height() * DVec3::Z
     }
 
@@ -172,7 +172,7 @@ fn blurred(grip: usize, blur: f64, task: &Task) -> f64 {
 }
 
 /// The orientation nearest to `from` whose z axis points along `axis`; the shortest turn from upright if there is none.
-fn nearest_turn(from: DQuat, axis: DVec3) -> DQuat {
+pub(crate) fn nearest_turn(from: DQuat, axis: DVec3) -> DQuat {
     let turned = DQuat::from_rotation_arc(from * DVec3::Z, axis.normalize_or(DVec3::Z)) * from;
     if turned.is_finite() {
         turned.normalize()

@@ -54,6 +54,14 @@ impl<'a> PartsView<'a> {
             + self.orientation(part) * (0.5 * task.kinds[self.kind(part)].shape.height() * DVec3::Z)
     }
 
+    /// Distance of `point` from the part's own axis, between its underside and its top, m.
+    pub fn distance_to_axis(self, part: usize, point: DVec3, task: &Task) -> f64 {
+        let foot = self.position(part);
+        let axis = self.orientation(part) * (task.kinds[self.kind(part)].shape.height() * DVec3::Z);
+        let along = ((point - foot).dot(axis) / axis.length_squared().max(1e-12)).clamp(0.0, 1.0);
+        point.distance(foot + along * axis)
+    }
+
     /// Bit i is set when subgoal i's part is in its place.
     pub fn achieved(self) -> u64 {
         let mounted = self.states.iter().filter(|part| part.state == Holder::Socket as u32);

@@ -46,6 +46,9 @@ impl Person {
 
     /// One tick: moves the hand, and what it holds, and goes on to the next phase when the present one is over.
     pub fn advance(&self, state: &mut PersonState, around: &Surroundings) -> Manipulation {
+        if matches!(self.policy, Policy::Live) {
+            return self.follow(state, around);
+        }
         let mut done = Manipulation::default();
         if state.gives_up > 0 && around.tick >= state.gives_up {
             self.give_up(state, around, &mut done);
@@ -82,7 +85,7 @@ impl Person {
         match &self.policy {
             Policy::Script(script) => script.sentence(index),
             Policy::Random(_) => task.chains.get(state.chain.get()?)?.says.get(index).map(String::as_str),
-            Policy::Synthetic | Policy::Arm(_) => None,
+            Policy::Synthetic | Policy::Arm(_) | Policy::Live => None,
         }
     }
 
@@ -90,6 +93,7 @@ impl Person {
     pub fn keypoints(&self, state: &PersonState, tick: u64) -> [DVec3; 9] {
         match &self.policy {
             Policy::Arm(arm) => arm.keypoints(tick),
+            Policy::Live => state.live.at(tick),
             _ => self.model.keypoints(&state.hand),
         }
     }
@@ -100,7 +104,10 @@ impl Person {
     }
 
     /// Whether the tracker has lost the hand at `tick`, for longer than a frame.
-    pub fn is_lost(&self, tick: u64) -> bool {
+    pub fn is_lost(&self, state: &PersonState, tick: u64) -> bool {
+        if self.is_unknown(state, tick) {
+            return true;
+        }
         let rng_of = |interval| self.random.at(Stream::Dropout, interval);
         self.policy.behaviour().is_some_and(|behaviour| random_policy::is_lost(behaviour, tick, rng_of))
     }

@@ -1,3 +1,4 @@
+use crate::live_hand::LiveHand;
 use crate::{Activity, ActivityPhase, HandMovement, HandPose, Intention, Variation};
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_joint_task::Task;
@@ -69,6 +70,10 @@ pub struct PersonState {
     pub(crate) contact_since: u64,
     /// Force of the person's hand on the robot's, through the part that both have, N, world frame.
     pub force: [f64; 3],
+    /// The hand as it is told from outside.
+    pub(crate) live: LiveHand,
+    /// The part between its open fingers.
+    pub(crate) between: Slot,
 }
 
 impl PersonState {
@@ -113,6 +118,7 @@ impl PersonState {
             && self.subgoal.is_below(task.subgoals.len())
             && self.part.is_below(task.parts.len())
             && self.held.is_below(task.parts.len())
+            && self.between.is_below(task.parts.len())
             && self.recording.is_below(recordings);
         ensure(indices, "person: chain, subgoal, part or recording", "one that there is")?;
         let since = [self.onset, self.grasped, self.felt_since, self.waiting_since, self.contact_since];
@@ -121,6 +127,7 @@ impl PersonState {
             [self.ended >> 16, self.actions, self.skipped, self.script_done, self.variation.gives_up_after];
         ensure(counts.iter().all(|count| *count <= u64::from(u32::MAX)), "person: count", "32 bits at most")?;
         self.movement.check()?;
+        self.live.check(now)?;
         self.check_numbers()
     }
 

@@ -22,6 +22,8 @@ pub enum Policy {
     Script(Script),
     /// None: the person moves an arm as it was recorded, and takes no part in the task.
     Arm(RecordedArm),
+    /// Not known: the hand comes from outside ([`Person::show`](crate::Person::show_hand)), and what it does is found from what it did.
+    Live,
 }
 
 impl Policy {
@@ -37,7 +39,7 @@ impl Policy {
             Self::Synthetic => synthetic_policy::choose(around, rng),
             Self::Random(behaviour) => random_policy::choose(behaviour, around, can_hide, rng),
             Self::Script(script) => script.next(around, state),
-            Self::Arm(_) => Choice::Rest(PAUSE.end),
+            Self::Arm(_) | Self::Live => Choice::Rest(PAUSE.end),
         }
     }
 
@@ -46,7 +48,7 @@ impl Policy {
         match self {
             Self::Synthetic | Self::Random(_) => random.at(Stream::Choice, tick).random_range(PAUSE),
             Self::Script(_) => 1,
-            Self::Arm(_) => PAUSE.end,
+            Self::Arm(_) | Self::Live => PAUSE.end,
         }
     }
 
@@ -54,7 +56,7 @@ impl Policy {
     pub(crate) fn behaviour(&self) -> Option<&RandomBehaviour> {
         match self {
             Self::Random(behaviour) => Some(behaviour),
-            Self::Synthetic | Self::Script(_) | Self::Arm(_) => None,
+            Self::Synthetic | Self::Script(_) | Self::Arm(_) | Self::Live => None,
         }
     }
 }

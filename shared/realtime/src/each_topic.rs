@@ -9,8 +9,8 @@ pub(crate) trait EachTopic {
     fn topic<T: Message>(&mut self, topic: &str) -> Result<(), PortError>;
 }
 
-/// Does it: with every topic that the processes of `pipeline` write or read, except [`topic::HEARD`], which lives as long
-/// as somebody speaks or listens.
+/// Does it: with every topic that the processes of `pipeline` write or read, except [`topic::HEARD`] and [`topic::HAND`],
+/// which live as long as somebody tells something or listens.
 pub(crate) fn for_each_topic(pipeline: &Pipeline, work: &mut impl EachTopic) -> Result<(), PortError> {
     work.topic::<SensorSample>(topic::SENSORS)?;
     work.topic::<Truth>(topic::TRUTH)?;

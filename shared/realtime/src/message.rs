@@ -1,7 +1,7 @@
 use bytemuck::Pod;
 use coact_messages::{
-    Command, FieldFrame, Header, Percept, Plausible, Pulse, SensorSample, Speech, StopState, Truth,
-    WorldState,
+    Command, FieldFrame, HandPoints, Header, Percept, Plausible, Pulse, SensorSample, Speech, StopState,
+    Truth, WorldState,
 };
 use iceoryx2::prelude::ZeroCopySend;
 use std::fmt::Debug;
@@ -33,4 +33,4 @@ macro_rules! message {
     )*};
 }
 
-message!(Command, FieldFrame, Percept, Pulse, SensorSample, Speech, StopState, Truth, WorldState);
+message!(Command, FieldFrame, HandPoints, Percept, Pulse, SensorSample, Speech, StopState, Truth, WorldState);

@@ -7,9 +7,12 @@ use crate::watch::Watch;
 use coact_control::Control;
 use coact_fields::Network;
 use coact_joint_task::NetworkPlan;
-use coact_messages::{Command, FieldFrame, Percept, Plausible, Pulse, SensorSample, Speech, topic};
+use coact_messages::{
+    Command, FieldFrame, HandPoints, Percept, Plausible, Pulse, SensorSample, Speech, topic,
+};
 use coact_perception::{Perception, PreshapeModel};
 use coact_period::PERIOD_NS;
+use coact_person::HandModel;
 use coact_realtime::{Judge, Message, Origin, Place};
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
@@ -20,10 +23,15 @@ use std::cell::RefCell;
 /// The stages, to be set back to an instant before each input.
 pub(crate) struct Stages {
     pub(crate) world: World,
+    /// The world of a person whose hand comes from outside.
+    live: World,
     pub(crate) perception: Perception,
     pub(crate) network: Network,
     pub(crate) control: Control,
 }
+
+/// So many periods the world lives with what it was told: some frames of its cameras.
+const SEEN: u64 = 40;
 
 thread_local! {
     static STAGES: RefCell<Option<Stages>> = const { RefCell::new(None) };
@@ -36,10 +44,13 @@ impl Stages {
         let limits = SafetyLimits::load(&settings.safety).unwrap();
         let (task, plan) = NetworkPlan::load(&settings.task).unwrap();
         let model = PreshapeModel::load(&settings.model).unwrap();
-        let own =
-            Settings { seed: 1, partner: Partner::Synthetic, mode: settings.world, drive: limits.drive };
+        let world = |partner| {
+            let own = Settings { seed: 1, partner, mode: settings.world, drive: limits.drive };
+            World::new(&task, &robot, own).unwrap()
+        };
         Self {
-            world: World::new(&task, &robot, own).unwrap(),
+            world: world(Partner::Synthetic),
+            live: world(Partner::Hand),
             perception: Perception::new(&task, &model).unwrap().with_robot(robot.clone()),
             network: Network::new(plan, task.fingerprint, 1).unwrap(),
             control: Control::new(robot, &task, &limits).unwrap(),
@@ -75,6 +86,23 @@ impl Stages {
         command.header.cycle = tick;
         good(&*command);
         self.obey(instant, &command);
+    }
+
+    /// Some periods of the world of a person whose hand is told to be there.
+    fn see(&mut self, instant: &Instant, hand: &HandPoints) {
+        self.live.resume(&instant.state).unwrap();
+        let Instant { sample, truth, state, .. } = instant;
+        let (mut sample, mut truth, mut state) = (sample.clone(), truth.clone(), state.clone());
+        for tick in instant.tick + 1..=instant.tick + SEEN {
+            self.live.show_hand(&hand.position);
+            self.live.step(tick, Some(&instant.command), &mut sample, &mut truth, &mut state);
+            for header in [&mut sample.header, &mut truth.header, &mut state.header] {
+                header.cycle = tick;
+            }
+            good(&*sample);
+            good(&*truth);
+            good(&*state);
+        }
     }
 
     /// One period of the world with this command.
@@ -215,6 +243,17 @@ pub(crate) fn speech(bytes: &[u8]) -> bool {
         stages.obey(&INSTANTS[0], &INSTANTS[0].command);
     });
     Watch::with(|monitor| monitor.speech(&speech, &mut Vec::new()));
+    true
+}
+
+/// A hand from outside, at a part of the person's.
+pub(crate) fn hand(bytes: &[u8]) -> bool {
+    let instant = &INSTANTS[0];
+    let mut hand: HandPoints = bytemuck::Zeroable::zeroed();
+    let points = HandModel::new(&task().scene).reaching(glam::DVec3::new(-0.98, 0.02, 0.81), -1.3, 0.1);
+    (hand.header, hand.position) = (instant.sample.header, points.map(|point| point.to_array()));
+    let Some(hand) = next_of(&hand, instant.tick, bytes, topic::HAND) else { return false };
+    Stages::with(|stages| stages.see(instant, &hand));
     true
 }
 

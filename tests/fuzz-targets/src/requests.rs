@@ -1,6 +1,7 @@
 //! What is asked of a run: on its socket, on the command line.
 
 use crate::configuration::{taken, task};
+use coact_person::HandModel;
 use coact_supervisor::{Injection, read_request};
 use coact_world::Partner;
 
@@ -10,6 +11,12 @@ pub(crate) fn control_request(bytes: &[u8]) -> bool {
 
 pub(crate) fn injection(bytes: &[u8]) -> bool {
     std::str::from_utf8(bytes).is_ok_and(|text| taken(text.parse::<Injection>()).is_some())
+}
+
+/// A line of `coact hand`.
+pub(crate) fn hand_line(bytes: &[u8]) -> bool {
+    let Ok(line) = std::str::from_utf8(bytes) else { return false };
+    taken(coact::hand::keypoints(line, &HandModel::new(&task().scene))).is_some()
 }
 
 /// Only the words: which files are read, this target must not choose.

@@ -10,7 +10,7 @@ const fn target(
 }
 
 /// Every target.
-pub const TARGETS: [Target; 43] = [
+pub const TARGETS: [Target; 45] = [
     target("process-table", Input::Text, &["rt-config/pipeline.toml"], configuration::process_table),
     target("safety-limits", Input::Text, &["rt-config/safety.toml"], configuration::safety_limits),
     target("verdict-rules", Input::Text, &["rt-config/verdict.toml"], configuration::verdict_rules),
@@ -48,6 +48,7 @@ pub const TARGETS: [Target; 43] = [
     target("control-request", Input::Text, &[], requests::control_request),
     target("injection", Input::Text, &[], requests::injection),
     target("partner", Input::Text, &[], requests::partner),
+    target("hand-line", Input::Text, &[], requests::hand_line),
     target("message-sample", Input::Patch, &[], messages::sample),
     target("message-percept", Input::Patch, &[], messages::percept),
     target("message-frame", Input::Patch, &[], messages::frame),
@@ -55,6 +56,7 @@ pub const TARGETS: [Target; 43] = [
     target("message-truth", Input::Patch, &[], messages::truth),
     target("message-world-state", Input::Patch, &[], messages::world_state),
     target("message-speech", Input::Patch, &[], messages::speech),
+    target("message-hand", Input::Patch, &[], messages::hand),
     target("message-pulse", Input::Patch, &[], messages::pulse),
     target("state-perception", Input::Patch, &[], states::perception),
     target("state-control", Input::Patch, &[], states::control),

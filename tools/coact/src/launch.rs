@@ -1,7 +1,7 @@
 use crate::installation::Installation;
 use crate::report_folder::unused_report_folder;
 use crate::{closed_pipe, lockstep, partner, run_report, snapshots};
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
 use coact_pipeline::{Pipeline, RunSettings, WorldMode};
@@ -27,6 +27,7 @@ const RECORDER: &str = "recorder";
   coact launch --partner recorded                     hands of real people; recorded:DIR for others
   coact launch --partner right-arm:FILE               an arm of motion capture, that takes no part
   coact launch --record --report reports/long         all that was seen and decided, in run.mcap
+  coact launch --partner hand                         a hand from outside; see coact hand --help
   coact launch --lockstep --world kinematic --json    as fast as the machine can
 
 Exit status: 0 the work was done (with --strict: in time, too), 1 it was not, 2 bad usage or configuration.")]
@@ -35,7 +36,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     task: Option<PathBuf>,
     /// Who works with the robot: synthetic, random[:KEY=VALUE,...], script:FILE, recorded,
-    /// recorded:DIR, left-arm:FILE or right-arm:FILE
+    /// recorded:DIR, left-arm:FILE, right-arm:FILE, or hand: a hand that comes from outside (coact hand)
     #[arg(long, default_value = "synthetic")]
     partner: String,
     /// Seed of everything random
@@ -119,6 +120,10 @@ fn show(settings: &RunSettings, json: bool, strict: bool) -> Result<ExitCode> {
 
 /// Reads and checks every file before anything is started.
 fn prepare(args: Args) -> Result<Launch> {
+    ensure!(
+        !args.lockstep || args.partner != Partner::HAND,
+        "--lockstep with --partner hand: nobody can move a hand as fast as the machine can; expected one of the two"
+    );
     let Installation { programs, configuration, reaches } = Installation::find()?;
     let shipped = RunSettings::shipped(&configuration);
     let requested = args.record.then_some(RECORDER);

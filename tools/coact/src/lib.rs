@@ -5,6 +5,8 @@ mod adopt;
 mod check;
 /// Readers who have seen enough.
 pub mod closed_pipe;
+/// The hand of a partner from outside.
+pub mod hand;
 mod inject;
 /// Where programs, configuration and data are.
 pub mod installation;
@@ -66,6 +68,20 @@ enum Command {
     Say(say::Args),
     /// Ask the robot of a running process set why it does what it does
     Why(why::Args),
+    /// Move the hand of a running process set's partner, as lines on standard input say
+    ///
+    /// Each line is a JSON array of numbers, and moves the hand when it comes: some 60 a second, at most 250. When none has come
+    /// for 100 ms, the robot does not see the hand any more. Lengths are in m, in the world frame of the task file.
+    ///
+    /// 27 numbers: x, y, z of shoulder, elbow, wrist, palm base, thumb tip, index knuckle, index tip, middle tip and
+    /// little-finger knuckle of the right arm.
+    ///
+    /// 5 numbers: x, y, z of the middle between thumb tip and index tip, the hand's pitch in degrees (-90: it points straight
+    /// down, 0: it lies flat), and the distance of the two tips; arm and hand are then those of an adult at the person's place.
+    ///
+    /// Fingers that close around a part take it: they are 16 mm farther apart then than it is wide. Fingers that open let it
+    /// go. An open hand that is held out, flat, where parts change hands asks for one.
+    Hand(hand::Args),
     /// Show how punctual and how fast a run was, or is
     Latency(latency::Args),
     /// Draw a run's snapshots: pictures of who took what
@@ -100,6 +116,7 @@ fn run(arguments: &[OsString]) -> Result<ExitCode> {
         Command::Inject(args) => inject::run(args),
         Command::Say(args) => say::run(args),
         Command::Why(args) => why::run(args),
+        Command::Hand(args) => hand::run(args),
         Command::Latency(args) => latency::run(args),
         Command::Snapshots(args) => snapshots::run(args),
     }

@@ -156,6 +156,11 @@ impl Lockstep {
         self.world.hear(sentence);
     }
 
+    /// A program outside has told where the person's hand is, m: for a partner whose hand comes from outside.
+    pub fn show_hand(&mut self, points: &[[f64; 3]; 9]) {
+        self.world.show_hand(points);
+    }
+
     /// Says why the joints may not move from now on, if there is a reason: they brake and stand.
     pub fn hold(&mut self, reason: HoldReason) {
         self.world.hold(reason);

@@ -23,7 +23,7 @@ impl World {
         let capture = || match person.recorded_keypoints(moved, tick) {
             _ if blind || staging.is_blind(Sense::Hand, tick) => Capture::Nothing,
             Some(keypoints) => Capture::Recorded(keypoints),
-            None if person.is_lost(tick) => Capture::Nothing,
+            None if person.is_lost(moved, tick) => Capture::Nothing,
             None => Capture::Simulated(person.keypoints(moved, tick)),
         };
         track(tick, last, random, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
@@ -74,6 +74,9 @@ impl World {
     /// Shoulder, elbow, wrist and middle finger tip, as they are.
     fn person_arm(&self) -> [[f64; 3]; 4] {
         let person = &self.simulation.person;
+        if self.person.is_unknown(person, self.simulation.tick) {
+            return [[0.0; 3]; 4];
+        }
         let points = match self.person.recorded_keypoints(person, self.simulation.tick) {
             Some(recorded) => recorded.map(|point| point.position),
             None => self.person.keypoints(person, self.simulation.tick).map(|point| point.to_array()),

@@ -6,6 +6,7 @@ mod grasping;
 mod handover;
 mod hidden;
 mod inserting;
+mod live;
 mod manipulator;
 mod mistakes;
 mod partner;
