@@ -78,8 +78,8 @@ def reach(rows, metres):
     first, last = frames[0][1], frames[-1][1]
     way = [b - a for a, b in zip(first, last)]
     covered = lambda at: sum((a - b) * c for a, b, c in zip(at, first, way)) / sum(c * c for c in way)
-    # The person grasped a cube: what the fingers had around it, they have around the wheel now.
-    wider = AROUND - 0.003 - frames[-1][2]
+    # The person's fingers arrived at a cube; here they arrive around the wheel, open, whatever the image foreshortens.
+    wider = OPEN - frames[-1][2]
     return [(when, covered(at), min(aperture + wider, 0.18)) for when, at, aperture in frames]
 
 
@@ -132,6 +132,7 @@ def main():
     hand = Hand()
     hand.stay(2.0)
     hand.play(reach(trials[chosen.trial], scale(trials)), WHEEL)
+    # They close.
     hand.go(WHEEL, FROM_ABOVE, AROUND - 0.003, 0.15)
     hand.go(SOCKET, FROM_ABOVE, AROUND - 0.003, 0.9, arch=0.06)
     hand.stay(1.5)

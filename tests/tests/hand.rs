@@ -86,9 +86,9 @@ fn a_hand_from_outside_is_seen_while_it_is_told_and_its_teller_may_die() {
     let keypoints = samples.latest().unwrap().hand.keypoints;
     let (thumb, index) =
         (keypoints[KeypointName::ThumbTip as usize], keypoints[KeypointName::IndexTip as usize]);
-    for axis in 0..3 {
-        let middle = 0.5 * (thumb.position[axis] + index.position[axis]);
-        assert!((middle - HAND[axis]).abs() < 0.02, "axis {axis}: {middle} m");
+    for ((thumb, index), told) in thumb.position.iter().zip(index.position).zip(HAND) {
+        let middle = 0.5 * (thumb + index);
+        assert!((middle - told).abs() < 0.02, "{middle} m instead of {told}");
     }
     child.kill().unwrap();
     child.wait().unwrap();

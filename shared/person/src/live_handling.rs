@@ -86,12 +86,13 @@ impl Person {
         }
         if near.is_none() {
             state.between = Slot::EMPTY;
-            if is_held_out(state, around, fingers) && state.phase() != ActivityPhase::Show {
-                if let Some(request) = around.meaning_of_gesture(fingers.pitch) {
-                    begin(state, around, request);
-                    state.ended = around.tick;
-                    return turn_to(ActivityPhase::Show, state, around);
-                }
+            if is_held_out(state, around, fingers)
+                && state.phase() != ActivityPhase::Show
+                && let Some(request) = around.meaning_of_gesture(fingers.pitch)
+            {
+                begin(state, around, request);
+                state.ended = around.tick;
+                return turn_to(ActivityPhase::Show, state, around);
             }
         }
         turn_to(empty_phase(state, around, fingers, near.is_some()), state, around);
