@@ -72,8 +72,14 @@ pub(crate) fn hand_links(
     Ok(links)
 }
 
-/// Each link below the palm: the joints from the palm to it, and its forms in the frame of the last of them.
-pub(crate) fn finger_chains(mechanism: &Mechanism) -> Result<Vec<(Vec<Joint>, Vec<Link>)>, RobotError> {
+/// A link below the palm: the joints from the palm to it, and its forms in the frame of the last of them.
+pub(crate) struct FingerChain {
+    pub joints: Vec<Joint>,
+    pub links: Vec<Link>,
+}
+
+/// All links below the palm.
+pub(crate) fn finger_chains(mechanism: &Mechanism) -> Result<Vec<FingerChain>, RobotError> {
     let arm = mechanism.joints();
     let mut chains = Vec::new();
     for link in mechanism.urdf.links() {
@@ -81,7 +87,7 @@ pub(crate) fn finger_chains(mechanism: &Mechanism) -> Result<Vec<(Vec<Joint>, Ve
         if joints.len() > arm && is_along(mechanism, &joints[..arm]) {
             let mut links = Vec::new();
             push(mechanism, link, arm, &tail, true, &mut links)?;
-            chains.push((joints[arm..].to_vec(), links));
+            chains.push(FingerChain { joints: joints[arm..].to_vec(), links });
         }
     }
     Ok(chains)

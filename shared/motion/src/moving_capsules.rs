@@ -1,5 +1,6 @@
+use crate::collision_geometry::{self, FingerChain};
 use crate::frames::Frames;
-use crate::{Capsule, Mechanism, collision_geometry};
+use crate::{Capsule, Mechanism};
 use coact_robot::{HAND_JOINTS, Hand, Joint, Posture, RobotError};
 use nalgebra::Isometry3;
 
@@ -45,7 +46,7 @@ impl MovingCapsules {
         let mut of_hand: Vec<bool> = moving.clone().map(|link| link.hand).collect();
         let arm = moving.map(|link| (link.carriers, link.bounding_capsule)).collect();
         let mut fingers = Vec::new();
-        for (joints, links) in collision_geometry::finger_chains(mechanism)? {
+        for FingerChain { joints, links } in collision_geometry::finger_chains(mechanism)? {
             let joints: Vec<_> = joints.iter().map(|joint| FingerJoint::of(mechanism, hand, joint)).collect();
             fingers.extend(
                 links
