@@ -163,11 +163,9 @@ impl Recording {
                 let data = data.into_owned();
                 self.schemas.insert(header.id, (header.name, data));
             }
-            Record::Channel(channel) if channel.message_encoding == ENCODING => {
-                if self.channels.len() < MOST_CHANNELS {
-                    self.expect_layout(&channel.topic, channel.schema_id)?;
-                    self.channels.insert(channel.id, channel.topic);
-                }
+            Record::Channel(channel) if self.is_ours(&channel.message_encoding) => {
+                self.expect_layout(&channel.topic, channel.schema_id)?;
+                self.channels.insert(channel.id, channel.topic);
             }
             Record::Message { header, data } => {
                 if let Some(topic) = self.channels.get(&header.channel_id) {
@@ -180,6 +178,11 @@ impl Recording {
         }
         self.read = self.chunk.len() - left;
         Ok(message)
+    }
+
+    /// Whether a channel of this encoding is read; there are not so many that others would be left out.
+    fn is_ours(&self, encoding: &str) -> bool {
+        encoding == ENCODING && self.channels.len() < MOST_CHANNELS
     }
 
     /// Messages are taken as they are: only those that lie in memory as they do here.

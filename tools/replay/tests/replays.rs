@@ -166,6 +166,24 @@ fn late_inputs_skipped_cycles_and_replacements_are_computed_as_they_were() {
 }
 
 #[test]
+fn a_standby_s_account_of_its_stage_s_frame_misleads_nobody() {
+    let recorded = Run::of(|cycle| Cycle { percept_is_late: cycle % 5 == 2, ..Cycle::default() });
+    // The standby waits on the newest percept while its stage sends a frame that was computed on the one before.
+    let with_standby = recorded.into_iter().flat_map(|message| {
+        let standby = match &message {
+            Recorded::Pulse { process, pulse } if process == "fields" => {
+                let newest = Header { published_ns: pulse.header.cycle * PERIOD_NS + 2, ..pulse.header };
+                Some(self::pulse("fields-standby", &pulse.header, &newest))
+            }
+            _ => None,
+        };
+        standby.into_iter().chain([message])
+    });
+    let report = replayed(&with_standby.collect::<Vec<_>>()).unwrap();
+    assert!(report.equal && report.frames.computed == CYCLES, "{report:?}");
+}
+
+#[test]
 fn the_first_message_that_differs_is_named_by_its_cycle_and_field() {
     let mut recorded = Run::of(|_| Cycle::default());
     for message in &mut recorded {
