@@ -109,7 +109,7 @@ impl Run {
         self.frame.header = header(cycle, self.sequences[1], sensor_ns, cycle * PERIOD_NS + 3, 0);
         self.sequences[1] += 1;
         self.recorded.push(pulse("fields", &self.frame.header, &percept.header));
-        if cycle % FRAMES_EVERY == 0 {
+        if cycle.is_multiple_of(FRAMES_EVERY) {
             self.recorded.push(Recorded::Frame(self.frame.clone()));
         }
     }
