@@ -1,6 +1,6 @@
 use crate::{Gaps, RecorderSettings};
 use coact_messages::{Command, FieldFrame, Percept, Pulse, SensorSample, Speech, topic};
-use coact_pipeline::{Pipeline, Trigger};
+use coact_pipeline::{Pipeline, ProcessEntry, Trigger};
 use coact_realtime::{Bus, Input, Message, PortError};
 use coact_run_recording::Recorded;
 
@@ -11,9 +11,17 @@ pub struct Topics {
     frames: Input<FieldFrame>,
     commands: Input<Command>,
     speech: Input<Speech>,
-    pulses: Vec<(String, Input<Pulse>)>,
+    pulses: Vec<Pulses>,
     frames_due: Due,
     commands_due: Due,
+}
+
+/// The pulses of one process.
+struct Pulses {
+    process: String,
+    input: Input<Pulse>,
+    /// Whether it alone sends its topic's messages. Of two that send in turn none has all sequences: nothing is missing there.
+    is_alone: bool,
 }
 
 /// Keeps one message in so many cycles.
@@ -40,7 +48,10 @@ impl Topics {
     pub fn open(bus: &Bus, pipeline: &Pipeline, settings: RecorderSettings) -> Result<Self, PortError> {
         let mut pulses = Vec::new();
         for entry in pipeline.processes.iter().filter(|entry| entry.trigger != Trigger::None) {
-            pulses.push((entry.name.clone(), bus.input(&topic::pulse(&entry.name))?));
+            let shares = |other: &ProcessEntry| other.standby_of.as_ref() == Some(&entry.name);
+            let is_alone = entry.standby_of.is_none() && !pipeline.processes.iter().any(shares);
+            let input = bus.input(&topic::pulse(&entry.name))?;
+            pulses.push(Pulses { process: entry.name.clone(), input, is_alone });
         }
         Ok(Self {
             samples: bus.input(topic::SENSORS)?,
@@ -67,13 +78,28 @@ impl Topics {
         let Self { samples, percepts, frames, commands, speech, pulses, frames_due, commands_due } = self;
         each(samples, gaps, keep, |sample| Recorded::Sample(Box::new(*sample)))?;
         each(percepts, gaps, keep, |percept| Recorded::Percept(Box::new(*percept)))?;
-        for (process, input) in pulses {
+        for Pulses { process, input, is_alone } in pulses {
             let pulse = |pulse: &Pulse| Recorded::Pulse { process: process.clone(), pulse: Box::new(*pulse) };
-            each(input, gaps, keep, pulse)?;
+            match is_alone {
+                true => each(input, gaps, keep, pulse)?,
+                false => some(input, |_| true, gaps, keep, pulse)?,
+            }
         }
         each(speech, gaps, keep, |speech| Recorded::Speech(Box::new(*speech)))?;
-        some(frames, frames_due, gaps, keep, |frame| Recorded::Frame(Box::new(*frame)))?;
-        some(commands, commands_due, gaps, keep, |command| Recorded::Command(Box::new(*command)))
+        some(
+            frames,
+            |cycle| frames_due.is_due(cycle),
+            gaps,
+            keep,
+            |frame| Recorded::Frame(Box::new(*frame)),
+        )?;
+        some(
+            commands,
+            |cycle| commands_due.is_due(cycle),
+            gaps,
+            keep,
+            |command| Recorded::Command(Box::new(*command)),
+        )
     }
 }
 
@@ -94,17 +120,17 @@ fn each<T: Message>(
     Ok(())
 }
 
-/// The messages that are due.
+/// The messages of the cycles that are due; nobody can tell what is missing between them.
 fn some<T: Message>(
     input: &mut Input<T>,
-    due: &mut Due,
+    mut is_due: impl FnMut(u64) -> bool,
     gaps: &mut Gaps,
     keep: &mut impl FnMut(Recorded) -> bool,
     record: impl Fn(&T) -> Recorded,
 ) -> Result<(), PortError> {
     let topic = input.topic().to_owned();
     input.each(|message| {
-        if due.is_due(message.header().cycle) && !keep(record(message)) {
+        if is_due(message.header().cycle) && !keep(record(message)) {
             gaps.lose(&topic, 1);
         }
     })?;

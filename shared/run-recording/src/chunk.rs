@@ -1,6 +1,5 @@
 //! What is in a chunk of a recording, taken out of it without trusting it.
 
-use mcap::records::ChunkHeader;
 use std::io::Read;
 
 /// No chunk and no record of a recording is longer, bytes: eight times what is written.
@@ -9,27 +8,36 @@ pub(crate) const LONGEST: usize = 32 << 20;
 /// A record: its kind, and its bytes.
 pub(crate) type RawRecord<'a> = (u8, &'a [u8]);
 
-/// Decompresses a chunk, and checks it.
-///
-/// # Errors
-/// What is wrong with it, in words.
-pub(crate) fn decompress(header: &ChunkHeader, data: &[u8]) -> Result<Vec<u8>, String> {
-    let compression = header.compression.as_str();
-    let mut records = Vec::new();
-    let read = match compression {
-        "" => data.take(LONGEST as u64 + 1).read_to_end(&mut records),
-        "lz4" => lz4::Decoder::new(data)
-            .and_then(|decoder| decoder.take(LONGEST as u64 + 1).read_to_end(&mut records)),
-        _ => return Err(format!("a chunk is compressed by \"{compression}\"; expected lz4")),
-    };
-    read.map_err(|error| format!("a chunk is damaged: {error}"))?;
-    if records.len() > LONGEST {
-        return Err(format!("a chunk holds more than {LONGEST} bytes"));
+/// A chunk, as it stands in the file.
+pub(crate) struct Chunk<'a> {
+    /// Of what it holds; 0: none.
+    pub checksum: u32,
+    pub compression: &'a str,
+    pub data: &'a [u8],
+}
+
+impl Chunk<'_> {
+    /// What it holds, checked.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn decompress(&self) -> Result<Vec<u8>, String> {
+        let Self { checksum, compression, data } = *self;
+        let (mut records, most) = (Vec::new(), LONGEST as u64 + 1);
+        let read = match compression {
+            "" => data.take(most).read_to_end(&mut records),
+            "lz4" => lz4::Decoder::new(data).and_then(|decoder| decoder.take(most).read_to_end(&mut records)),
+            _ => return Err(format!("a chunk is compressed by \"{compression}\"; expected lz4")),
+        };
+        read.map_err(|error| format!("a chunk is damaged: {error}"))?;
+        if records.len() > LONGEST {
+            return Err(format!("a chunk holds more than {LONGEST} bytes"));
+        }
+        if checksum != 0 && crc32fast::hash(&records) != checksum {
+            return Err("a chunk is damaged: its checksum is another one".to_owned());
+        }
+        Ok(records)
     }
-    if header.uncompressed_crc != 0 && crc32fast::hash(&records) != header.uncompressed_crc {
-        return Err("a chunk is damaged: its checksum is another one".to_owned());
-    }
-    Ok(records)
 }
 
 /// Takes the first record off.

@@ -28,6 +28,7 @@ mod chunk;
 mod json_schema;
 mod message_kind;
 mod origin;
+mod record;
 mod recorded;
 mod recording;
 mod recording_error;

@@ -1,11 +1,11 @@
-use crate::chunk::{LONGEST, decompress, split_record};
+use crate::chunk::{LONGEST, split_record};
 use crate::message_kind::MessageKind;
+use crate::record::Record;
 use crate::recording_writer::{ENCODING, RecordingWriter};
 use crate::{Origin, Recorded, RecordingError};
 use coact_input_file::Files;
-use mcap::records::{Metadata, Record, op};
+use mcap::McapError;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
-use mcap::{McapError, parse_record};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Read;
@@ -28,7 +28,7 @@ pub struct Recording {
     /// Records of the present chunk, and how much of them was read.
     chunk: Vec<u8>,
     read: usize,
-    schemas: BTreeMap<u16, (String, Vec<u8>)>,
+    schemas: BTreeMap<u16, Vec<u8>>,
     /// Topics of our own messages.
     channels: BTreeMap<u16, String>,
     end: Option<BTreeMap<String, u64>>,
@@ -106,15 +106,15 @@ impl Recording {
         let mut has_settings = false;
         while let Next::Record(kind, body) = self.next_record()? {
             match self.parse(kind, &body)? {
-                Record::Metadata(metadata) if metadata.name == Origin::NAME => {
-                    let origin = Origin::from_metadata(&metadata.metadata);
+                Record::Metadata { name: Origin::NAME, entries } => {
+                    let origin = Origin::from_metadata(&entries);
                     self.origin =
                         origin.map_err(|key| self.malformed(format!("says no {key} of its run")))?;
                     has_settings = true;
                 }
-                Record::Attachment { header, data, .. } => self.attach(&header.name, data.into_owned())?,
-                Record::Chunk { header, data } => {
-                    self.chunk = decompress(&header, &data).map_err(|problem| self.malformed(problem))?;
+                Record::Attachment { name, contents } => self.attach(name, contents)?,
+                Record::Chunk(chunk) => {
+                    self.chunk = chunk.decompress().map_err(|problem| self.malformed(problem))?;
                     break;
                 }
                 _ => {}
@@ -126,25 +126,25 @@ impl Recording {
         }
     }
 
-    fn attach(&mut self, name: &str, contents: Vec<u8>) -> Result<(), RecordingError> {
+    fn attach(&mut self, name: &str, contents: &[u8]) -> Result<(), RecordingError> {
         let files: &mut Files = &mut self.origin.files;
         let total: usize = files.iter().map(|(_, contents)| contents.len()).sum();
         if total + contents.len() > LONGEST_FILES {
             return Err(self.malformed(format!("its files are longer than {LONGEST_FILES} bytes")));
         }
-        files.insert(Path::new(name), contents);
+        files.insert(Path::new(name), contents.to_vec());
         Ok(())
     }
 
     fn outside_chunk(&mut self, kind: u8, body: &[u8]) -> Result<(), RecordingError> {
         match self.parse(kind, body)? {
-            Record::Chunk { header, data } => {
-                self.chunk = decompress(&header, &data).map_err(|problem| self.malformed(problem))?;
+            Record::Chunk(chunk) => {
+                self.chunk = chunk.decompress().map_err(|problem| self.malformed(problem))?;
                 self.read = 0;
             }
-            Record::Metadata(Metadata { name, metadata }) if name == RecordingWriter::END => {
+            Record::Metadata { name: RecordingWriter::END, entries } => {
                 let count = |(topic, count): (String, String)| Some((topic, count.parse().ok()?));
-                self.end = metadata.into_iter().map(count).collect();
+                self.end = entries.into_iter().map(count).collect();
             }
             _ => {}
         }
@@ -159,19 +159,16 @@ impl Recording {
         let record = self.parse(kind, body)?;
         let mut message = None;
         match record {
-            Record::Schema { header, data } if self.schemas.len() < MOST_CHANNELS => {
-                let data = data.into_owned();
-                self.schemas.insert(header.id, (header.name, data));
+            Record::Schema { id, text } if self.schemas.len() < MOST_CHANNELS => {
+                self.schemas.entry(id).or_insert_with(|| text.to_vec());
             }
-            Record::Channel(channel) if channel.message_encoding == ENCODING => {
-                if self.channels.len() < MOST_CHANNELS {
-                    self.expect_layout(&channel.topic, channel.schema_id)?;
-                    self.channels.insert(channel.id, channel.topic);
-                }
+            Record::Channel { id, schema, topic, encoding: ENCODING } if self.is_new_channel(id) => {
+                self.expect_layout(topic, schema)?;
+                self.channels.insert(id, topic.to_owned());
             }
-            Record::Message { header, data } => {
-                if let Some(topic) = self.channels.get(&header.channel_id) {
-                    let read = Recorded::read(topic, &data);
+            Record::Message { channel, data } => {
+                if let Some(topic) = self.channels.get(&channel) {
+                    let read = Recorded::read(topic, data);
                     let wrong = || self.malformed(format!("a message of {topic} has {} bytes", data.len()));
                     message = Some(read.ok_or_else(wrong)?);
                 }
@@ -182,13 +179,18 @@ impl Recording {
         Ok(message)
     }
 
+    /// Whether a channel is to be looked at: a file may tell of each several times, but of no more than a run can have.
+    fn is_new_channel(&self, id: u16) -> bool {
+        !self.channels.contains_key(&id) && self.channels.len() < MOST_CHANNELS
+    }
+
     /// Messages are taken as they are: only those that lie in memory as they do here.
     fn expect_layout(&self, topic: &str, schema: u16) -> Result<(), RecordingError> {
         let Some(kind) = MessageKind::of(topic) else {
             return Err(self.malformed(format!("holds a topic that no run has: {topic}")));
         };
         let expected = kind.description.to_string();
-        let found = self.schemas.get(&schema).map_or("", |(_, text)| std::str::from_utf8(text).unwrap_or(""));
+        let found = self.schemas.get(&schema).map_or("", |text| std::str::from_utf8(text).unwrap_or(""));
         if found == expected {
             return Ok(());
         }
@@ -233,26 +235,10 @@ impl Recording {
     }
 
     fn parse<'a>(&self, kind: u8, body: &'a [u8]) -> Result<Record<'a>, RecordingError> {
-        // The library takes for granted that an attachment is as long as it says.
-        if kind == op::ATTACHMENT && attachment_length(body) != Some(body.len() as u64) {
-            return Err(self.malformed("an attached file has another length than it says"));
-        }
-        parse_record(kind, body).map_err(|error| self.malformed(error.to_string()))
+        Record::parse(kind, body).ok_or_else(|| self.malformed(format!("a record of kind {kind} is damaged")))
     }
 
     fn malformed(&self, problem: impl Into<String>) -> RecordingError {
         RecordingError::Malformed { path: self.path.clone(), problem: problem.into() }
     }
-}
-
-/// How long an attachment is, by its own words: two times, name, media type, contents, checksum.
-fn attachment_length(body: &[u8]) -> Option<u64> {
-    let number = |at: u64| {
-        let bytes = body.get(usize::try_from(at).ok()?..)?.first_chunk::<4>()?;
-        Some(u64::from(u32::from_le_bytes(*bytes)))
-    };
-    let media_type = 20_u64.checked_add(number(16)?)?;
-    let contents = media_type.checked_add(4)?.checked_add(number(media_type)?)?;
-    let bytes = body.get(usize::try_from(contents).ok()?..)?.first_chunk::<8>()?;
-    contents.checked_add(8)?.checked_add(u64::from_le_bytes(*bytes))?.checked_add(4)
 }

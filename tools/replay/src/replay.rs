@@ -6,6 +6,7 @@ use crate::stage_replay::{Input, StageReplay};
 use crate::stages::Stages;
 use crate::{ReplayError, ReplayReport};
 use coact_messages::{FieldFrame, Header, Percept, Pulse, SensorSample, topic};
+use coact_realtime::Message;
 use coact_run_recording::{Recorded, Recording};
 use std::path::Path;
 
@@ -86,13 +87,7 @@ impl Replay {
         if !self.perception.is_news(header) {
             return;
         }
-        let sensor_ns = header.sensor_ns;
-        let input = match pulse {
-            Some(pulse) if pulse.input_published_ns == 0 => Input::Known(None),
-            Some(pulse) => found(self.samples.published_at(pulse.input_published_ns)),
-            None if sensor_ns == 0 => Input::Known(None),
-            None => found(self.samples.newest(|sample| sample.header.sensor_ns == sensor_ns)),
-        };
+        let input = input_of(&self.samples, header, pulse);
         self.perception.compute(header, input);
         if let Some(percept) = self.perception.newest() {
             self.percepts.keep(header.published_ns, Box::new(*percept));
@@ -114,13 +109,7 @@ impl Replay {
         if !self.fields.is_news(header) {
             return;
         }
-        let sensor_ns = header.sensor_ns;
-        let input = match pulse {
-            Some(pulse) if pulse.input_published_ns == 0 => Input::Known(None),
-            Some(pulse) => found(self.percepts.published_at(pulse.input_published_ns)),
-            None if sensor_ns == 0 => Input::Known(None),
-            None => found(self.percepts.newest(|percept| percept.header.sensor_ns == sensor_ns)),
-        };
+        let input = input_of(&self.percepts, header, pulse);
         self.fields.compute(header, input);
     }
 
@@ -152,6 +141,16 @@ impl Replay {
     }
 }
 
-fn found<T>(input: Option<&T>) -> Input<'_, T> {
-    input.map_or(Input::Lost, |input| Input::Known(Some(input)))
+/// What the output with this header was computed on. Its pulse says so; where that is lost, or is of the other instance of a stage
+/// that has a standby and tells of an input of its own, the sample that the output descends from does.
+fn input_of<'a, T: Message>(kept: &'a Kept<T>, header: &Header, pulse: Option<&Pulse>) -> Input<'a, T> {
+    let descends = |input: &T| input.header().sensor_ns == header.sensor_ns;
+    if header.sensor_ns == 0 && pulse.is_some_and(|pulse| pulse.input_published_ns == 0) {
+        return Input::Known(None);
+    }
+    let told = pulse.and_then(|pulse| kept.published_at(pulse.input_published_ns));
+    match told.filter(|input| descends(input)).or_else(|| kept.newest(descends)) {
+        None if header.sensor_ns != 0 => Input::Lost,
+        input => Input::Known(input),
+    }
 }

@@ -109,7 +109,7 @@ impl Run {
         self.frame.header = header(cycle, self.sequences[1], sensor_ns, cycle * PERIOD_NS + 3, 0);
         self.sequences[1] += 1;
         self.recorded.push(pulse("fields", &self.frame.header, &percept.header));
-        if cycle % FRAMES_EVERY == 0 {
+        if cycle.is_multiple_of(FRAMES_EVERY) {
             self.recorded.push(Recorded::Frame(self.frame.clone()));
         }
     }
@@ -163,6 +163,24 @@ fn late_inputs_skipped_cycles_and_replacements_are_computed_as_they_were() {
     assert_eq!((report.percepts.compared, report.percepts.not_compared), (CYCLES - skipped, 0));
     assert_eq!((report.frames.compared, report.frames.computed), (CYCLES / FRAMES_EVERY, CYCLES));
     assert!(report.decisions >= 1 && !report.same_code, "{report:?}");
+}
+
+#[test]
+fn a_standby_s_account_of_its_stage_s_frame_misleads_nobody() {
+    let recorded = Run::of(|cycle| Cycle { percept_is_late: cycle % 5 == 2, ..Cycle::default() });
+    // The standby waits on the newest percept while its stage sends a frame that was computed on the one before.
+    let with_standby = recorded.into_iter().flat_map(|message| {
+        let standby = match &message {
+            Recorded::Pulse { process, pulse } if process == "fields" => {
+                let newest = Header { published_ns: pulse.header.cycle * PERIOD_NS + 2, ..pulse.header };
+                Some(self::pulse("fields-standby", &pulse.header, &newest))
+            }
+            _ => None,
+        };
+        standby.into_iter().chain([message])
+    });
+    let report = replayed(&with_standby.collect::<Vec<_>>()).unwrap();
+    assert!(report.equal && report.frames.computed == CYCLES, "{report:?}");
 }
 
 #[test]
