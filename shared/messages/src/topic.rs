@@ -37,7 +37,7 @@ pub const SPEECH: &str = "coact/speech";
 /// sample.
 pub const HEARD: &str = "coact/heard";
 
-/// [`HandPoints`](crate::HandPoints) of a person whose hand comes from outside (`--partner hand`). The world shows it to its
+/// [`HandPoints`] of a person whose hand comes from outside (`--partner hand`). The world shows it to its
 /// tracker.
 pub const HAND: &str = "coact/hand";
 

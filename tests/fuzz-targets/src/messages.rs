@@ -24,7 +24,7 @@ use std::cell::RefCell;
 pub(crate) struct Stages {
     pub(crate) world: World,
     /// The world of a person whose hand comes from outside.
-    live: World,
+    pub(crate) live: World,
     pub(crate) perception: Perception,
     pub(crate) network: Network,
     pub(crate) control: Control,

@@ -55,14 +55,20 @@ pub(crate) fn control(bytes: &[u8]) -> bool {
 }
 
 pub(crate) fn world(bytes: &[u8]) -> bool {
-    let (instant, state) = damaged(bytes, |instant| &*instant.state, |message| &mut message.state);
+    let (instant, damaged) = damaged(bytes, |instant| &*instant.state, |message| &mut message.state);
     Stages::with(|stages| {
         stages.world.resume(&instant.state).unwrap();
-        let resumed = stages.world.resume(&state).is_ok();
+        let resumed = stages.world.resume(&damaged).is_ok();
         let Instant { sample, truth, state, .. } = instant;
         let (mut sample, mut truth, mut state) = (sample.clone(), truth.clone(), state.clone());
         for tick in instant.tick + 1..=instant.tick + GOES_ON {
             stages.world.step(tick, Some(&instant.command), &mut sample, &mut truth, &mut state);
+        }
+        // A person whose hand comes from outside does other things with the same state.
+        if stages.live.resume(&instant.state).and_then(|()| stages.live.resume(&damaged)).is_ok() {
+            for tick in instant.tick + 1..=instant.tick + GOES_ON {
+                stages.live.step(tick, Some(&instant.command), &mut sample, &mut truth, &mut state);
+            }
         }
         resumed
     })
