@@ -8,6 +8,7 @@
 
 mod explanation;
 mod network;
+mod pooled_input;
 mod projections;
 mod share;
 mod sources;

@@ -1,3 +1,4 @@
+use crate::pooled_input::PooledInput;
 use coact_joint_task::{NetworkPlan, Pool};
 
 /// Where each source projects to, laid out so that silent sources cost nothing: most of a network is silent.
@@ -10,7 +11,7 @@ pub(crate) struct Projections {
     /// Groups of synapses that count as one.
     groups: Vec<Group>,
     /// What each group has received from its sources in this step.
-    inputs: Vec<GroupInput>,
+    inputs: Vec<PooledInput>,
     /// The groups that have received anything in this step.
     active: Vec<u32>,
 }
@@ -30,15 +31,6 @@ struct Group {
     sources: u32,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct GroupInput {
-    sources: u32,
-    strongest: f64,
-    weakest: f64,
-}
-
-const NOTHING: GroupInput = GroupInput { sources: 0, strongest: 0.0, weakest: f64::INFINITY };
-
 impl Projections {
     pub fn of(plan: &NetworkPlan) -> Self {
         let sources = plan.populations.len() + plan.channels.len();
@@ -56,7 +48,7 @@ impl Projections {
                 groups.push(Group { pool, to, weight, sources: group.len() as u32 });
             }
         }
-        let inputs = vec![NOTHING; groups.len()];
+        let inputs = vec![PooledInput::NOTHING; groups.len()];
         Self { summed, pooled, active: Vec::with_capacity(groups.len()), groups, inputs }
     }
 
@@ -70,23 +62,16 @@ impl Projections {
             }
             for &group in &self.pooled[source] {
                 let input = &mut self.inputs[group as usize];
-                if input.sources == 0 {
+                if input.is_nothing() {
                     self.active.push(group);
                 }
-                input.sources += 1;
-                input.strongest = input.strongest.max(signal);
-                input.weakest = input.weakest.min(signal);
+                input.add(signal);
             }
         }
         for group in self.active.drain(..) {
             let Group { pool, to, weight, sources } = self.groups[group as usize];
-            let input = std::mem::replace(&mut self.inputs[group as usize], NOTHING);
-            let counts = match pool {
-                Pool::Every if input.sources < sources => 0.0,
-                Pool::Every => input.weakest,
-                Pool::Any | Pool::Sum => input.strongest,
-            };
-            strength[to as usize] += weight * counts;
+            let input = std::mem::replace(&mut self.inputs[group as usize], PooledInput::NOTHING);
+            strength[to as usize] += weight * input.counts(pool, sources);
         }
     }
 }

@@ -1,3 +1,4 @@
+use crate::pooled_input::PooledInput;
 use coact_joint_task::Pool;
 
 /// What a population gets from one synapse, or from a group of them that counts as one.
@@ -17,13 +18,10 @@ pub struct Share {
 
 impl Share {
     pub(crate) fn new(rule: usize, pool: Pool, weight: f64, sources: Vec<(usize, f64)>) -> Self {
-        let signals = || sources.iter().map(|(_, signal)| *signal);
-        let counts = match pool {
-            Pool::Sum => signals().sum(),
-            Pool::Any => signals().fold(0.0, f64::max),
-            Pool::Every => signals().fold(f64::INFINITY, f64::min).max(0.0),
-        };
-        Self { rule, pool, sources, weight, amount: weight * counts }
+        let mut input = PooledInput::NOTHING;
+        sources.iter().filter(|(_, signal)| *signal > 0.0).for_each(|(_, signal)| input.add(*signal));
+        let amount = weight * input.counts(pool, sources.len() as u32);
+        Self { rule, pool, sources, weight, amount }
     }
 
     /// The source that decides what it gives: the strongest, or where all are needed, the weakest.

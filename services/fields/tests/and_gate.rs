@@ -18,8 +18,7 @@ fn shipped_tasks() -> Vec<PathBuf> {
 /// A source in the sense of the chapter: another layer, or one channel of the percept. What is observed of the hand is
 /// one, by the role of the act, because acts of different roles exclude each other; what the person says is another.
 fn source(plan: &NetworkPlan, from: usize) -> String {
-    let layer = plan.layers.iter().find(|layer| layer.populations.contains(&from));
-    match layer {
+    match plan.layer_of(from) {
         None => plan.meaning(from).label.split(':').next().unwrap_or_default().to_owned(),
         Some(layer) if layer.kind == LayerKind::ActionObservation => {
             format!("{} {}", layer.kind.name(), plan.meaning(from).role)

@@ -102,6 +102,11 @@ impl NetworkPlan {
         &self.layers[kind as usize]
     }
 
+    /// The layer that the population at place `index` of the row belongs to; `None` for a channel.
+    pub fn layer_of(&self, index: usize) -> Option<&LayerPlan> {
+        self.layers.iter().find(|layer| layer.populations.contains(&index))
+    }
+
     /// The populations of the layer of `kind`.
     pub fn populations_of(&self, kind: LayerKind) -> &[Population] {
         &self.populations[self.layer(kind).populations.clone()]

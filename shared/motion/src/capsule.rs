@@ -62,15 +62,6 @@ impl Capsule {
         Self { start: frame * self.start, end: frame * self.end, radius: self.radius }
     }
 
-    /// The same with its ends this fraction of the way to the other's.
-    pub fn towards(&self, other: &Self, fraction: f64) -> Self {
-        Self {
-            start: self.start + fraction * (other.start - self.start),
-            end: self.end + fraction * (other.end - self.end),
-            radius: self.radius,
-        }
-    }
-
     /// Distance of a point from the capsule's line, m.
     pub fn distance_of_line(&self, point: &Point3<f64>) -> f64 {
         let line = self.end - self.start;

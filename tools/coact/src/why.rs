@@ -116,8 +116,7 @@ fn find(plan: &NetworkPlan, words: &str) -> Result<Vec<usize>> {
 
 /// Layer and label of a population, or what a channel of the percept stands for.
 fn name(plan: &NetworkPlan, place: usize) -> String {
-    let layer = plan.layers.iter().find(|layer| layer.populations.contains(&place));
-    let layer = layer.map_or("seen", |layer| layer.kind.name());
+    let layer = plan.layer_of(place).map_or("seen", |layer| layer.kind.name());
     format!("{layer} {}", plan.meaning(place).label)
 }
 

@@ -109,8 +109,7 @@ fn percept(examined: &ExaminedTask, state: &PlanState, person: PersonActivity, c
 fn finding(examined: &ExaminedTask, worst: &Worst) -> Finding {
     let Worst { race, situation, count } = worst;
     let [winner, loser] = [race.winner, race.loser].map(|index| &examined.plan.populations[index]);
-    let layer = examined.plan.layers.iter().find(|layer| layer.populations.contains(&race.winner));
-    let layer = layer.map_or("a layer", |layer| layer.kind.name());
+    let layer = examined.plan.layer_of(race.winner).map_or("a layer", |layer| layer.kind.name());
     let place = match (winner.subgoal, winner.chain_index) {
         (Some(goal), _) => examined.place_of_subgoal(goal),
         (None, Some(chain)) => examined.place_of_chain(chain),

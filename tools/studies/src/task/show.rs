@@ -73,8 +73,7 @@ fn table<const COLUMNS: usize>(header: [&str; COLUMNS]) -> Table {
 /// Layer and label of the population or channel of this index.
 fn full_label(plan: &NetworkPlan, index: usize) -> String {
     let Population { label, .. } = plan.meaning(index);
-    let layer = plan.layers.iter().find(|layer| layer.populations.contains(&index));
-    format!("{} · {label}", layer.map_or("percept", |layer| layer.kind.name()))
+    format!("{} · {label}", plan.layer_of(index).map_or("percept", |layer| layer.kind.name()))
 }
 
 fn as_json(task: &Task, plan: &NetworkPlan) -> serde_json::Value {
