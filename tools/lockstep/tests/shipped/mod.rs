@@ -1,8 +1,9 @@
 //! The stages with what the project ships.
 #![allow(dead_code, reason = "each test file uses its part")]
 
+use coact_joint_task::Task;
 use coact_lockstep::Lockstep;
-use coact_messages::NONE;
+use coact_messages::{FieldFrame, NONE};
 use coact_pipeline::{RunSettings, WorldMode};
 use std::path::{Path, PathBuf};
 
@@ -21,8 +22,13 @@ pub fn settings(seed: u64, partner: &str) -> RunSettings {
 
 /// Name of the robot's decision.
 pub fn decision(stages: &Lockstep) -> Option<&str> {
-    match stages.frame.decision.action {
+    decision_in(&stages.frame, stages.task())
+}
+
+/// Name of the decision in this frame.
+pub fn decision_in<'a>(frame: &FieldFrame, task: &'a Task) -> Option<&'a str> {
+    match frame.decision.action {
         NONE => None,
-        action => Some(&stages.task().actions[action as usize].name),
+        action => Some(&task.actions[action as usize].name),
     }
 }
