@@ -1,6 +1,7 @@
 use crate::braking_path::BrakingPath;
 use crate::guard::{Guard, Moving};
 use crate::inputs::Inputs;
+use crate::moving_fingers::MovingFingers;
 use crate::person_capsules::PersonCapsules;
 use crate::planning::{HandGoals, PlannerLink, PlanningThread, SkillPlanner};
 use crate::resynchronise::{holds, report_of};
@@ -243,8 +244,13 @@ impl Control {
         if self.unguarded || self.held_in().is_some() || self.state.fingers.has_arrived() {
             return true;
         }
-        let (fingers, target) = (self.fingers(inputs), hand_of(&self.state.fingers.target));
-        self.guard.admits_fingers(&self.state, (&fingers, &target), person)
+        let fingers = MovingFingers {
+            angles: self.fingers(inputs),
+            target: hand_of(&self.state.fingers.target),
+            speed: self.servo.finger_speed(),
+            stops_in: self.servo.fingers_stop_in(),
+        };
+        self.guard.admits_fingers(&self.state, &fingers, person)
     }
 
     /// The arm's next step, as fast as the guard admits; none: it brakes.

@@ -1,4 +1,5 @@
 use crate::braking_path::{BrakingPath, BrakingPoint};
+use crate::moving_fingers::MovingFingers;
 use crate::person_capsules::{BodyPart, PersonCapsules};
 use crate::robot::RobotModel;
 use crate::state::ControlState;
@@ -41,10 +42,6 @@ const EXACT: f64 = 1e-9;
 /// How much farther along its path the arm comes to a stand than is computed, s of the path: seen 3 ms, one step of the
 /// computation is 6.
 const STOP_ERROR: f64 = 0.006;
-/// Time in which fingers that move come to a stand, s: at half of their usual speed, 1 rad/s, at the joints' acceleration.
-const FINGERS_STOP: f64 = 0.05;
-/// How far their bases turn meanwhile, rad, and some.
-const FINGERS_STEP: f64 = 0.05;
 /// No point of a link moves faster than this for each rad/s of all joints together, m: the arm's length with the hand, and
 /// some.
 const LEVER: f64 = 1.3;
@@ -115,30 +112,28 @@ impl Guard {
 }
 
 impl Guard {
-    /// Whether the fingers of an empty hand may go on from where they are towards `target`, rad: no link of theirs comes nearer to
-    /// the person than it is while she moves, or all keep the protective separation.
+    /// Whether the fingers of an empty hand may go on from where they are: no link of theirs comes nearer to the person than it is,
+    /// or all keep the protective separation, at any time until they could stand.
     pub fn admits_fingers(
         &mut self,
         state: &ControlState,
-        (fingers, target): (&[f64; HAND_JOINTS], &[f64; HAND_JOINTS]),
+        fingers: &MovingFingers,
         person: &PersonCapsules,
     ) -> bool {
         let Self { limits, mechanism, capsules, hand, next_hand, now, start, .. } = self;
-        let (elapsed, kept) = (state.arm.progress.elapsed, limits.protective_separation);
+        let (elapsed, kept) = (state.arm.progress.elapsed, limits.protective_separation + COMPUTED);
         let posture = state.arm.trajectory.posture(elapsed);
         let (hands, touches) = (capsules.of_hand(), state.may_touch_person(elapsed));
         capsules.place(mechanism, &posture, hand, now);
-        // Fingers swing out on their way: where they will be soon counts as well as where they are going.
-        let way: [f64; HAND_JOINTS] = std::array::from_fn(|joint| target[joint] - fingers[joint]);
-        let farthest = way.iter().fold(FINGERS_STEP, |most, way| most.max(way.abs()));
-        let soon = std::array::from_fn(|joint| fingers[joint] + way[joint] * FINGERS_STEP / farthest);
-        [&soon, target].into_iter().all(|next| {
-            capsules.close(next, next_hand);
+        // Fingers swing out on their way: where they will stand if they brake counts as well as where they are going.
+        [fingers.stopped(), fingers.target].into_iter().all(|next| {
+            capsules.close(&next, next_hand);
             capsules.place(mechanism, &posture, next_hand, start);
             let step = Step { now, next: start, hands };
-            // Beside a hand that waits they may take their shape: it would wait for them, and they for it.
-            let mut parts = person.parts().filter(|part| part.moves());
-            !parts.any(|part| step.closes_on(part, touches, kept, FINGERS_STOP))
+            !person.parts().any(|part| {
+                let mut times = [0.0, 0.5, 1.0].into_iter().map(|fraction| fraction * fingers.stops_in);
+                times.any(|ahead| step.closes_on(part, touches, kept, ahead))
+            })
         })
     }
 }
@@ -165,10 +160,10 @@ struct Step<'a> {
 }
 
 impl Step<'_> {
-    /// Whether it brings any link nearer to where a part of the body is now, and nearer than `kept` m to where it may be `ahead` s
-    /// from now. In a handover the robot's hand may close on the person's.
+    /// Whether it brings any link nearer to a part of the body as that will be `ahead` s from now, and nearer than `kept` m to where
+    /// it may be then. In a handover the robot's hand may close on the person's.
     fn closes_on(&self, part: &BodyPart, touches: bool, kept: f64, ahead: f64) -> bool {
-        let (here, room) = (part.after(0.0), kept + part.growth(ahead));
+        let (here, room) = (part.after(ahead), kept + part.growth(ahead));
         let links = self.now.iter().zip(self.next).zip(self.hands);
         links.filter(|(_, of_hand)| !(touches && **of_hand && part.hands_over)).any(|((now, next), _)| {
             next.least_distance(&here) < room && {

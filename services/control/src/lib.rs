@@ -44,6 +44,7 @@ mod decide;
 mod guard;
 mod inputs;
 mod movements;
+mod moving_fingers;
 mod person_capsules;
 mod planning;
 mod pursue;

@@ -41,9 +41,6 @@ pub(crate) struct BodyPart {
 /// Shorter than this, a forearm has no direction, m.
 const SHORTEST: f64 = 1e-6;
 
-/// A hand that is slower rests, m/s: a tracker of 60 Hz does not tell it from one that stands.
-const RESTS: f64 = 0.05;
-
 impl PersonCapsules {
     /// Around the arm that perception has estimated, as it was seen last; none when it never was, or when its numbers are not
     /// finite. A hand whose end was never seen goes on along the forearm.
@@ -124,6 +121,7 @@ impl BodyPart {
             [from, to].map(|point| if is_seen { Vector3::from(point.velocity) } else { Vector3::zeros() });
         let known = velocities.iter().map(Vector3::norm).fold(0.0, f64::max);
         let speed = if is_seen { known } else { limits.hand_speed };
+        let rests = is_seen && from.still.min(to.still) >= cycles(limits.rests_after);
         Self {
             now: Capsule { start: Point3::from(from.position), end: Point3::from(to.position), radius: 0.0 },
             velocities,
@@ -131,16 +129,11 @@ impl BodyPart {
             age: seconds(age),
             is_seen,
             speed,
-            acceleration: limits.acceleration(speed),
+            acceleration: limits.acceleration(rests, speed),
             most_speed: limits.hand_speed.max(speed),
             bound: None,
             hands_over: false,
         }
-    }
-
-    /// Whether it is known not to rest.
-    pub fn moves(&self) -> bool {
-        self.speed > RESTS
     }
 
     /// Where it is `ahead` s from now, if it goes on as it moves.
@@ -183,7 +176,7 @@ impl ArmBound {
         Self {
             shoulder: Capsule { start: at, end: at, radius: limits.reach.max(reached) + limb.now.radius },
             age: seconds(shoulder.age),
-            acceleration: limits.acceleration(speed),
+            acceleration: limits.acceleration(shoulder.still >= cycles(limits.rests_after), speed),
             most_speed: limits.walking_speed.max(speed),
         }
     }

@@ -65,6 +65,17 @@ impl Servo {
         self.joints[..ARM_JOINTS].iter().all(Limiter::is_at_rest)
     }
 
+    /// Greatest speed of the fingers' setpoints, rad/s.
+    pub fn finger_speed(&self) -> f64 {
+        self.joints[ARM_JOINTS..].iter().fold(0.0, |most, joint| joint.velocity.abs().max(most))
+    }
+
+    /// Time in which the fingers stand if they brake now, s.
+    pub fn fingers_stop_in(&self) -> f64 {
+        let fingers = self.joints[ARM_JOINTS..].iter().zip(&self.limits[ARM_JOINTS..]);
+        fingers.fold(0.0, |longest, (joint, limits)| joint.stops_in(limits).max(longest))
+    }
+
     /// Starts a movement of the fingers from wherever the present one is. When none from there keeps the limits, they
     /// brake first.
     pub fn launch_fingers(&self, fingers: &mut FingerState, target: [f64; FINGER_JOINTS]) {

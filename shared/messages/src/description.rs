@@ -155,7 +155,7 @@ described! {
         header, arm, hand, act, workspace, achieved, open, robot_holds, person_holds, lost, state
     }
     PersonArm { shoulder, elbow, wrist, fingertip, age, tracked, reserved }
-    TrackedPoint { position, velocity, deviation, age }
+    TrackedPoint { position, velocity, deviation, age, still }
     HandPercept { aperture, reaching, reserved, since_onset }
     WorkspacePercept { seen, gone, position, orientation }
     FieldFrame { header, task, noise_seed, layers, decision, activity, input, resting, signal, since }

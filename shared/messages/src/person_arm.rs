@@ -41,6 +41,9 @@ pub struct TrackedPoint {
     pub deviation: f64,
     /// Cycles since a frame showed it; `u64::MAX` while it was never seen.
     pub age: u64,
+    /// Cycles for which it has been seen within 10 mm of one place: what is still for long rests, however fast the tracker's scatter
+    /// makes it seem.
+    pub still: u64,
 }
 
 impl PersonArm {

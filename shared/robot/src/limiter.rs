@@ -69,6 +69,13 @@ impl Limiter {
         Self { position: position + dt * velocity, velocity, acceleration }
     }
 
+    /// A bound on the time in which braking from here ends, s: what is accelerating becomes a little faster first, then all speed
+    /// is taken away.
+    pub fn stops_in(&self, limits: &JointLimits) -> f64 {
+        let (velocity, pull) = (self.velocity.abs(), self.acceleration.abs());
+        pull / limits.jerk + time_to_rest(velocity + pull.powi(2) / (2.0 * limits.jerk), limits)
+    }
+
     /// Whether this state keeps the limits and braking from here does, until rest. A bound on the braking distance decides
     /// where it can, else the braking is carried out.
     fn can_stop(&self, limits: &JointLimits, dt: f64) -> bool {
@@ -85,7 +92,7 @@ impl Limiter {
     /// A bound on how fast and how far braking from here goes on in the direction `sign`.
     ///
     /// Where the acceleration passes through zero, the speed in that direction is at most v + a²/2J; from there the
-    /// symmetric movement to rest, of constant jerk, takes T = v/A + A/J (or 2 √(v/J) when A is not reached) and half of v T.
+    /// symmetric movement to rest, of constant jerk, takes [`time_to_rest`] T and half of v T.
     /// Each term is enlarged for the steps of the discrete braking.
     fn braking_bound(&self, sign: f64, limits: &JointLimits, dt: f64) -> BrakingBound {
         let (velocity, acceleration) = (sign * self.velocity, sign * self.acceleration);
@@ -95,10 +102,7 @@ impl Limiter {
         let gain = acceleration.powi(2) / (2.0 * limits.jerk);
         let peak = (velocity + if pull > 0.0 { gain } else { 0.0 } + room).max(step);
         let from = (velocity + gain + room).max(step);
-        let settling = limits.acceleration / limits.jerk;
-        let full = from / limits.acceleration + settling;
-        let time =
-            if from < limits.acceleration * settling { 2.0 * (from / limits.jerk).sqrt() } else { full };
+        let time = time_to_rest(from, limits);
         BrakingBound { peak, distance: from * (0.5 * time + pull / limits.jerk + 4.0 * dt) }
     }
 
@@ -121,6 +125,16 @@ impl Limiter {
         limits.contain(self.position, 0.0)
             && self.velocity.abs() <= limits.velocity
             && self.acceleration.abs() <= limits.acceleration
+    }
+}
+
+/// Time from a speed (rad/s) to rest, s, without acceleration at both ends: v/A + A/J, or 2 √(v/J) when A is not reached.
+fn time_to_rest(speed: f64, limits: &JointLimits) -> f64 {
+    let settling = limits.acceleration / limits.jerk;
+    if speed < limits.acceleration * settling {
+        2.0 * (speed / limits.jerk).sqrt()
+    } else {
+        speed / limits.acceleration + settling
     }
 }
 
@@ -172,6 +186,23 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(200))]
+
+        #[test]
+        fn braking_ends_within_its_bound(limits in limits(), setpoints in prop::collection::vec((any::<u8>(), -1.0..1.0), 60)) {
+            let mut state = Limiter::at_rest(0.0);
+            for (cycle, (kind, value)) in setpoints.into_iter().enumerate() {
+                let wish = setpoint(kind, value, cycle, &state);
+                state = state.accept(wish, &limits, DT).unwrap_or_else(|| state.brake(&limits, DT));
+            }
+            let bound = state.stops_in(&limits);
+            let mut cycles = 0.0;
+            while !state.is_at_rest() {
+                state = state.brake(&limits, DT);
+                cycles += 1.0;
+            }
+            // Braking goes in steps: up to as many more as the ramps of the acceleration have corners.
+            prop_assert!(cycles * DT <= bound + 8.0 * DT, "{cycles} cycles, {bound} s");
+        }
 
         #[test]
         fn no_setpoint_breaks_the_limits(limits in limits(), setpoints in prop::collection::vec((any::<u8>(), -1.0..1.0), 60)) {

@@ -9,7 +9,7 @@
 //!
 //! let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/safety.toml");
 //! let limits = SafetyLimits::load(file.as_ref())?;
-//! assert!(limits.person.acceleration(0.5) > limits.person.acceleration(0.0));
+//! assert!(limits.person.acceleration(false, 0.5) > limits.person.acceleration(true, 0.0));
 //! # Ok::<(), coact_safety::SafetyError>(())
 //! ```
 

@@ -30,8 +30,8 @@ struct PersonTable {
     extrapolated_ms: Spanned<u64>,
     hand_speed_mps: Spanned<f64>,
     walking_speed_mps: Spanned<f64>,
+    rests_after_ms: Spanned<u64>,
     rest_acceleration_mps2: Spanned<f64>,
-    slow_from_mps: Spanned<f64>,
     slow_acceleration_mps2: Spanned<f64>,
     moving_from_mps: Spanned<f64>,
     moving_acceleration_mps2: Spanned<f64>,
@@ -108,6 +108,7 @@ impl PersonTable {
             extrapolated: milliseconds("extrapolated_ms", &self.extrapolated_ms, 0..=2000)?,
             hand_speed: within("hand_speed_mps", &self.hand_speed_mps, 0.1..=10.0)?,
             walking_speed: within("walking_speed_mps", &self.walking_speed_mps, 0.1..=10.0)?,
+            rests_after: milliseconds("rests_after_ms", &self.rests_after_ms, 0..=10_000)?,
             accelerations: [
                 within("rest_acceleration_mps2", &self.rest_acceleration_mps2, 0.0..=100.0)?,
                 within("slow_acceleration_mps2", &self.slow_acceleration_mps2, 0.0..=100.0)?,
@@ -115,7 +116,6 @@ impl PersonTable {
                 within("fast_acceleration_mps2", &self.fast_acceleration_mps2, 0.0..=100.0)?,
             ],
             speeds: [
-                within("slow_from_mps", &self.slow_from_mps, 0.0..=10.0)?,
                 within("moving_from_mps", &self.moving_from_mps, 0.0..=10.0)?,
                 within("fast_from_mps", &self.fast_from_mps, 0.0..=10.0)?,
             ],

@@ -38,17 +38,19 @@ pub struct PersonLimits {
     pub hand_speed: f64,
     /// See `hand_speed`.
     pub walking_speed: f64,
-    /// What a hand accelerates with, m/s², while it rests, is slow, moves, and is fast; the last three begin at these speeds,
-    /// m/s.
+    /// What is seen not to move for so long rests.
+    pub rests_after: Duration,
+    /// What a hand accelerates with, m/s², while it rests, is slow, moves, and is fast; the last two begin at these speeds, m/s.
     pub accelerations: [f64; 4],
     /// See `accelerations`.
-    pub speeds: [f64; 3],
+    pub speeds: [f64; 2],
 }
 
 impl PersonLimits {
-    /// What a part of the body that moves so fast, m/s, may accelerate with, m/s².
-    pub fn acceleration(&self, speed: f64) -> f64 {
-        self.accelerations[self.speeds.iter().filter(|from| speed >= **from).count()]
+    /// What a part of the body that rests, or moves so fast, m/s, may accelerate with, m/s².
+    pub fn acceleration(&self, rests: bool, speed: f64) -> f64 {
+        let [rest, moves @ ..] = self.accelerations;
+        if rests { rest } else { moves[self.speeds.iter().filter(|from| speed >= **from).count()] }
     }
 }
 

@@ -139,6 +139,7 @@ impl KinematicWorld {
             velocity: velocity.map(|speed| follows.min(1.0) * speed),
             deviation: 0.0,
             age: 0,
+            still: if velocity == [0.0; 3] { 1000 } else { 0 },
         };
         let person = &mut self.percept.arm;
         (person.shoulder, person.elbow) = (point(0.0), point(0.5));

@@ -25,6 +25,7 @@ impl TrackedHand {
             velocity: joint.velocity().into(),
             deviation: self.deviation(name, joint.velocity().norm(), tick),
             age: self.age_of(name, tick).unwrap_or(u64::MAX),
+            still: joint.still_for(tick),
         };
         PersonArm {
             shoulder: point(KeypointName::Shoulder, shoulder),

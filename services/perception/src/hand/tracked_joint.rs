@@ -18,6 +18,9 @@ pub(crate) struct TrackedJoint {
     velocity: [f64; 3],
     /// Cycle of that frame, plus one; 0: none has.
     found: u64,
+    /// Where it was when it moved last, m, and the cycle of that frame, plus one: since then it is within [`STILL_WITHIN`].
+    rested_at: [f64; 3],
+    moved: u64,
 }
 
 /// How far ahead of the newest frame a joint is extrapolated: three frames at 60 Hz. Chosen by hand: farther ahead, a
@@ -32,10 +35,16 @@ pub(super) const LONGEST_GAP: u64 = cycles(Duration::from_millis(350));
 /// absurd one. A tracker of 200 frames a second still keeps it.
 pub(super) const SHORTEST_GAP: f64 = 0.005;
 
+/// A joint that stays this near to a place is still, m: several times a tracker's scatter, of which the speed of a joint that rests
+/// seems to be 0.1 m/s. Whoever is 0.05 m/s fast leaves it within 0.2 s.
+const STILL_WITHIN: f64 = 0.01;
+
 impl TrackedJoint {
     /// Standing at `place`, seen at cycle `captured`.
     pub fn standing_at(place: Vector3<f64>, captured: u64) -> Self {
-        Self { position: place.into(), velocity: [0.0; 3], found: captured.saturating_add(1) }
+        let found = captured.saturating_add(1);
+        let position = place.into();
+        Self { position, velocity: [0.0; 3], found, rested_at: position, moved: found }
     }
 
     /// A frame of cycle `captured` has shown it at `place`; a frame that is not newer than the last one is left out. `gains`: of
@@ -55,12 +64,20 @@ impl TrackedJoint {
         self.position = (predicted + gains.0 * miss).into();
         self.velocity = (self.velocity() + miss * (gains.1 / time.max(SHORTEST_GAP))).into();
         self.found = captured.saturating_add(1);
+        if (self.position() - Vector3::from(self.rested_at)).norm() > STILL_WITHIN {
+            (self.rested_at, self.moved) = (self.position, self.found);
+        }
     }
 
     /// Extrapolated to `tick`, m.
     pub fn at(&self, tick: u64) -> Vector3<f64> {
         let age = tick.saturating_add(1).saturating_sub(self.found);
         self.position() + self.velocity() * seconds(age.min(EXTRAPOLATED))
+    }
+
+    /// For how long it has been where it is, cycles.
+    pub fn still_for(&self, tick: u64) -> u64 {
+        tick.saturating_add(1).saturating_sub(self.moved)
     }
 
     /// At the newest frame, m.
@@ -81,7 +98,8 @@ impl TrackedJoint {
     /// Refuses what is no state of a joint.
     pub fn check(&self) -> Result<(), Implausible> {
         cycle("hand.joint.found", self.found)?;
-        finite("hand.joint", &[self.position, self.velocity].concat())
+        cycle("hand.joint.moved", self.moved)?;
+        finite("hand.joint", &[self.position, self.velocity, self.rested_at].concat())
     }
 }
 
@@ -116,6 +134,16 @@ mod tests {
         let off = (followed(tip).at(now) - tip(seconds(now))).norm();
         let followed_wrist = (tip(seconds(29 * FRAME)) - tip(seconds(now))).norm();
         assert!(off < 0.012 && followed_wrist > 0.03, "{off} m, {followed_wrist} m");
+    }
+
+    #[test]
+    fn a_joint_is_still_from_when_it_has_stopped_and_not_when_it_was_just_found() {
+        let stops = |time: f64| Vector3::new(time.min(0.2), 0.0, 0.0);
+        let now = 29 * FRAME;
+        assert!((150..=280).contains(&followed(stops).still_for(now)), "{}", followed(stops).still_for(now));
+        assert!(followed(|time| Vector3::new(time, 0.0, 0.0)).still_for(now) <= 1);
+        let found = TrackedJoint::standing_at(Vector3::zeros(), now);
+        assert_eq!((found.still_for(now), found.still_for(now + 40)), (0, 40));
     }
 
     #[test]
