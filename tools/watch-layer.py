@@ -34,7 +34,7 @@ import tempfile
 import time
 from pathlib import Path
 
-LAYOUT = 7
+LAYOUT = 8
 MAX_LAYERS, MAX_POPULATIONS, MAX_SITES = 16, 1024, 10240
 NONE = 0xFFFF_FFFF
 LAYERS = ["AOL", "OML-robot", "OML-person", "CSGL-achieved", "CSGL-available", "ASL", "IL", "EML", "AEL"]
