@@ -112,8 +112,8 @@ impl Guard {
 }
 
 impl Guard {
-    /// Whether the fingers of an empty hand may go on from where they are: no link of theirs comes nearer to the person than it is,
-    /// or all keep the protective separation, at any time until they could stand.
+    /// Whether the fingers of an empty hand may go on from where they are: no link of theirs comes nearer to the person than it is
+    /// while she moves, or all keep the protective separation, at any time until they could stand.
     pub fn admits_fingers(
         &mut self,
         state: &ControlState,
@@ -130,7 +130,8 @@ impl Guard {
             capsules.close(&next, next_hand);
             capsules.place(mechanism, &posture, next_hand, start);
             let step = Step { now, next: start, hands };
-            !person.parts().any(|part| {
+            // Beside a hand that rests they take their shape: it would wait for them, and they for it.
+            !person.parts().filter(|part| !part.rests).any(|part| {
                 let mut times = [0.0, 0.5, 1.0].into_iter().map(|fraction| fraction * fingers.stops_in);
                 times.any(|ahead| step.closes_on(part, touches, kept, ahead))
             })

@@ -28,6 +28,8 @@ pub(crate) struct BodyPart {
     /// Time since it was seen, s, and whether that is recent.
     age: f64,
     pub is_seen: bool,
+    /// Whether it has rested for long enough to be sure of it.
+    pub rests: bool,
     /// Its speed, m/s, as far as it is known; what it may accelerate with, m/s², and its greatest possible speed, m/s.
     speed: f64,
     acceleration: f64,
@@ -128,6 +130,7 @@ impl BodyPart {
             extrapolated: limits.extrapolated.as_secs_f64(),
             age: seconds(age),
             is_seen,
+            rests,
             speed,
             acceleration: limits.acceleration(rests, speed),
             most_speed: limits.hand_speed.max(speed),

@@ -140,7 +140,8 @@ mod tests {
     fn a_joint_is_still_from_when_it_has_stopped_and_not_when_it_was_just_found() {
         let stops = |time: f64| Vector3::new(time.min(0.2), 0.0, 0.0);
         let now = 29 * FRAME;
-        assert!((150..=280).contains(&followed(stops).still_for(now)), "{}", followed(stops).still_for(now));
+        let still_for = followed(stops).still_for(now);
+        assert!((200..=300).contains(&still_for), "{still_for}");
         assert!(followed(|time| Vector3::new(time, 0.0, 0.0)).still_for(now) <= 1);
         let found = TrackedJoint::standing_at(Vector3::zeros(), now);
         assert_eq!((found.still_for(now), found.still_for(now + 40)), (0, 40));
