@@ -28,8 +28,6 @@ pub(crate) struct BodyPart {
     /// Time since it was seen, s, and whether that is recent.
     age: f64,
     pub is_seen: bool,
-    /// Whether it has rested for long enough to be sure of it.
-    pub rests: bool,
     /// Its speed, m/s, as far as it is known; what it may accelerate with, m/s², and its greatest possible speed, m/s.
     speed: f64,
     acceleration: f64,
@@ -42,6 +40,9 @@ pub(crate) struct BodyPart {
 
 /// Shorter than this, a forearm has no direction, m.
 const SHORTEST: f64 = 1e-6;
+
+/// A hand that is faster seems to move, m/s.
+const SEEMS_TO_MOVE: f64 = 0.05;
 
 impl PersonCapsules {
     /// Around the arm that perception has estimated, as it was seen last; none when it never was, or when its numbers are not
@@ -130,13 +131,17 @@ impl BodyPart {
             extrapolated: limits.extrapolated.as_secs_f64(),
             age: seconds(age),
             is_seen,
-            rests,
             speed,
             acceleration: limits.acceleration(rests, speed),
             most_speed: limits.hand_speed.max(speed),
             bound: None,
             hands_over: false,
         }
+    }
+
+    /// Whether it seems to move, be it by the tracker's scatter.
+    pub fn moves(&self) -> bool {
+        self.speed > SEEMS_TO_MOVE
     }
 
     /// Where it is `ahead` s from now, if it goes on as it moves.
