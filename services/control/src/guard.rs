@@ -130,7 +130,7 @@ impl Guard {
             capsules.close(&next, next_hand);
             capsules.place(mechanism, &posture, next_hand, start);
             let step = Step { now, next: start, hands };
-            // Beside a hand that rests they take their shape: it would wait for them, and they for it.
+            // Beside a hand that seems to stand they take their shape: it would wait for them, and they for it.
             !person.parts().filter(|part| part.moves()).any(|part| {
                 let mut times = [0.0, 0.5, 1.0].into_iter().map(|fraction| fraction * fingers.stops_in);
                 times.any(|ahead| step.closes_on(part, touches, kept, ahead))

@@ -41,7 +41,7 @@ pub(crate) struct BodyPart {
 /// Shorter than this, a forearm has no direction, m.
 const SHORTEST: f64 = 1e-6;
 
-/// A hand that is faster seems to move, m/s.
+/// A hand that is faster seems to move, m/s. Not [`rests`], by which fingers closed on a hand that was still for half a second.
 const SEEMS_TO_MOVE: f64 = 0.05;
 
 impl PersonCapsules {
@@ -124,7 +124,7 @@ impl BodyPart {
             [from, to].map(|point| if is_seen { Vector3::from(point.velocity) } else { Vector3::zeros() });
         let known = velocities.iter().map(Vector3::norm).fold(0.0, f64::max);
         let speed = if is_seen { known } else { limits.hand_speed };
-        let rests = is_seen && from.still.min(to.still) >= cycles(limits.rests_after);
+        let rests = is_seen && rests(from, limits) && rests(to, limits);
         Self {
             now: Capsule { start: Point3::from(from.position), end: Point3::from(to.position), radius: 0.0 },
             velocities,
@@ -168,6 +168,11 @@ impl BodyPart {
     }
 }
 
+/// Whether a joint has been where it is for long enough to be sure that it rests.
+fn rests(joint: &TrackedPoint, limits: &PersonLimits) -> bool {
+    joint.still >= cycles(limits.rests_after)
+}
+
 /// Where forearm and hand are bound to be: not farther from the shoulder than the arm is long.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct ArmBound {
@@ -184,7 +189,7 @@ impl ArmBound {
         Self {
             shoulder: Capsule { start: at, end: at, radius: limits.reach.max(reached) + limb.now.radius },
             age: seconds(shoulder.age),
-            acceleration: limits.acceleration(shoulder.still >= cycles(limits.rests_after), speed),
+            acceleration: limits.acceleration(rests(shoulder, limits), speed),
             most_speed: limits.walking_speed.max(speed),
         }
     }
