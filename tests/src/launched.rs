@@ -48,27 +48,38 @@ impl Launched {
     }
 
     /// Its run, once it has been made.
-    pub fn run(&self) -> Run {
+    pub fn run(&mut self) -> Run {
         self.run_within(TIMEOUT)
     }
 
-    fn run_within(&self, most: Duration) -> Run {
+    fn run_within(&mut self, most: Duration) -> Run {
         let report = self.report();
         wait_within(most, "the run's directory", || {
+            self.assert_lives();
             Run::all().into_iter().find(|run| run.settings().report == report)
         })
     }
 
     /// Its run, once all processes are ready and its clock runs.
-    pub fn when_started(&self) -> Run {
+    pub fn when_started(&mut self) -> Run {
         self.when_started_within(TIMEOUT)
     }
 
     /// The same, but it must take no longer than this.
-    pub fn when_started_within(&self, most: Duration) -> Run {
+    pub fn when_started_within(&mut self, most: Duration) -> Run {
         let run = self.run_within(most);
-        wait_within(most, "the run's start", || run.start_ns().unwrap_or_default());
+        wait_within(most, "the run's start", || {
+            self.assert_lives();
+            run.start_ns().unwrap_or_default()
+        });
         run
+    }
+
+    /// Who waits for something of it does not wait on when it has ended.
+    fn assert_lives(&mut self) {
+        if let Some(status) = self.child.try_wait().unwrap() {
+            panic!("ended with {status}:\n{}", self.said());
+        }
     }
 
     /// Sends a signal to the supervisor.

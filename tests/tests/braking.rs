@@ -42,7 +42,7 @@ fn speed(report: &DriveReport) -> f64 {
 
 #[test]
 fn the_arm_brakes_and_stands_when_the_supervisor_is_killed_while_it_moves() {
-    let launched = Launched::start(&["--duration", "60", "--world", "kinematic"]);
+    let mut launched = Launched::start(&["--duration", "60", "--world", "kinematic"]);
     let run = launched.when_started();
     let world = Pid::from_raw(run.ready("world", 0).unwrap().unwrap().pid.cast_signed()).unwrap();
     let viewer = Viewer::join(&run);

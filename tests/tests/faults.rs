@@ -9,12 +9,13 @@ use std::process::{Command, Output};
 #[test]
 fn each_process_is_killed_once_and_the_assembly_is_finished() {
     let pipeline = Pipeline::load(&checkout().join("rt-config/pipeline.toml")).unwrap();
-    let names: Vec<String> = pipeline.processes.iter().map(|entry| entry.name.clone()).collect();
+    let always = pipeline.processes.iter().filter(|entry| !entry.on_request);
+    let names: Vec<String> = always.map(|entry| entry.name.clone()).collect();
     let kill = |(index, name): (usize, &String)| format!("--inject={name}:kill@{}s", 4 + 5 * index);
     let kills: Vec<String> = names.iter().enumerate().map(kill).collect();
     let mut arguments = vec!["--world", "kinematic"];
     arguments.extend(kills.iter().map(String::as_str));
-    let launched = Launched::start(&arguments);
+    let mut launched = Launched::start(&arguments);
     let run = launched.when_started();
     let finished = launched.finish();
     assert_eq!(left_behind(&run), Vec::<String>::new());
@@ -44,7 +45,7 @@ fn each_process_is_killed_once_and_the_assembly_is_finished() {
 
 #[test]
 fn faults_are_injected_into_a_running_set_from_the_command_line() {
-    let launched = Launched::start(&["--duration", "12", "--world", "kinematic"]);
+    let mut launched = Launched::start(&["--duration", "12", "--world", "kinematic"]);
     let run = launched.when_started();
     let id = run.id();
     assert!(inject(&["fields", "kill", "--run", id]).status.success());
@@ -69,7 +70,8 @@ fn faults_are_injected_into_a_running_set_from_the_command_line() {
 
 #[test]
 fn a_replacement_resumes_from_its_predecessors_checkpoint() {
-    let launched = Launched::start(&["--duration", "8", "--world", "kinematic", "--inject=fields:kill@5s"]);
+    let mut launched =
+        Launched::start(&["--duration", "8", "--world", "kinematic", "--inject=fields:kill@5s"]);
     let run = launched.when_started();
     let ready = wait_for("the replacement of fields", || run.ready("fields", 1).unwrap());
     assert!(ready.resumed);

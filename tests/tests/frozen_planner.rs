@@ -30,7 +30,7 @@ fn wait_for_a_fast_arm(samples: &mut Input<SensorSample>) {
 
 #[test]
 fn a_frozen_planner_is_replaced_and_the_arm_moves_afterwards() {
-    let launched = Launched::start(&["--duration", "100", "--world", "kinematic"]);
+    let mut launched = Launched::start(&["--duration", "100", "--world", "kinematic"]);
     let run = launched.when_started();
     let bus = Bus::open(&run, "viewer", 0).unwrap();
     let mut samples = bus.input(topic::SENSORS).unwrap();

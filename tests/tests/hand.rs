@@ -70,7 +70,7 @@ const ARM: [[f64; 3]; 9] = [
 
 #[test]
 fn a_hand_from_outside_is_seen_while_it_is_told_and_its_teller_may_die() {
-    let launched = Launched::start(&["--duration", "30", "--world", "kinematic", "--partner", "hand"]);
+    let mut launched = Launched::start(&["--duration", "30", "--world", "kinematic", "--partner", "hand"]);
     let run = launched.when_started();
     let bus = Bus::open(&run, "viewer", 0).unwrap();
     let mut percepts: Input<Percept> = bus.input(topic::PERCEPT).unwrap();
@@ -119,7 +119,7 @@ fn a_hand_from_outside_is_seen_while_it_is_told_and_its_teller_may_die() {
 
 #[test]
 fn what_is_no_hand_and_a_set_with_another_partner_are_refused_with_what_was_expected() {
-    let launched = Launched::start(&["--duration", "20", "--world", "kinematic", "--partner", "hand"]);
+    let mut launched = Launched::start(&["--duration", "20", "--world", "kinematic", "--partner", "hand"]);
     let run = launched.when_started();
     let cases =
         [("[1, 2]", "line 1: 2 numbers"), ("[9, 0, 1, 0, 0.1]", "line 1: position"), ("x", "line 1: ")];
@@ -132,7 +132,7 @@ fn what_is_no_hand_and_a_set_with_another_partner_are_refused_with_what_was_expe
         assert!(said.contains(expected) && said.contains("expected "), "{said}");
     }
     drop(launched);
-    let launched = Launched::start(&["--duration", "5", "--world", "kinematic"]);
+    let mut launched = Launched::start(&["--duration", "5", "--world", "kinematic"]);
     let run = launched.when_started();
     let output = bridge(&run).wait_with_output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();

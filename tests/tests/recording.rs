@@ -102,7 +102,7 @@ fn a_recorded_run_is_computed_again_to_the_bit_and_a_byte_that_is_changed_is_nam
 
 #[test]
 fn a_killed_recorder_leaves_a_recording_that_can_be_read_and_its_successor_another() {
-    let launched = Launched::start(&["--world", "kinematic", "--duration", SPAN, "--record"]);
+    let mut launched = Launched::start(&["--world", "kinematic", "--duration", SPAN, "--record"]);
     let (_folder, report, run) = (launched.folder(), launched.report(), launched.when_started());
     std::thread::sleep(Duration::from_millis(2500));
     let pid = run.ready("recorder", 0).unwrap().unwrap().pid;

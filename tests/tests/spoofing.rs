@@ -108,7 +108,7 @@ fn spoof_all(run: &Run) {
 
 #[test]
 fn what_is_not_good_is_counted_and_the_assembly_goes_on() {
-    let launched = Launched::start(&["--duration", "25", "--world", "kinematic"]);
+    let mut launched = Launched::start(&["--duration", "25", "--world", "kinematic"]);
     let run = launched.when_started();
     spoof_all(&run);
     let finished = launched.finish();

@@ -44,7 +44,7 @@ fn whatever_happens_to_a_stage_or_its_standby_no_cycle_goes_without_output() {
     let injections: Vec<String> = pairs.enumerate().map(spec).collect();
     let mut arguments = vec!["--pipeline", &table, "--world", "kinematic", "--duration", "16"];
     arguments.extend(injections.iter().map(String::as_str));
-    let launched = Launched::start(&arguments);
+    let mut launched = Launched::start(&arguments);
     let run = launched.when_started();
     let finished = launched.finish();
     assert_eq!(left_behind(&run), Vec::<String>::new());

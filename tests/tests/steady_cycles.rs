@@ -148,7 +148,7 @@ fn steady_cycles_take_no_page_fault_and_make_no_other_system_call_than_they_need
     let table = patient_table(folder.path());
     let path = folder.path().join("pipeline.toml");
     let path = path.to_str().unwrap();
-    let launched = Launched::start(&["--world", "kinematic", "--duration", LONGEST, "--pipeline", path]);
+    let mut launched = Launched::start(&["--world", "kinematic", "--duration", LONGEST, "--pipeline", path]);
     let run = launched.when_started_within(STARTS_WITHIN);
     let ready = EXPECTED.map(|expected| run.ready(expected.process, 0).unwrap().unwrap());
     exclude_real_time_cores(&table);

@@ -20,7 +20,7 @@ fn kill(run: &Run, process: &str, generation: u32) {
 #[test]
 fn a_stopped_arm_stands_whatever_dies_and_moves_again_when_it_may() {
     let _alone = alone();
-    let launched = Launched::start(&RUN);
+    let mut launched = Launched::start(&RUN);
     let run = launched.when_started();
     let mut viewer = JointViewer::join(&run);
     viewer.until_fast();
@@ -61,7 +61,7 @@ fn a_stopped_arm_stands_whatever_dies_and_moves_again_when_it_may() {
 #[test]
 fn an_arm_of_which_nobody_says_that_it_may_move_stands() {
     let _alone = alone();
-    let launched = Launched::start(&RUN);
+    let mut launched = Launched::start(&RUN);
     let mut viewer = JointViewer::join(&launched.when_started());
     viewer.until_fast();
     launched.signal(Signal::STOP);
@@ -76,7 +76,7 @@ fn an_arm_of_which_nobody_says_that_it_may_move_stands() {
 #[test]
 fn who_stops_names_the_run_where_there_are_several_and_one_that_is_there() {
     let _alone = alone();
-    let launched = [Launched::start(&RUN), Launched::start(&RUN)];
+    let mut launched = [Launched::start(&RUN), Launched::start(&RUN)];
     let runs = [launched[0].when_started(), launched[1].when_started()];
     for command in ["stop", "resume"] {
         let (code, said, _) = operate(&[command]);

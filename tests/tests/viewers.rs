@@ -24,7 +24,7 @@ fn a_set_whose_fields_are_read_by_as_many_as_get_a_place_replaces_each_of_its_re
     let kills = ["--inject=control:kill@3s", "--inject=fields:kill@4s", "--inject=voice:kill@5s"];
     let mut arguments = vec!["--duration", "8", "--world", "kinematic"];
     arguments.extend(kills);
-    let launched = Launched::start(&arguments);
+    let mut launched = Launched::start(&arguments);
     let run = launched.when_started();
     let (readers, _node) = flood(&run);
     assert!(readers.len() >= 4, "{} places are left to viewers", readers.len());

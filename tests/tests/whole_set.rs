@@ -9,7 +9,7 @@ const CHAIN: [&str; 4] = ["world", "perception", "fields", "control"];
 
 #[test]
 fn a_set_builds_at_its_rate_and_reports() {
-    let launched = Launched::start(&["--duration", "25", "--world", "kinematic", "--json"]);
+    let mut launched = Launched::start(&["--duration", "25", "--world", "kinematic", "--json"]);
     let run = launched.when_started();
     let finished = launched.finish();
     assert_eq!(left_behind(&run), Vec::<String>::new());
@@ -34,7 +34,7 @@ fn a_set_builds_at_its_rate_and_reports() {
 #[test]
 fn two_runs_beside_each_other_both_build() {
     let start = |seed| Launched::start(&["--duration", "30", "--world", "kinematic", "--seed", seed]);
-    let (one, other) = (start("1"), start("2"));
+    let (mut one, mut other) = (start("1"), start("2"));
     let (first, second) = (one.when_started(), other.when_started());
     assert_ne!(first.prefix(), second.prefix());
     for (run, finished) in [(first, one.finish()), (second, other.finish())] {
@@ -46,7 +46,7 @@ fn two_runs_beside_each_other_both_build() {
 
 #[test]
 fn an_interrupted_run_is_stopped_in_order_and_reported() {
-    let launched = Launched::start(&["--world", "kinematic"]);
+    let mut launched = Launched::start(&["--world", "kinematic"]);
     let run = launched.when_started();
     launched.signal(Signal::TERM);
     let finished = launched.finish();
@@ -64,7 +64,7 @@ fn an_interrupted_run_is_stopped_in_order_and_reported() {
 
 #[test]
 fn processes_die_with_a_killed_supervisor_and_the_next_run_removes_its_remains() {
-    let launched = Launched::start(&["--world", "kinematic"]);
+    let mut launched = Launched::start(&["--world", "kinematic"]);
     let run = launched.when_started();
     let pids: Vec<u32> = CHAIN.iter().map(|name| run.ready(name, 0).unwrap().unwrap().pid).collect();
     launched.signal(Signal::KILL);

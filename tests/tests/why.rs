@@ -15,7 +15,7 @@ fn decided(run: &str) -> Vec<serde_json::Value> {
 
 #[test]
 fn what_is_decided_is_explained_by_synapses_that_add_up_to_it() {
-    let launched = Launched::start(&["--duration", "30", "--world", "kinematic"]);
+    let mut launched = Launched::start(&["--duration", "30", "--world", "kinematic"]);
     let run = launched.when_started();
     let action = wait_for("a decision", || decided(run.id()).into_iter().next());
     let amounts = action["shares"].as_array().unwrap().iter().map(|share| share["amount"].as_f64().unwrap());
