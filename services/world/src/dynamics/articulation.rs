@@ -1,16 +1,20 @@
 use super::driven_joint::DrivenJoint;
+use super::inverse_dynamics::InverseDynamics;
 use super::joints::Joints;
 use coact_messages::{ARM_JOINTS, JOINTS};
 use coact_robot::MotionState;
 use rapier3d::prelude::*;
 
-/// The robot's arm and hand as a multibody: a position motor in each joint, within the joint's effort; a joint that
-/// mimics another is coupled to it as by a gear.
+/// The robot's arm and hand as a multibody. The arm's joints are driven by torques, as a real one's are: what the wanted
+/// acceleration of the whole arm takes (computed torque: Siciliano et al., Robotics, 2009, section 8.5.2). Each finger's joint
+/// has a soft position motor; a joint that mimics another is coupled to it as by a gear. All within the joints' efforts.
 #[derive(Debug, Clone)]
 pub(super) struct Articulation {
     pub joints: Vec<DrivenJoint>,
     /// Colliders of the hand, and which finger each belongs to; none: to the palm.
     pub shapes: Vec<(ColliderHandle, Option<usize>)>,
+    /// Where the arm's joints are to be, and how they are to move.
+    pub setpoints: [MotionState; ARM_JOINTS],
 }
 
 impl Articulation {
@@ -19,8 +23,9 @@ impl Articulation {
         world.multibody_joints.get_mut(first.handle).map(|(body, _)| body)
     }
 
-    /// Puts the joints where they are said to be; the motors hold them there until the drive has started.
-    pub fn place(&self, world: &mut PhysicsWorld, joints: &Joints) {
+    /// Puts the joints where they are said to be, to be held there until the drive has started.
+    pub fn place(&mut self, world: &mut PhysicsWorld, joints: &Joints) {
+        self.setpoints = std::array::from_fn(|joint| MotionState::at_rest(joints.position[joint]));
         let PhysicsWorld { multibody_joints, bodies, .. } = world;
         for driven in &self.joints {
             let Some((body, id)) = multibody_joints.get_mut(driven.handle) else { continue };
@@ -31,9 +36,8 @@ impl Articulation {
             let wanted = factor * joints.position[driven.source];
             displacement[at] = wanted - link.joint().coords()[3];
             body.apply_displacements(&displacement);
-            let gains = driven.gains();
-            if let Some(link) = body.link_mut(id).filter(|_| driven.gear.is_none()) {
-                link.joint.data.set_motor(JointAxis::AngX, wanted, 0.0, gains.0, gains.1);
+            if let Some(link) = body.link_mut(id) {
+                driven.aim_motor(link, wanted, 0.0);
             }
             body.generalized_velocity_mut()[at] = factor * joints.velocity[driven.source];
             body.forward_kinematics(bodies, false);
@@ -41,22 +45,22 @@ impl Articulation {
         }
     }
 
-    /// Gives every motor its setpoint.
-    pub fn command(&self, world: &mut PhysicsWorld, setpoints: &[MotionState; JOINTS]) {
-        for driven in self.driven() {
+    /// Takes over every joint's setpoint.
+    pub fn command(&mut self, world: &mut PhysicsWorld, setpoints: &[MotionState; JOINTS]) {
+        self.setpoints.copy_from_slice(&setpoints[..ARM_JOINTS]);
+        for driven in &self.joints {
             let Some((body, id)) = world.multibody_joints.get_mut(driven.handle) else { continue };
             let Some(link) = body.link_mut(id) else { continue };
-            let gains = driven.gains();
-            let setpoint = &setpoints[driven.source];
-            let motor = (setpoint.position, setpoint.velocity);
-            link.joint.data.set_motor(JointAxis::AngX, motor.0, motor.1, gains.0, gains.1);
+            let MotionState { position, velocity, .. } = setpoints[driven.source];
+            driven.aim_motor(link, position, velocity);
         }
     }
 
-    /// Lets every motor carry the robot's own weight, as far as its effort goes; what is left of the effort is for
-    /// following the setpoint.
-    pub fn carry_own_weight(&self, world: &mut PhysicsWorld) {
-        let PhysicsWorld { multibody_joints, bodies, gravity, .. } = world;
+    /// Drives the joints for one step: the arm's by the torques that its setpoints take, the fingers' by what holds them where they
+    /// are on the moving arm; what is left of a finger's effort is its motor's.
+    pub fn drive(&self, world: &mut PhysicsWorld) {
+        let Some(dynamics) = self.wanted_dynamics(world) else { return };
+        let PhysicsWorld { multibody_joints, bodies, .. } = world;
         let Some((body, _)) = self.joints.first().and_then(|first| multibody_joints.get(first.handle)) else {
             return;
         };
@@ -65,13 +69,13 @@ impl Articulation {
                 body.reset_torques(false);
             }
         }
-        for driven in self.driven() {
+        for driven in self.joints.iter().filter(|driven| driven.gear.is_none()) {
             let Some((body, id)) = multibody_joints.get_mut(driven.handle) else { continue };
-            let torque = -weight_on(body, id, bodies, *gravity).clamp(-driven.effort, driven.effort);
+            let torque = dynamics.torque(body, id).clamp(-driven.effort, driven.effort);
             let parent = body.link(id).and_then(|link| link.parent_id()).and_then(|parent| body.link(parent));
             let parent = parent.map(|parent| parent.rigid_body_handle());
             let Some(link) = body.link_mut(id) else { continue };
-            link.joint.data.set_motor_max_force(JointAxis::AngX, driven.effort - torque.abs());
+            driven.limit_motor(link, driven.effort - torque.abs());
             let child = link.rigid_body_handle();
             let axis = link.joint.data.local_axis2();
             let Some(axis) = bodies.get(child).map(|body| *body.rotation() * axis) else { continue };
@@ -83,8 +87,20 @@ impl Articulation {
         }
     }
 
-    fn driven(&self) -> impl Iterator<Item = &DrivenJoint> {
-        self.joints.iter().filter(|driven| driven.gear.is_none())
+    /// The forces of the motion in which each of the arm's joints follows its setpoint, and the fingers keep their shape.
+    fn wanted_dynamics(&self, world: &PhysicsWorld) -> Option<InverseDynamics> {
+        let first = self.joints.first()?;
+        let (body, _) = world.multibody_joints.get(first.handle)?;
+        let mut accelerations = DVector::zeros(body.ndofs());
+        for driven in self.joints.iter().filter(|driven| driven.source < ARM_JOINTS && driven.gear.is_none())
+        {
+            let (body, id) = world.multibody_joints.get(driven.handle)?;
+            let link = body.link(id)?;
+            let (position, velocity) = (link.joint().coords()[3], body.joint_velocity(link)[0]);
+            accelerations[link.assembly_id()] =
+                driven.acceleration(&self.setpoints[driven.source], position, velocity);
+        }
+        Some(InverseDynamics::of(body, &world.bodies, world.gravity, accelerations))
     }
 
     /// The body that the palm is on.
@@ -105,13 +121,47 @@ impl Articulation {
     }
 }
 
-/// Torque of the weight of all links about a joint, Nm.
-fn weight_on(body: &Multibody, joint: usize, bodies: &RigidBodySet, gravity: Vector) -> f64 {
-    let Some(column) = body.link(joint).map(|link| link.assembly_id()) else { return 0.0 };
-    let links = body.links().enumerate().filter_map(|(id, link)| {
-        let weight = bodies.get(link.rigid_body_handle())?.mass() * gravity;
-        let way = body.body_jacobian(id).column(column);
-        Some(weight.x * way[0] + weight.y * way[1] + weight.z * way[2])
-    });
-    links.sum()
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+mod tests {
+    use super::*;
+    use coact_period::PERIOD_S;
+    use coact_robot::Robot;
+    use std::path::Path;
+
+    /// The engine's own forward dynamics tell whether the torques are right: one joint after the other, and all at once.
+    #[test]
+    fn a_step_gives_each_joint_the_acceleration_that_its_setpoint_has() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/robots/aros.toml");
+        let robot = Robot::load(&file).unwrap();
+        for moved in 0..=ARM_JOINTS {
+            let mut world = PhysicsWorld::new();
+            world.gravity = Vector::new(0.0, 0.0, -9.81);
+            world.integration_parameters.dt = PERIOD_S;
+            let mut arm = Articulation::build(&mut world, &robot).unwrap();
+            let mut joints = Joints { position: [0.0; JOINTS], velocity: [0.0; JOINTS] };
+            joints.position[..ARM_JOINTS].copy_from_slice(&robot.park);
+            arm.place(&mut world, &joints);
+            let wanted: [f64; JOINTS] = std::array::from_fn(|joint| match joint {
+                _ if joint >= ARM_JOINTS || (moved < ARM_JOINTS && moved != joint) => 0.0,
+                _ => 10.0 - 3.0 * joint as f64,
+            });
+            let setpoints = std::array::from_fn(|joint| MotionState {
+                position: joints.position[joint] + wanted[joint] * PERIOD_S * PERIOD_S,
+                velocity: wanted[joint] * PERIOD_S,
+                acceleration: wanted[joint],
+            });
+            // The first step only makes the engine know where everything is.
+            world.step();
+            arm.place(&mut world, &joints);
+            arm.command(&mut world, &setpoints);
+            arm.drive(&mut world);
+            world.step();
+            arm.read(&world, &mut joints);
+            for joint in 0..ARM_JOINTS {
+                let off = joints.velocity[joint] / PERIOD_S - wanted[joint];
+                assert!(off.abs() < 0.5, "joint {joint} of {moved}: {off} rad/s² off {}", wanted[joint]);
+            }
+        }
+    }
 }

@@ -5,7 +5,8 @@ use super::driven_joint::DrivenJoint;
 use super::layer::Layer;
 use super::link_body::{Place, furnish_link};
 use crate::WorldError;
-use coact_robot::{Robot, isometry};
+use coact_messages::ARM_JOINTS;
+use coact_robot::{MotionState, Robot, isometry};
 use nalgebra::Isometry3;
 use rapier3d::prelude::*;
 use std::collections::HashMap;
@@ -54,7 +55,8 @@ impl Articulation {
                 }
             }
         }
-        let built = Self { joints, shapes: of_hand };
+        let setpoints = [MotionState::at_rest(0.0); ARM_JOINTS];
+        let built = Self { joints, shapes: of_hand, setpoints };
         built.gear(world);
         Ok(built)
     }

@@ -1,18 +1,18 @@
 use super::colliders::pose;
 use crate::WorldError;
 use coact_messages::ARM_JOINTS;
-use coact_robot::{ROBOT_JOINTS, Robot};
+use coact_period::PERIOD_S;
+use coact_robot::{MotionState, ROBOT_JOINTS, Robot};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d::prelude::*;
 
-/// Stiffness, 1/s², and damping, 1/s, of the arm's motors, which are acceleration based and critically damped at a
-/// natural frequency of 200 rad/s. The velocity is fed forward. Chosen by hand: with them, and the substeps of the solver,
-/// moving joints stay within 5 mrad of their setpoints.
+/// Stiffness, 1/s², and damping, 1/s, with which the arm's joints follow their setpoints, critically damped at a natural frequency
+/// of 200 rad/s. Chosen by hand.
 const ARM: (f64, f64) = (40_000.0, 400.0);
-/// The same of the fingers: soft enough that a part stops them before their effort is spent.
+/// The same of the fingers' motors: soft enough that a part stops them before their effort is spent.
 const HAND: (f64, f64) = (10_000.0, 200.0);
 
-/// A revolute joint with its motor, or one that is geared to another.
+/// A revolute joint of the arm, one of a finger with its motor, or one that is geared to another.
 #[derive(Debug, Clone)]
 pub(super) struct DrivenJoint {
     pub handle: MultibodyJointHandle,
@@ -28,7 +28,7 @@ pub(super) struct DrivenJoint {
 }
 
 impl DrivenJoint {
-    /// Makes a revolute joint, with its motor unless it is geared to another.
+    /// Makes a revolute joint, with a motor when it is a finger's that is not geared to another.
     pub fn build(
         world: &mut PhysicsWorld,
         robot: &Robot,
@@ -54,19 +54,42 @@ impl DrivenJoint {
             .local_frame2(pose(&Isometry3::from_parts(Default::default(), align)));
         let motor = |data: GenericJointBuilder| {
             data.motor_model(JointAxis::AngX, MotorModel::AccelerationBased)
-                .set_motor(JointAxis::AngX, 0.0, 0.0, ARM.0, ARM.1)
+                .set_motor(JointAxis::AngX, 0.0, 0.0, HAND.0, HAND.1)
                 .motor_max_force(JointAxis::AngX, effort)
         };
-        let data = if gear.is_none() { motor(data) } else { data };
+        let data = if gear.is_none() && source >= ARM_JOINTS { motor(data) } else { data };
         let handle = world
             .insert_multibody_joint(parent, child, data.build())
             .ok_or_else(|| fault("closes a loop; expected a tree of links"))?;
         Ok(Self { handle, name: joint.name.clone(), source, is_source: own.is_some(), effort, gear })
     }
 
-    /// Stiffness, 1/s², and damping, 1/s, of its motor.
-    pub fn gains(&self) -> (f64, f64) {
-        if self.source < ARM_JOINTS { ARM } else { HAND }
+    /// Sets its motor, if it has one, to follow this, rad and rad/s.
+    pub fn aim_motor(&self, link: &mut MultibodyLink, position: f64, velocity: f64) {
+        if self.has_motor() {
+            link.joint.data.set_motor(JointAxis::AngX, position, velocity, HAND.0, HAND.1);
+        }
+    }
+
+    /// Leaves so much torque to its motor, if it has one, Nm.
+    pub fn limit_motor(&self, link: &mut MultibodyLink, torque: f64) {
+        if self.has_motor() {
+            link.joint.data.set_motor_max_force(JointAxis::AngX, torque);
+        }
+    }
+
+    fn has_motor(&self) -> bool {
+        self.gear.is_none() && self.source >= ARM_JOINTS
+    }
+
+    /// The acceleration with which an arm's joint follows its setpoint, rad/s²: the setpoint's own, and what draws the joint to it,
+    /// as it acts at the step's end (backward Euler), so that it is stable whatever the stiffness.
+    pub fn acceleration(&self, setpoint: &MotionState, position: f64, velocity: f64) -> f64 {
+        let (stiffness, damping) = ARM;
+        let drawn = setpoint.acceleration
+            + stiffness * (setpoint.position - position - PERIOD_S * velocity)
+            + damping * (setpoint.velocity - velocity);
+        drawn / (1.0 + PERIOD_S * damping + PERIOD_S * PERIOD_S * stiffness)
     }
 
     /// The finger whose base or tip it is.

@@ -10,6 +10,7 @@ mod finger_stop;
 mod fixtures;
 mod force_sensor;
 mod influence;
+mod inverse_dynamics;
 mod joints;
 mod kinematic_robot;
 mod layer;

@@ -20,8 +20,8 @@ use rapier3d::prelude::*;
 
 /// Gravity, m/s².
 const GRAVITY: f64 = 9.81;
-/// Substeps of the solver in each step of 1 ms. Two, at half the cost of the engine's four, keep moving joints within
-/// 5 mrad of their setpoints and resting parts within 5 mm of their places.
+/// Substeps of the solver in each step of 1 ms. Two, at half the cost of the engine's four, keep resting parts within
+/// 5 mm of their places.
 const SUBSTEPS: usize = 2;
 /// Size of the things that are handled, m: the engine scales its tolerances by it, and lets them overlap by 0.5 % of it.
 const SIZE: f64 = 0.1;
@@ -97,7 +97,7 @@ impl PhysicsSimulation {
         if let Some(setpoints) = influence.setpoints {
             self.articulation.command(&mut self.world, setpoints);
         }
-        self.articulation.carry_own_weight(&mut self.world);
+        self.articulation.drive(&mut self.world);
         parts.settle(influence.task);
         self.follow(influence.person, parts);
         self.assign_layers(parts, influence);

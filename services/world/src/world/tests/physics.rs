@@ -70,7 +70,7 @@ fn joints_follow_their_setpoints_closely() {
             worst = worst.max((out.sample.joints.position[joint] - out.sample.drive.position[joint]).abs());
         }
     }
-    assert!(worst < 0.005, "tracking error {worst} rad");
+    assert!(worst < 0.002, "tracking error {worst} rad");
     assert!((out.sample.joints.position[8] - 0.5).abs() < 0.01);
 }
 
