@@ -24,15 +24,9 @@ const BELIEVED: f64 = 0.2;
 const FARTHEST: f64 = 10.0;
 /// Age up to which the newest frame tells where the hand is now: nine frames at 60 Hz, so that dropped ones are bridged.
 pub(crate) const USABLE: u64 = cycles(Duration::from_millis(150));
-/// The joints of the arm that are followed each by itself, and the gains of their alpha-beta filters (position, velocity):
-/// between the tracker's scatter and lag. Chosen by hand, about what Kalata's tracking index (1984) gives for the scatter of
-/// 2 mm: the nearer to the body, the slower a joint changes its velocity.
-const JOINTS: [(KeypointName, (f64, f64)); 4] = [
-    (KeypointName::Shoulder, (0.4, 0.1)),
-    (KeypointName::Elbow, (0.6, 0.25)),
-    (KeypointName::Wrist, (0.7, 0.35)),
-    (KeypointName::MiddleTip, (0.7, 0.35)),
-];
+/// The joints of the arm that are followed each by itself.
+const JOINTS: [KeypointName; 4] =
+    [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist, KeypointName::MiddleTip];
 /// Place of the wrist among them.
 const WRIST: usize = 2;
 /// Shortest time that velocities are computed with a velocity over [`AVERAGED`] frames, s.
@@ -143,9 +137,9 @@ impl TrackedHand {
             if plausible && point.confidence > BELIEVED {
                 self.keypoint[index] = point.position;
                 self.found[index] = view.captured_cycle.saturating_add(1);
-                for (joint, (name, gains)) in self.joints.iter_mut().zip(JOINTS) {
+                for (joint, name) in self.joints.iter_mut().zip(JOINTS) {
                     if name as usize == index {
-                        joint.observe(point.position.into(), view.captured_cycle, gains);
+                        joint.observe(point.position.into(), view.captured_cycle);
                     }
                 }
                 any = true;
