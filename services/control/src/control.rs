@@ -219,6 +219,7 @@ impl Control {
             None => self.servo.brake(&mut self.state.arm, &mut self.state.fingers),
             Some(person) => {
                 let (step, fingers) = (self.arm_step(&person), self.fingers_may_move(inputs, &person));
+                self.note_waiting(fingers);
                 let ControlState { arm, fingers: moved, .. } = &mut self.state;
                 self.servo.advance(arm, step, moved, fingers);
             }
@@ -239,9 +240,10 @@ impl Control {
         inputs.fingers().unwrap_or_else(|| hand_of(&self.servo.position()[ARM_JOINTS..]))
     }
 
-    /// Whether the guard lets the fingers go on. Those that hold something stay around it, or let it go where it is.
+    /// Whether the guard lets the fingers go on. Those that close on something hold what they have.
     fn fingers_may_move(&mut self, inputs: &Inputs, person: &PersonCapsules) -> bool {
-        if self.unguarded || self.held_in().is_some() || self.state.fingers.has_arrived() {
+        let holds = self.held_in().is_some() && self.state.skill.phase() != SkillPhase::Open;
+        if self.unguarded || holds || self.state.fingers.has_arrived() {
             return true;
         }
         let fingers = MovingFingers {
@@ -251,6 +253,15 @@ impl Control {
             stops_in: self.servo.fingers_stop_in(),
         };
         self.guard.admits_fingers(&self.state, &fingers, person)
+    }
+
+    /// An arm that has arrived, and whose fingers the guard does not let take their shape, is in the person's way as one that it lets
+    /// not go on.
+    fn note_waiting(&mut self, fingers_may_move: bool) {
+        if self.state.waits_for_fingers() {
+            let blocked = &mut self.state.arm.blocked;
+            *blocked = if fingers_may_move { 0 } else { blocked.saturating_add(1) };
+        }
     }
 
     /// The arm's next step, as fast as the guard admits; none: it brakes.

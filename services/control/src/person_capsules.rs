@@ -41,9 +41,6 @@ pub(crate) struct BodyPart {
 /// Shorter than this, a forearm has no direction, m.
 const SHORTEST: f64 = 1e-6;
 
-/// A hand that is faster seems to move, m/s. Not [`rests`], by which fingers closed on a hand that was still for half a second.
-const SEEMS_TO_MOVE: f64 = 0.05;
-
 impl PersonCapsules {
     /// Around the arm that perception has estimated, as it was seen last; none when it never was, or when its numbers are not
     /// finite. A hand whose end was never seen goes on along the forearm.
@@ -137,11 +134,6 @@ impl BodyPart {
             bound: None,
             hands_over: false,
         }
-    }
-
-    /// Whether it seems to move, be it by the tracker's scatter.
-    pub fn moves(&self) -> bool {
-        self.speed > SEEMS_TO_MOVE
     }
 
     /// Where it is `ahead` s from now, if it goes on as it moves.

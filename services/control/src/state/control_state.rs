@@ -51,16 +51,21 @@ impl ControlState {
     }
 
     /// Whether a handover is declared for `t` s after the start of the trajectory, in which the robot's hand may touch the
-    /// person's: where it receives what the person gives, where it brings a part to the person's hand, and while it leaves
-    /// that hand. On the way there it keeps clear of it.
+    /// person's: where it receives what the person gives, where its fingers take their shape for that, where it brings a part to the
+    /// person's hand and lets it go, and while it leaves that hand. On the way there it keeps clear of it.
     pub fn may_touch_person(&self, t: f64) -> bool {
         let leaves = self.hand.hands_over.is_set() && self.arm.trajectory.is_leaving(t);
         leaves
             || match self.skill.skill {
-                Skill::Receive => !self.skill.stops_before.is_set(),
-                Skill::Give => self.arm.trajectory.is_approach(t),
+                Skill::Receive => !self.skill.stops_before.is_set() || self.waits_for_fingers(),
+                Skill::Give => self.arm.trajectory.is_approach(t) || self.skill.phase() == SkillPhase::Open,
                 _ => false,
             }
+    }
+
+    /// Whether the arm is at its goal, and the fingers still move.
+    pub fn waits_for_fingers(&self) -> bool {
+        self.skill.phase() == SkillPhase::Move && self.arm_has_arrived() && !self.fingers.has_arrived()
     }
 
     /// A handover lasts from when the hand is at the person's until the next movement has left it.
