@@ -158,9 +158,9 @@ mod tests {
             arm.drive(&mut world);
             world.step();
             arm.read(&world, &mut joints);
-            for joint in 0..ARM_JOINTS {
-                let off = joints.velocity[joint] / PERIOD_S - wanted[joint];
-                assert!(off.abs() < 0.5, "joint {joint} of {moved}: {off} rad/s² off {}", wanted[joint]);
+            for (joint, wanted) in wanted[..ARM_JOINTS].iter().enumerate() {
+                let off = joints.velocity[joint] / PERIOD_S - wanted;
+                assert!(off.abs() < 0.5, "joint {joint} of {moved}: {off} rad/s² off {wanted}");
             }
         }
     }
