@@ -4,7 +4,7 @@ use coact_messages::{PartnerPhase, Truth};
 
 /// A rest that is shorter belongs to what the person did before, ms: the person rests for nearly as long while the robot
 /// inserts a part.
-const SHORTEST_REST_MS: f64 = 4000.0;
+const SHORTEST_REST_MS: f64 = 5500.0;
 
 /// Follows what the person really does, tick by tick.
 #[derive(Debug, Default)]

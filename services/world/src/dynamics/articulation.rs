@@ -15,6 +15,8 @@ pub(super) struct Articulation {
     pub shapes: Vec<(ColliderHandle, Option<usize>)>,
     /// Where the arm's joints are to be, and how they are to move.
     pub setpoints: [MotionState; ARM_JOINTS],
+    /// What their motion takes.
+    pub dynamics: InverseDynamics,
 }
 
 impl Articulation {
@@ -58,8 +60,8 @@ impl Articulation {
 
     /// Drives the joints for one step: the arm's by the torques that its setpoints take, the fingers' by what holds them where they
     /// are on the moving arm; what is left of a finger's effort is its motor's.
-    pub fn drive(&self, world: &mut PhysicsWorld) {
-        let Some(dynamics) = self.wanted_dynamics(world) else { return };
+    pub fn drive(&mut self, world: &mut PhysicsWorld) {
+        self.solve(world);
         let PhysicsWorld { multibody_joints, bodies, .. } = world;
         let Some((body, _)) = self.joints.first().and_then(|first| multibody_joints.get(first.handle)) else {
             return;
@@ -71,7 +73,7 @@ impl Articulation {
         }
         for driven in self.joints.iter().filter(|driven| driven.gear.is_none()) {
             let Some((body, id)) = multibody_joints.get_mut(driven.handle) else { continue };
-            let torque = dynamics.torque(body, id).clamp(-driven.effort, driven.effort);
+            let torque = self.dynamics.torque(body, id).clamp(-driven.effort, driven.effort);
             let parent = body.link(id).and_then(|link| link.parent_id()).and_then(|parent| body.link(parent));
             let parent = parent.map(|parent| parent.rigid_body_handle());
             let Some(link) = body.link_mut(id) else { continue };
@@ -87,20 +89,21 @@ impl Articulation {
         }
     }
 
-    /// The forces of the motion in which each of the arm's joints follows its setpoint, and the fingers keep their shape.
-    fn wanted_dynamics(&self, world: &PhysicsWorld) -> Option<InverseDynamics> {
-        let first = self.joints.first()?;
-        let (body, _) = world.multibody_joints.get(first.handle)?;
-        let mut accelerations = DVector::zeros(body.ndofs());
-        for driven in self.joints.iter().filter(|driven| driven.source < ARM_JOINTS && driven.gear.is_none())
-        {
-            let (body, id) = world.multibody_joints.get(driven.handle)?;
-            let link = body.link(id)?;
+    /// What the motion takes in which each of the arm's joints follows its setpoint, and the fingers keep their shape.
+    fn solve(&mut self, world: &PhysicsWorld) {
+        let Self { joints, setpoints, dynamics, .. } = self;
+        let Some((body, _)) = joints.first().and_then(|first| world.multibody_joints.get(first.handle))
+        else {
+            return;
+        };
+        dynamics.clear(body);
+        for driven in joints.iter().filter(|driven| driven.source < ARM_JOINTS && driven.gear.is_none()) {
+            let Some((_, id)) = world.multibody_joints.get(driven.handle) else { continue };
+            let Some(link) = body.link(id) else { continue };
             let (position, velocity) = (link.joint().coords()[3], body.joint_velocity(link)[0]);
-            accelerations[link.assembly_id()] =
-                driven.acceleration(&self.setpoints[driven.source], position, velocity);
+            dynamics.accelerate(link, driven.acceleration(&setpoints[driven.source], position, velocity));
         }
-        Some(InverseDynamics::of(body, &world.bodies, world.gravity, accelerations))
+        dynamics.solve(body, &world.bodies, world.gravity);
     }
 
     /// The body that the palm is on.

@@ -2,6 +2,7 @@
 
 use super::articulation::Articulation;
 use super::driven_joint::DrivenJoint;
+use super::inverse_dynamics::InverseDynamics;
 use super::layer::Layer;
 use super::link_body::{Place, furnish_link};
 use crate::WorldError;
@@ -56,7 +57,8 @@ impl Articulation {
             }
         }
         let setpoints = [MotionState::at_rest(0.0); ARM_JOINTS];
-        let built = Self { joints, shapes: of_hand, setpoints };
+        let dynamics = InverseDynamics::default();
+        let built = Self { joints, shapes: of_hand, setpoints, dynamics };
         built.gear(world);
         Ok(built)
     }

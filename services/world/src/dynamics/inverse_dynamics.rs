@@ -2,9 +2,8 @@ use rapier3d::math::DVector;
 use rapier3d::prelude::*;
 
 /// What a wanted motion of a multibody takes: the force and moment on each link, for its acceleration and against its weight,
-/// world frame. What turning links exert on each other (Coriolis and centrifugal terms) is left to the feedback: at the arm's
-/// speeds it comes to less than 0.3 mrad.
-#[derive(Debug)]
+/// world frame. What turning links exert on each other (Coriolis and centrifugal terms) is left to the feedback.
+#[derive(Debug, Clone, Default)]
 pub(super) struct InverseDynamics {
     /// Of the joints, rad/s².
     accelerations: DVector,
@@ -13,20 +12,33 @@ pub(super) struct InverseDynamics {
 }
 
 impl InverseDynamics {
-    /// For these accelerations of the joints, rad/s².
-    pub fn of(body: &Multibody, bodies: &RigidBodySet, gravity: Vector, accelerations: DVector) -> Self {
+    /// Begins anew, with joints that all keep their velocities.
+    pub fn clear(&mut self, body: &Multibody) {
+        self.wrenches.clear();
+        // Allocates once.
+        self.accelerations.resize_vertically_mut(body.ndofs(), 0.0);
+        self.accelerations.fill(0.0);
+    }
+
+    /// The joint that moves this link is to have this acceleration, rad/s².
+    pub fn accelerate(&mut self, link: &MultibodyLink, acceleration: f64) {
+        self.accelerations[link.assembly_id()] = acceleration;
+    }
+
+    /// Computes what all that takes.
+    pub fn solve(&mut self, body: &Multibody, bodies: &RigidBodySet, gravity: Vector) {
+        let Self { accelerations, wrenches } = self;
         let wrench = |(id, link): (usize, &MultibodyLink)| {
             let Some(rigid) = bodies.get(link.rigid_body_handle()) else {
                 return (Vector::ZERO, Vector::ZERO);
             };
-            let motion = body.body_jacobian(id) * &accelerations;
+            let motion = body.body_jacobian(id) * &*accelerations;
             let linear = Vector::new(motion[0], motion[1], motion[2]);
             let angular = Vector::new(motion[3], motion[4], motion[5]);
             let inertia = rigid.mass_properties().effective_angular_inertia();
             (rigid.mass() * (linear - gravity), inertia * angular)
         };
-        let wrenches = body.links().enumerate().map(wrench).collect();
-        Self { accelerations, wrenches }
+        wrenches.extend(body.links().enumerate().map(wrench));
     }
 
     /// Torque of the joint that moves the link `joint`, Nm: that of all links about it, and its rotor's.
