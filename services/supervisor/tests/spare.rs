@@ -53,6 +53,8 @@ fn a_spare_that_died_is_replaced_and_none_is_waited_for() {
     let second = spare(&mut trial, Some(first));
     assert!(exists(second));
     kill_process(Pid::from_raw(second as i32).unwrap(), Signal::KILL).unwrap();
+    // One whose death was not noticed yet would still take the place of the process, and die there.
+    trial.until(&mut (), |_| !exists(second)).unwrap();
     trial.set.inject("a", Fault::Kill).unwrap();
     trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
     assert!(![first, second].contains(&trial.pid("a")), "it was started anew");
