@@ -9,7 +9,10 @@ use rapier3d::prelude::*;
 /// Stiffness, 1/s², and damping, 1/s, with which the arm's joints follow their setpoints, critically damped at a natural frequency
 /// of 200 rad/s. Chosen by hand.
 const ARM: (f64, f64) = (40_000.0, 400.0);
-/// The same of the fingers' motors: soft enough that a part stops them before their effort is spent.
+/// A joint that something holds back is pushed as if to accelerate so many times as it may: less, and parts are not pressed into their
+/// places; more, and a light joint is thrown when what held it gives way. Chosen by hand.
+const PUSHED: f64 = 10.0;
+/// As [`ARM`], of the fingers' motors: soft enough that a part stops them before their effort is spent.
 const HAND: (f64, f64) = (10_000.0, 200.0);
 
 /// A revolute joint of the arm, one of a finger with its motor, or one that is geared to another.
@@ -23,6 +26,8 @@ pub(super) struct DrivenJoint {
     pub is_source: bool,
     /// Largest torque of its motor, Nm.
     pub effort: f64,
+    /// Largest acceleration that it is driven with, rad/s².
+    most_acceleration: f64,
     /// The URDF joint that it is geared to, and its angle for each rad of that.
     pub gear: Option<(String, f64)>,
 }
@@ -61,7 +66,16 @@ impl DrivenJoint {
         let handle = world
             .insert_multibody_joint(parent, child, data.build())
             .ok_or_else(|| fault("closes a loop; expected a tree of links"))?;
-        Ok(Self { handle, name: joint.name.clone(), source, is_source: own.is_some(), effort, gear })
+        let most_acceleration = PUSHED * robot.limits()[source].acceleration;
+        Ok(Self {
+            handle,
+            name: joint.name.clone(),
+            source,
+            is_source: own.is_some(),
+            effort,
+            most_acceleration,
+            gear,
+        })
     }
 
     /// Sets its motor, if it has one, to follow this, rad and rad/s.
@@ -89,7 +103,8 @@ impl DrivenJoint {
         let drawn = setpoint.acceleration
             + stiffness * (setpoint.position - position - PERIOD_S * velocity)
             + damping * (setpoint.velocity - velocity);
-        drawn / (1.0 + PERIOD_S * damping + PERIOD_S * PERIOD_S * stiffness)
+        let wanted = drawn / (1.0 + PERIOD_S * damping + PERIOD_S * PERIOD_S * stiffness);
+        wanted.clamp(-self.most_acceleration, self.most_acceleration)
     }
 
     /// The finger whose base or tip it is.
