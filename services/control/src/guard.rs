@@ -113,8 +113,8 @@ impl Guard {
 }
 
 impl Guard {
-    /// Whether the fingers of an empty hand may go on from where they are: no link of theirs comes nearer to the person than it is
-    /// while she moves, or all keep the protective separation, at any time until they could stand.
+    /// Whether fingers that close on nothing may go on from where they are: no link of theirs comes nearer to the person than it is,
+    /// or all keep the protective separation, at any time until they could stand.
     pub fn admits_fingers(
         &mut self,
         state: &ControlState,
