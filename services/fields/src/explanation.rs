@@ -19,23 +19,37 @@ impl Explanation {
     /// Explains a population of the network of `plan` from the newest frame and percept: the input from which the next frame is
     /// computed, without its noise.
     pub fn of(plan: &NetworkPlan, population: usize, frame: &FieldFrame, percept: Option<&Percept>) -> Self {
-        let mut signals = vec![0.0; plan.populations.len() + plan.channels.len()];
-        sources::collect(plan, frame.header.cycle + 1, percept, &frame.signal, &mut signals);
+        Self::of_signals(plan, population, &signals(plan, frame, percept), frame.since[population])
+    }
+
+    /// The same from the [`signals`] of an instant, and the cycle since which the population's peak stood then, 0 without one.
+    pub fn of_signals(plan: &NetworkPlan, population: usize, signals: &[f64], since: u64) -> Self {
         let of_it = plan.synapses.iter().filter(|synapse| synapse.to == population);
         let of_it: Vec<Synapse> = of_it.copied().collect();
         let mut shares: Vec<Share> = of_it
             .chunk_by(|one, other| one.rule == other.rule)
-            .flat_map(|group| shares(group, plan.pools[group[0].rule], &signals))
+            .flat_map(|group| shares(group, plan.pools[group[0].rule], signals))
             .collect();
         shares.sort_by(|one, other| other.amount.abs().total_cmp(&one.amount.abs()));
-        let since = Some(frame.since[population]).filter(|since| *since > 0);
-        Self { population, signal: frame.signal[population], since, shares }
+        Self {
+            population,
+            signal: signals[population],
+            since: Some(since).filter(|since| *since > 0),
+            shares,
+        }
     }
 
     /// All that it gets: 1 ignites a population at rest.
     pub fn input(&self) -> f64 {
         self.shares.iter().map(|share| share.amount).sum()
     }
+}
+
+/// What all synapses start from: the signals of all populations of the newest frame, then the values of the percept's channels.
+pub fn signals(plan: &NetworkPlan, frame: &FieldFrame, percept: Option<&Percept>) -> Vec<f64> {
+    let mut signals = vec![0.0; plan.populations.len() + plan.channels.len()];
+    sources::collect(plan, frame.header.cycle + 1, percept, &frame.signal, &mut signals);
+    signals
 }
 
 /// Synapses that add up are shares of their own.

@@ -13,7 +13,7 @@ mod projections;
 mod share;
 mod sources;
 
-pub use explanation::Explanation;
+pub use explanation::{Explanation, signals};
 pub use network::Network;
 use projections::Projections;
 pub use share::Share;

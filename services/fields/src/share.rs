@@ -1,5 +1,5 @@
 use crate::pooled_input::PooledInput;
-use coact_joint_task::Pool;
+use coact_joint_task::{NetworkPlan, Pool};
 
 /// What a population gets from one synapse, or from a group of them that counts as one.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,5 +32,23 @@ impl Share {
             Pool::Sum | Pool::Any => self.sources.iter().max_by(by_signal),
         };
         found.copied().unwrap_or_default()
+    }
+
+    /// The source that is missing, when all others stand that are needed with it.
+    pub fn missing(&self) -> Option<usize> {
+        let mut missing = self.sources.iter().filter(|(_, signal)| *signal <= 0.0);
+        let (Some((only, _)), None) = (missing.next(), missing.next()) else { return None };
+        (self.pool == Pool::Every && self.weight > 0.0 && self.sources.len() > 1).then_some(*only)
+    }
+
+    /// In words, which source decides, and how many stand beside it.
+    pub fn from(&self, plan: &NetworkPlan) -> String {
+        let decisive = plan.name(self.decisive().0);
+        let others = self.sources.iter().filter(|(_, signal)| *signal > 0.0).count().saturating_sub(1);
+        match (self.pool, others) {
+            (_, 0) | (Pool::Sum, _) => decisive,
+            (Pool::Any, _) => format!("{decisive}, the strongest of {}", others + 1),
+            (Pool::Every, _) => format!("{decisive}, the weakest of {} that are all needed", others + 1),
+        }
     }
 }

@@ -117,6 +117,12 @@ impl NetworkPlan {
         self.populations.get(index).unwrap_or_else(|| &self.channels[index - self.populations.len()].meaning)
     }
 
+    /// Layer and label of what stands at place `index` of the row of populations and channels: as in "IL insert: wheel".
+    pub fn name(&self, index: usize) -> String {
+        let layer = self.layer_of(index).map_or("seen", |layer| layer.kind.name());
+        format!("{layer} {}", self.meaning(index).label)
+    }
+
     /// Population of the intention layer that stands for `chain` (index into `Task::chains`) serving `subgoal`.
     pub fn goal(&self, chain: usize, subgoal: usize) -> Option<usize> {
         let layer = self.layer(LayerKind::Intention).populations.clone();

@@ -96,7 +96,7 @@ pub const ALL: [TopicEntry; 12] = [
         name: SENSORS,
         message: "SensorSample",
         writers: &["world"],
-        readers: &["perception", "control", "monitor", "recorder"],
+        readers: &["perception", "control", "monitor", "recorder", "console"],
         checkpoint: false,
         depth: JOINTS_EACH_CYCLE,
         ..CHAIN
@@ -105,7 +105,7 @@ pub const ALL: [TopicEntry; 12] = [
         name: PERCEPT,
         message: "Percept",
         writers: &["perception"],
-        readers: &["fields", "control", "recorder", "supervisor"],
+        readers: &["fields", "control", "recorder", "console", "supervisor"],
         depth: PERCEPTS_EACH_CYCLE,
         ..CHAIN
     },
@@ -114,7 +114,7 @@ pub const ALL: [TopicEntry; 12] = [
         message: "FieldFrame",
         writers: &["fields"],
         // A frame is integrated from the one before: fields reads its own topic.
-        readers: &["fields", "control", "voice", "monitor", "recorder", "supervisor"],
+        readers: &["fields", "control", "voice", "monitor", "recorder", "console", "supervisor"],
         ..CHAIN
     },
     TopicEntry {
@@ -122,14 +122,14 @@ pub const ALL: [TopicEntry; 12] = [
         message: "Command",
         writers: &["control"],
         // Control looks whether its standby has sent the command of a cycle already, and the standby whether control has.
-        readers: &["world", "control", "monitor", "recorder", "supervisor"],
+        readers: &["world", "control", "monitor", "recorder", "console", "supervisor"],
         ..CHAIN
     },
     TopicEntry {
         name: "coact/pulse/*",
         message: "Pulse",
         writers: STAGES,
-        readers: &["monitor", "recorder", "supervisor"],
+        readers: &["monitor", "recorder", "console", "supervisor"],
         depth: EVERY_CYCLE,
         ..PLAIN
     },
@@ -173,7 +173,8 @@ pub const ALL: [TopicEntry; 12] = [
         name: TRUTH,
         message: "Truth",
         writers: &["world"],
-        readers: &["monitor"],
+        // Who measures, and who shows. Nobody who decides.
+        readers: &["monitor", "console"],
         closed: true,
         depth: EVERY_CYCLE,
         ..PLAIN

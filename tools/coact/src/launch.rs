@@ -1,6 +1,6 @@
 use crate::installation::Installation;
 use crate::report_folder::unused_report_folder;
-use crate::{closed_pipe, lockstep, partner, run_report, snapshots};
+use crate::{closed_pipe, companion, console, lockstep, partner, run_report, snapshots};
 use anyhow::{Result, ensure};
 use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
@@ -14,8 +14,11 @@ use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// The process that records a run, which is started only on request.
+/// The processes that record a run and that show it in a browser, which are started only on request.
 const RECORDER: &str = "recorder";
+const CONSOLE: &str = "console";
+/// How long a run lasts whose partner sits at the console: until it is ended there or here, but not for ever.
+const SITTING: Duration = Duration::from_secs(3600);
 
 /// Starts the processes of the pipeline, shows their progress, and reports how fast, punctual and anticipatory they
 /// were.
@@ -28,6 +31,8 @@ const RECORDER: &str = "recorder";
   coact launch --partner right-arm:FILE               an arm of motion capture, that takes no part
   coact launch --record --report reports/long         all that was seen and decided, in run.mcap
   coact launch --partner hand                         a hand from outside; see coact hand --help
+  coact launch --console                              build with the robot yourself, in a browser
+  coact launch --console --partner random             watch there how a simulated person does
   coact launch --lockstep --world kinematic --json    as fast as the machine can
 
 Exit status: 0 the work was done (with --strict: in time, too), 1 it was not, 2 bad usage or configuration.")]
@@ -37,12 +42,13 @@ pub struct Args {
     task: Option<PathBuf>,
     /// Who works with the robot: synthetic, random[:KEY=VALUE,...], script:FILE, recorded,
     /// recorded:DIR, left-arm:FILE, right-arm:FILE, or hand: a hand that comes from outside (coact hand)
-    #[arg(long, default_value = "synthetic")]
-    partner: String,
+    /// [default: synthetic; with --console: hand]
+    #[arg(long)]
+    partner: Option<String>,
     /// Seed of everything random
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Seconds; without it, until all subgoals are achieved, 300 s at most
+    /// Seconds; without it, until all subgoals are achieved, 300 s at most; at the console an hour
     #[arg(long, value_name = "S", value_parser = seconds)]
     duration: Option<Duration>,
     /// Where the report goes [default: reports/DATE-TIME]
@@ -66,6 +72,9 @@ pub struct Args {
     /// Record the run: run.mcap in the report's folder, for Foxglove and coact replay
     #[arg(long, conflicts_with = "lockstep")]
     record: bool,
+    /// Show the run in a browser, and let whoever sits there be the partner; it is recorded as well
+    #[arg(long, conflicts_with = "lockstep")]
+    console: bool,
     /// Fail also when the timing was not what it should be
     #[arg(long)]
     strict: bool,
@@ -120,23 +129,30 @@ fn show(settings: &RunSettings, json: bool, strict: bool) -> Result<ExitCode> {
 
 /// Reads and checks every file before anything is started.
 fn prepare(args: Args) -> Result<Launch> {
+    let whoever = if args.console { Partner::HAND } else { "synthetic" };
+    let partner = args.partner.unwrap_or_else(|| whoever.to_owned());
     ensure!(
-        !args.lockstep || args.partner != Partner::HAND,
+        !args.lockstep || partner != Partner::HAND,
         "--lockstep with --partner hand: nobody can move a hand as fast as the machine can; expected one of the two"
     );
     let Installation { programs, configuration, reaches } = Installation::find()?;
     let shipped = RunSettings::shipped(&configuration);
-    let requested = args.record.then_some(RECORDER);
+    let requested = [(args.record || args.console, RECORDER), (args.console, CONSOLE)];
+    let requested = requested.iter().filter(|(wanted, _)| *wanted).map(|(_, process)| (*process).to_owned());
+    let sits = args.console && partner == Partner::HAND;
+    if args.console {
+        companion::up_to_date(console::PROGRAM)?;
+    }
     let settings = RunSettings {
         task: absolute(args.task.unwrap_or(shipped.task))?,
         pipeline: absolute(args.pipeline.unwrap_or(shipped.pipeline))?,
         safety: absolute(args.safety.unwrap_or(shipped.safety))?,
         report: absolute(args.report.unwrap_or_else(|| unused_report_folder(Path::new("reports"))))?,
         seed: args.seed,
-        partner: partner::setting(&args.partner, &reaches),
+        partner: partner::setting(&partner, &reaches),
         world: args.world,
-        duration: args.duration,
-        requested: requested.map(str::to_owned).into_iter().collect(),
+        duration: args.duration.or(sits.then_some(SITTING)),
+        requested: requested.collect(),
         ..shipped
     };
     let (task, _) = NetworkPlan::load(&settings.task)?;

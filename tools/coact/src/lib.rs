@@ -5,6 +5,8 @@ mod adopt;
 mod check;
 /// Readers who have seen enough.
 pub mod closed_pipe;
+mod companion;
+mod console;
 /// The hand of a partner from outside.
 pub mod hand;
 mod inject;
@@ -82,6 +84,8 @@ enum Command {
     /// Fingers that close around a part take it: they are 16 mm farther apart then than it is wide. Fingers that open let it
     /// go. An open hand that is held out, flat, where parts change hands asks for one.
     Hand(hand::Args),
+    /// Show a recorded run in the browser
+    Console(console::Args),
     /// Show how punctual and how fast a run was, or is
     Latency(latency::Args),
     /// Draw a run's snapshots: pictures of who took what
@@ -117,6 +121,7 @@ fn run(arguments: &[OsString]) -> Result<ExitCode> {
         Command::Say(args) => say::run(args),
         Command::Why(args) => why::run(args),
         Command::Hand(args) => hand::run(args),
+        Command::Console(args) => console::run(args),
         Command::Latency(args) => latency::run(args),
         Command::Snapshots(args) => snapshots::run(args),
     }

@@ -100,7 +100,7 @@ fn find(plan: &NetworkPlan, words: &str) -> Result<Vec<usize>> {
     ensure!(!words.trim().is_empty(), "no population was named; expected words such as \"AEL grasp\"");
     let words: Vec<_> = words.split_whitespace().map(str::to_lowercase).collect();
     let has_all = |population: &usize| {
-        let name = name(plan, *population).to_lowercase();
+        let name = plan.name(*population).to_lowercase();
         words.iter().all(|word| name.contains(word))
     };
     let found: Vec<usize> = (0..plan.populations.len()).filter(has_all).collect();
@@ -114,14 +114,8 @@ fn find(plan: &NetworkPlan, words: &str) -> Result<Vec<usize>> {
     Ok(found)
 }
 
-/// Layer and label of a population, or what a channel of the percept stands for.
-fn name(plan: &NetworkPlan, place: usize) -> String {
-    let layer = plan.layer_of(place).map_or("seen", |layer| layer.kind.name());
-    format!("{layer} {}", plan.meaning(place).label)
-}
-
 fn in_words(plan: &NetworkPlan, explained: &Explanation, cycle: u64) -> String {
-    let name = name(plan, explained.population);
+    let name = plan.name(explained.population);
     let name = name.if_supports_color(Stream::Stdout, |text| text.bold());
     let state = match explained.since {
         Some(since) => format!("has stood for {:.2} s", cycle.saturating_sub(since) as f64 / 1000.0),
@@ -133,48 +127,29 @@ fn in_words(plan: &NetworkPlan, explained: &Explanation, cycle: u64) -> String {
         text.push_str("    nothing from anywhere\n");
     }
     for share in told {
-        let (source, _) = share.decisive();
         // To write to a string cannot fail.
         let _ = writeln!(
             text,
             "  {:>6.2}  from {} ({})",
             share.amount,
-            sources(plan, share, source),
+            share.from(plan),
             plan.reasons[share.rule]
         );
     }
-    for share in explained.shares.iter().filter(|share| is_short_of(share)) {
+    for (share, missing) in explained.shares.iter().filter_map(|share| Some((share, share.missing()?))) {
         let _ = writeln!(
             text,
             "       -  {:.2} if {} stood as well ({})",
             share.weight,
-            self::name(plan, share.decisive().0),
+            plan.name(missing),
             plan.reasons[share.rule]
         );
     }
     text
 }
 
-/// The source that decides, and how many stand beside it.
-fn sources(plan: &NetworkPlan, share: &Share, decisive: usize) -> String {
-    let others = share.sources.iter().filter(|(_, signal)| *signal > 0.0).count().saturating_sub(1);
-    match (share.pool, others) {
-        (_, 0) | (Pool::Sum, _) => name(plan, decisive),
-        (Pool::Any, _) => format!("{}, the strongest of {}", name(plan, decisive), others + 1),
-        (Pool::Every, _) => {
-            format!("{}, the weakest of {} that are all needed", name(plan, decisive), others + 1)
-        }
-    }
-}
-
-/// Whether all sources but one stand that are needed together.
-fn is_short_of(share: &Share) -> bool {
-    let missing = share.sources.iter().filter(|(_, signal)| *signal <= 0.0).count();
-    share.pool == Pool::Every && share.weight > 0.0 && missing == 1 && share.sources.len() > 1
-}
-
 fn as_json(plan: &NetworkPlan, explained: &Explanation) -> serde_json::Value {
-    let source = |(place, signal): &(usize, f64)| json!({ "name": name(plan, *place), "signal": signal });
+    let source = |(place, signal): &(usize, f64)| json!({ "name": plan.name(*place), "signal": signal });
     let share = |share: &Share| {
         json!({
             "amount": share.amount,
@@ -185,7 +160,7 @@ fn as_json(plan: &NetworkPlan, explained: &Explanation) -> serde_json::Value {
         })
     };
     json!({
-        "name": name(plan, explained.population),
+        "name": plan.name(explained.population),
         "signal": explained.signal,
         "since_cycle": explained.since,
         "input": explained.input(),
@@ -210,7 +185,7 @@ mod tests {
         assert_eq!(find(&plan, "ael").unwrap().len(), plan.populations_of(LayerKind::ActionExecution).len());
         let inserts = find(&plan, "il INSERT").unwrap();
         assert!(!inserts.is_empty());
-        assert!(inserts.iter().all(|place| name(&plan, *place).starts_with("IL insert")));
+        assert!(inserts.iter().all(|place| plan.name(*place).starts_with("IL insert")));
         let refused = find(&plan, "telepathy").unwrap_err().to_string();
         assert!(refused.contains("telepathy") && refused.contains("AOL, OML robot"), "{refused}");
         assert!(find(&plan, "  ").is_err());

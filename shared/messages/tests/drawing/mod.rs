@@ -8,7 +8,7 @@ use coact_messages::topic::{ALL, ANYONE};
 use std::fmt::Write;
 
 /// The processes from left to right, and what stands below their names.
-const COLUMNS: [(&str, &str); 9] = [
+const COLUMNS: [(&str, &str); 10] = [
     (ANYONE, "coact say, ..."),
     ("world", "simulation"),
     ("perception", "evidence"),
@@ -17,6 +17,7 @@ const COLUMNS: [(&str, &str); 9] = [
     ("voice", "sentences"),
     ("monitor", "the report"),
     ("recorder", "run.mcap"),
+    ("console", "the browser"),
     ("supervisor", "restarts"),
 ];
 /// Where each block of rows begins, and its heading.

@@ -1,0 +1,58 @@
+// The line to the server: comes back by itself when it is lost, and gives what is told to those who listen.
+
+/** Pauses before a new try, ms: the last one is repeated. */
+const PAUSES = [300, 600, 1000, 2000, 4000];
+
+export class Connection extends EventTarget {
+  #socket = null;
+  #failed = 0;
+  #over = false;
+
+  constructor() {
+    super();
+    this.#open();
+  }
+
+  /** Whether something that is sent arrives. */
+  get isOpen() {
+    return this.#socket?.readyState === WebSocket.OPEN;
+  }
+
+  /** @param {object} request one key, as the server's `Request` has it */
+  send(request) {
+    if (this.isOpen) this.#socket.send(JSON.stringify(request));
+  }
+
+  /** The run is over: a line that is lost then is not opened again. */
+  finish() {
+    this.#over = true;
+  }
+
+  #open() {
+    const token = new URLSearchParams(location.search).get("token") ?? "";
+    const socket = new WebSocket(`ws://${location.host}/live?token=${encodeURIComponent(token)}`);
+    socket.binaryType = "arraybuffer";
+    let opened = false;
+    socket.onopen = () => {
+      opened = true;
+      this.#failed = 0;
+      this.#tell("open");
+    };
+    socket.onmessage = ({ data }) => {
+      if (typeof data !== "string") return this.#tell("picture", data);
+      const message = JSON.parse(data);
+      this.#tell(message.kind, message);
+    };
+    socket.onclose = () => {
+      if (this.#over) return;
+      this.#failed += 1;
+      this.#tell("lost", { tries: this.#failed, everOpen: opened });
+      setTimeout(() => this.#open(), PAUSES[Math.min(this.#failed, PAUSES.length) - 1]);
+    };
+    this.#socket = socket;
+  }
+
+  #tell(kind, detail) {
+    this.dispatchEvent(new CustomEvent(kind, { detail }));
+  }
+}

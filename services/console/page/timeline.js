@@ -1,0 +1,182 @@
+// What has happened, on a line of time: choose an instant, and everything else on the page follows.
+
+import { fitted, shortened } from "./canvas.js";
+import { BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, resolved } from "./colours.js";
+
+/** Lanes from top to bottom: name, and the sorts of event in it. */
+const LANES = [
+  ["you", ["action"]],
+  ["inferred", ["inferred", "error"]],
+  ["decided", ["decision"]],
+  ["words", ["said", "heard"]],
+  ["done", ["achieved", "assembly", "forgotten"]],
+  ["machine", ["fault", "restart", "alarm", "stopped", "resumed", "blind"]],
+];
+const COLOURS = {
+  action: ORANGE, inferred: PURPLE, error: VERMILION, decision: BLUE, said: BLUE, heard: ORANGE, achieved: GREEN,
+  assembly: GREEN, forgotten: GREY, fault: VERMILION, alarm: VERMILION, stopped: VERMILION, restart: GREEN, resumed: GREEN, blind: GREY,
+};
+const NAMES = 74, AXIS = 20;
+
+export class Timeline {
+  /** @param go called with the cycle that was chosen */
+  constructor(canvas, go) {
+    this.canvas = canvas;
+    this.go = go;
+    this.events = [];
+    /** Milliseconds that are shown. */
+    this.span = 30_000;
+    /** The end of what is shown; null: now. */
+    this.end = null;
+    this.now = 0;
+    /** The instant that the page shows. */
+    this.cursor = 0;
+    let held = false;
+    const choose = ({ offsetX }) => this.go(Math.max(0, Math.round(this.#time(offsetX))));
+    canvas.addEventListener("pointerdown", (event) => {
+      held = true;
+      canvas.setPointerCapture(event.pointerId);
+      this.end ??= this.#end();
+      const near = this.#near(event.offsetX, event.offsetY);
+      if (near) this.go(near.at_ms);
+      else choose(event);
+    });
+    canvas.addEventListener("pointermove", (event) => held && choose(event));
+    canvas.addEventListener("pointerup", () => (held = false));
+    canvas.addEventListener("pointercancel", () => (held = false));
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      if (event.shiftKey) this.end = Math.min(this.now, this.#end() + Math.sign(event.deltaY) * this.span * 0.1);
+      else this.zoom(event.deltaY > 0 ? 1.25 : 0.8);
+    }, { passive: false });
+    canvas.addEventListener("keydown", (event) => {
+      if (event.key === "ArrowLeft") this.jump(-1);
+      else if (event.key === "ArrowRight") this.jump(1);
+      else return;
+      event.preventDefault();
+    });
+  }
+
+  add(first, events) {
+    this.events.length = Math.min(this.events.length, first);
+    this.events.push(...events);
+  }
+
+  zoom(factor) {
+    this.span = Math.min(3_600_000, Math.max(2_000, this.span * factor));
+  }
+
+  /** To the event after the cursor, or before it. */
+  jump(direction) {
+    const times = this.events.map(({ at_ms }) => at_ms).sort((a, b) => a - b);
+    const found = direction > 0 ? times.find((time) => time > this.cursor + 1) : times.findLast((time) => time < this.cursor - 1);
+    if (found === undefined) return;
+    this.end = Math.max(found + this.span / 2, Math.min(this.span, this.now));
+    this.go(found);
+  }
+
+  /** The newest event at the cursor or before it. */
+  current() {
+    return this.events.filter(({ at_ms }) => at_ms <= this.cursor).reduce((last, event) => (!last || event.at_ms >= last.at_ms ? event : last), null);
+  }
+
+  #end() {
+    return this.end ?? Math.max(this.now, this.span * 0.2) + this.span * 0.04;
+  }
+
+  #time(x) {
+    const width = this.canvas.clientWidth - NAMES;
+    return this.#end() - this.span * (1 - (x - NAMES) / width);
+  }
+
+  #x(time) {
+    return NAMES + (this.canvas.clientWidth - NAMES) * (1 - (this.#end() - time) / this.span);
+  }
+
+  #near(x, y) {
+    const lane = LANES[Math.floor((y / (this.canvas.clientHeight - AXIS)) * LANES.length)];
+    const near = this.events.filter((event) => lane?.[1].includes(event.sort) && Math.abs(this.#x(event.at_ms) - x) < 7);
+    return near[near.length - 1];
+  }
+
+  draw() {
+    const { context, width, height } = fitted(this.canvas);
+    const [ink, quiet, line] = [resolved("--ink"), resolved("--quiet"), resolved("--line")];
+    const lane = (height - AXIS) / LANES.length;
+    context.font = "13px system-ui, sans-serif";
+    context.textBaseline = "middle";
+    LANES.forEach(([name, sorts], index) => {
+      const y = index * lane;
+      context.fillStyle = quiet;
+      context.textAlign = "left";
+      context.fillText(name, 10, y + lane / 2);
+      context.fillStyle = line;
+      context.fillRect(NAMES, y + lane - 0.5, width - NAMES, 1);
+      this.#lane(context, this.events.filter(({ sort }) => sorts.includes(sort)), y, lane, ink);
+    });
+    this.#axis(context, height - AXIS, width, quiet);
+    const x = this.#x(this.cursor);
+    if (x >= NAMES) {
+      context.fillStyle = ink;
+      context.fillRect(x - 1, 0, 2, height - 4);
+    }
+    this.canvas.setAttribute("aria-valuenow", String(Math.round(this.cursor)));
+    this.canvas.setAttribute("aria-valuetext", `${(this.cursor / 1000).toFixed(1)} seconds`);
+  }
+
+  #lane(context, events, y, lane, ink) {
+    const sorted = [...events].sort((a, b) => a.at_ms - b.at_ms);
+    sorted.forEach((event, index) => {
+      const x = this.#x(event.at_ms);
+      const next = sorted[index + 1] ? this.#x(sorted[index + 1].at_ms) : this.canvas.clientWidth;
+      if (next < NAMES || x > this.canvas.clientWidth) return;
+      const until = event.grasp_ms ?? event.until_ms;
+      const wide = until ? Math.max(4, this.#x(until) - x) : 4;
+      context.save();
+      context.beginPath();
+      context.rect(NAMES, y, this.canvas.clientWidth - NAMES, lane);
+      context.clip();
+      context.fillStyle = COLOURS[event.sort] ?? GREY;
+      context.fillRect(x, y + 3, wide, lane - 7);
+      if (event.sort === "action") this.#understood(context, event, y, lane);
+      const room = next - x - wide - 6;
+      if (room > 24) {
+        context.fillStyle = ink;
+        context.fillText(shortened(context, told(event), room), x + wide + 4, y + lane / 2);
+      }
+      context.restore();
+    });
+  }
+
+  /** When an action was inferred and answered, within its bar. */
+  #understood(context, { inferred_ms, decision_ms, right }, y, lane) {
+    const mark = (time, colour) => {
+      if (!Number.isFinite(time)) return;
+      context.fillStyle = colour;
+      context.fillRect(this.#x(time) - 1.5, y + 1, 3, lane - 3);
+    };
+    mark(inferred_ms, PURPLE);
+    mark(decision_ms, right === false ? VERMILION : SKY);
+  }
+
+  #axis(context, y, width, quiet) {
+    const step = [1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200].find((seconds) => (seconds * 1000 * (width - NAMES)) / this.span > 70) ?? 3600;
+    context.fillStyle = quiet;
+    context.textAlign = "center";
+    const first = Math.max(0, Math.ceil((this.#end() - this.span) / 1000 / step) * step);
+    for (let second = first; second * 1000 <= this.#end(); second += step) {
+      const x = this.#x(second * 1000);
+      context.fillRect(x, y, 1, 4);
+      if (x > NAMES + 14) context.fillText(`${second} s`, x, y + 12);
+    }
+    context.textAlign = "left";
+  }
+}
+
+/** An event in words. */
+export function told(event) {
+  if (event.sort !== "action") return event.text;
+  const lead = Number.isFinite(event.lead_ms) ? `, answered ${event.lead_ms} ms before the grasp` : "";
+  const wrong = event.right === false ? ", not as it should be" : "";
+  return event.text + lead + wrong;
+}

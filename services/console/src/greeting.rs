@@ -1,0 +1,182 @@
+use crate::PictureMaker;
+use coact_joint_task::{Act, Agent, Chain, NetworkPlan, Shape, Subgoal, Task};
+use coact_messages::{LayerKind, MotionPhase};
+use coact_pipeline::{Pipeline, RunSettings, Trigger};
+use coact_supervisor::Fault;
+use serde_json::{Value, json};
+
+/// The first thing that a page is told: what the run is, and how the pictures are to be read.
+#[derive(Debug)]
+pub struct Greeting<'a> {
+    /// Name of the run.
+    pub run: &'a str,
+    /// What it is made of.
+    pub settings: &'a RunSettings,
+    /// Its process table.
+    pub pipeline: &'a Pipeline,
+    /// What makes its pictures.
+    pub maker: &'a PictureMaker,
+    /// Whether it is over, and was recorded.
+    pub recorded: bool,
+}
+
+/// Version of what page and server say to each other.
+const VERSION: u32 = 1;
+
+/// The chapter's names of the layers, section 3.
+const TITLES: [&str; 9] = [
+    "action observation layer",
+    "object memory layer: the robot's side",
+    "object memory layer: the person's side",
+    "common subgoals layer: achieved",
+    "common subgoals layer: available now",
+    "action simulation layer",
+    "intention layer",
+    "error monitoring layer",
+    "action execution layer",
+];
+
+impl Greeting<'_> {
+    /// As it is sent. The role is each page's own.
+    pub fn to_json(&self) -> Value {
+        let Self { run, settings, pipeline, maker, recorded } = self;
+        let (task, plan) = (maker.task(), maker.plan());
+        let processes = pipeline.processes.iter().map(|entry| {
+            let has_cycles = entry.trigger != Trigger::None;
+            json!({ "name": entry.name, "core": entry.core, "priority": entry.priority, "realtime": entry.realtime,
+                    "cycles": has_cycles })
+        });
+        let faults =
+            Fault::ALL.map(|fault| json!({ "name": fault.name(), "description": fault.description() }));
+        json!({
+            "kind": "hello",
+            "version": VERSION,
+            "run": {
+                "id": run,
+                "task": task.name,
+                "partner": settings.partner,
+                "world": settings.world,
+                "seed": settings.seed,
+                "recorded": recorded,
+            },
+            "task": of_task(task),
+            "layers": LayerKind::ALL.map(|kind| of_layer(plan, kind)),
+            "sites_per_population": plan.sites_per_population,
+            "phases": PHASES.map(|phase| format!("{phase:?}").to_lowercase()),
+            "sizes": {
+                "capsules": maker.links(),
+                "parts": task.parts.len(),
+                "path": PictureMaker::WAY,
+                "populations": plan.populations.len(),
+            },
+            "faults": faults,
+            "processes": processes.collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// The phases of a movement, in the order of their numbers.
+const PHASES: [MotionPhase; 9] = [
+    MotionPhase::Rest,
+    MotionPhase::Reach,
+    MotionPhase::Approach,
+    MotionPhase::Grasp,
+    MotionPhase::Transport,
+    MotionPhase::Release,
+    MotionPhase::Retreat,
+    MotionPhase::Dwell,
+    MotionPhase::Brake,
+];
+
+fn of_task(task: &Task) -> Value {
+    let shape = |shape: Shape| match shape {
+        Shape::Cylinder { radius, height } => json!({ "cylinder": { "radius": radius, "height": height } }),
+        Shape::Box { size } => json!({ "box": size }),
+    };
+    let kinds = task.kinds.iter().map(|kind| json!({ "name": kind.name, "shape": shape(kind.shape) }));
+    let subgoals = task.subgoals.iter().map(|Subgoal { name, kind, side, socket, axis, after, .. }| {
+        let socket = json!({ "at": socket, "axis": axis });
+        json!({ "name": name, "kind": kind, "side": agent(*side), "after": after, "socket": socket })
+    });
+    let postures = |name: &str, pitch: f64| json!({ "name": name, "pitch_deg": pitch.to_degrees() });
+    let scene = &task.scene;
+    json!({
+        "kinds": kinds.collect::<Vec<_>>(),
+        "subgoals": subgoals.collect::<Vec<_>>(),
+        "actions": task.actions.iter().map(|action| &action.name).collect::<Vec<_>>(),
+        "grips": task.grips.iter().map(|grip| postures(&grip.name, grip.pitch)).collect::<Vec<_>>(),
+        "gestures": task.gestures.iter().map(|gesture| postures(&gesture.name, gesture.pitch)).collect::<Vec<_>>(),
+        "grasps": grasps(task),
+        "phrases": phrases(task),
+        "scene": {
+            "table": { "height": scene.table_height, "centre": scene.table_centre, "size": scene.table_size },
+            "platform": { "at": scene.platform, "radius": scene.platform_radius, "height": scene.platform_height },
+            "handover": scene.handover,
+            "person_rest": scene.person_rest,
+            "person_shoulder": scene.person_shoulder,
+            "workspaces": { "robot": scene.workspace[0], "person": scene.workspace[1] },
+        },
+    })
+}
+
+fn agent(side: Agent) -> &'static str {
+    match side {
+        Agent::Robot => "robot",
+        Agent::Person => "person",
+    }
+}
+
+/// What is read from each grip and gesture, once.
+fn grasps(task: &Task) -> Vec<Value> {
+    let read = |chain: &Chain| match chain.act {
+        Act::Grasp { grip, .. } => Some(json!({
+            "grip": task.grips[grip].name, "workspace": agent(chain.from), "leads_to": chain.name
+        })),
+        Act::Gesture(gesture) => Some(
+            json!({ "gesture": task.gestures[gesture].name, "workspace": agent(chain.from), "leads_to": chain.name }),
+        ),
+        _ => None,
+    };
+    let mut grasps: Vec<Value> = task.chains.iter().filter_map(read).collect();
+    let mut seen = Vec::new();
+    grasps.retain(|grasp| {
+        let is_new = !seen.contains(grasp);
+        seen.push(grasp.clone());
+        is_new
+    });
+    grasps
+}
+
+/// Sentences that are understood: the first phrase of each chain, as the person would say it.
+fn phrases(task: &Task) -> Vec<&str> {
+    let mut phrases: Vec<&str> =
+        task.chains.iter().filter_map(|chain| chain.says.first()).map(String::as_str).collect();
+    phrases.sort_unstable();
+    phrases.dedup();
+    phrases
+}
+
+fn of_layer(plan: &NetworkPlan, kind: LayerKind) -> Value {
+    let layer = plan.layer(kind);
+    let labels: Vec<_> = plan.populations_of(kind).iter().map(|population| &population.label).collect();
+    json!({
+        "name": kind.name(),
+        "title": TITLES[kind as usize],
+        "first": layer.populations.start,
+        "count": layer.populations.len(),
+        "resting": layer.resting,
+        "threshold": 0.0,
+        "populations": labels,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn phases_stand_at_their_numbers() {
+        PHASES.iter().enumerate().for_each(|(index, phase)| assert_eq!(*phase as usize, index));
+    }
+}

@@ -1,0 +1,126 @@
+use crate::{Board, ConsoleSettings, Greeting, Machine, PictureMaker, Seen, Timeline, report};
+use coact_joint_task::NetworkPlan;
+use coact_messages::{Command, FieldFrame, Percept, SensorSample};
+use coact_pipeline::Pipeline;
+use coact_robot::Robot;
+use coact_run_recording::{Recorded, Recording, RecordingError};
+use coact_safety::SafetyLimits;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A run that is over, to be looked at: read from its recording, and from the logs beside it where they are.
+pub struct RecordedRun {
+    recording: Recording,
+    board: Arc<Board>,
+    maker: PictureMaker,
+    timeline: Timeline,
+    machine: Machine,
+    newest: Newest,
+    report: PathBuf,
+}
+
+/// The newest message of each sort that was read.
+#[derive(Debug, Default)]
+struct Newest {
+    sample: Option<Box<SensorSample>>,
+    percept: Option<Box<Percept>>,
+    frame: Option<Box<FieldFrame>>,
+    command: Option<Box<Command>>,
+}
+
+/// From one moment that is shown to the next, cycles: the recorder keeps frames twice as often.
+const SPACING: u64 = 100;
+
+impl RecordedRun {
+    /// Opens a recording; nothing of it is on the board yet.
+    ///
+    /// # Errors
+    /// It is none, or what it was made of cannot be used.
+    pub fn open(path: &Path, settings: &ConsoleSettings) -> anyhow::Result<Self> {
+        let recording = Recording::open(path)?;
+        let origin = recording.origin();
+        let (maker, pipeline, safety) = origin.files.provided(|| -> anyhow::Result<_> {
+            let (task, plan) = NetworkPlan::load(&origin.settings.task)?;
+            let robot = Robot::load(&origin.settings.robot)?;
+            let safety = SafetyLimits::load(&origin.settings.safety)?;
+            let pipeline = Pipeline::of_run(&origin.settings)?;
+            Ok((PictureMaker::new(task, plan, robot, &safety.person)?, pipeline, safety))
+        })?;
+        let report = path.parent().map(Path::to_owned).unwrap_or_default();
+        let name = path.display().to_string();
+        let greeting = Greeting {
+            run: &name,
+            settings: &origin.settings,
+            pipeline: &pipeline,
+            maker: &maker,
+            recorded: true,
+        };
+        let board = Arc::new(Board::new(settings, greeting.to_json(), maker.plan().clone()));
+        let timeline = Timeline::new(&report, maker.task(), maker.plan(), origin.start_ns);
+        let machine = Machine::new(&pipeline, safety.stale.input_after);
+        Ok(Self { recording, board, maker, timeline, machine, newest: Newest::default(), report })
+    }
+
+    /// Where it is shown.
+    pub fn board(&self) -> Arc<Board> {
+        Arc::clone(&self.board)
+    }
+
+    /// Reads it to its end, and puts it on the board; returns how many moments there are. A truncated one is read up to where it
+    /// ends.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn read(mut self) -> Result<u64, RecordingError> {
+        let (mut moments, mut due, mut cycle) = (0, 0, 0);
+        while let Some(message) = self.recording.next_message()? {
+            cycle = message.header().cycle.max(cycle);
+            let is_sample = matches!(message, Recorded::Sample(_));
+            self.take(message);
+            if is_sample && cycle >= due {
+                due = cycle + SPACING;
+                moments += u64::from(self.show(cycle));
+            }
+        }
+        if let Err(error) = self.timeline.read_logs() {
+            tracing::warn!("{error}; what stands in that log is not shown");
+        }
+        self.board.put_events(self.timeline.events());
+        self.board.put_machine(&self.machine.to_json(cycle));
+        let errors = self.timeline.events().iter().filter(|event| event["sort"] == "error").count();
+        self.board.put_end(&report(&self.report, cycle, errors));
+        Ok(moments)
+    }
+
+    fn take(&mut self, message: Recorded) {
+        let newest = &mut self.newest;
+        match message {
+            Recorded::Sample(sample) => newest.sample = Some(sample),
+            Recorded::Percept(percept) => newest.percept = Some(percept),
+            Recorded::Frame(frame) => newest.frame = Some(frame),
+            Recorded::Command(command) => newest.command = Some(command),
+            Recorded::Pulse { process, pulse } => self.machine.pulse(&process, &pulse),
+            Recorded::Speech(_) => (),
+        }
+    }
+
+    /// Puts the present moment on the board, if there is anything to be seen.
+    fn show(&mut self, cycle: u64) -> bool {
+        let Self { newest, timeline, maker, board, machine, .. } = self;
+        let seen = Seen {
+            sample: newest.sample.as_deref(),
+            percept: newest.percept.as_deref(),
+            frame: newest.frame.as_deref(),
+            command: newest.command.as_deref(),
+            truth: None,
+        };
+        timeline.watch(&seen);
+        let Some(moment) = maker.moment(&seen) else { return false };
+        board.put_moment(moment);
+        if cycle % 1000 < SPACING {
+            board.put_events(timeline.events());
+            board.put_machine(&machine.to_json(cycle));
+        }
+        true
+    }
+}
