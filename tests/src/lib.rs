@@ -5,6 +5,8 @@
 #![allow(clippy::unwrap_used, reason = "a library of tests: what fails, fails the test")]
 
 mod alone;
+mod browser;
+mod course;
 mod finished;
 mod joint_viewer;
 mod launched;
@@ -14,6 +16,8 @@ mod thread_faults;
 mod tracer;
 
 pub use alone::alone;
+pub use browser::Browser;
+pub use course::Course;
 pub use finished::Finished;
 pub use joint_viewer::JointViewer;
 pub use launched::Launched;

@@ -305,4 +305,5 @@ window.coact = {
   hello: () => hello,
   picture: () => shown.picture,
   handPlane: () => scene?.handPlane,
+  end: () => connection.send({ end: true }),
 };

@@ -259,7 +259,6 @@ impl Partner {
     fn show_hand(&mut self, task: &Task, seen: &Seen, cycle: u64) -> Result<(), PortError> {
         let Some(hands) = &mut self.hands else { return Ok(()) };
         let Some((pointer, _)) = self.pointed.filter(|(_, when)| when.elapsed() < POINTED_WITHIN) else {
-            self.hand.hide();
             return Ok(());
         };
         let elapsed = self.frame.elapsed();

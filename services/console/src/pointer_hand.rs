@@ -62,7 +62,7 @@ const FINGER_SPEED: f64 = 0.30;
 const HOVERS: f64 = 0.09;
 const CARRIES: f64 = 0.14;
 /// The hand is at a thing when it is so near to its axis, sideways, m, and begins to come down to it from here.
-const AT_THING: f64 = 0.03;
+const AT_THING: f64 = 0.04;
 const NEAR_THING: f64 = 0.11;
 /// The same of a socket, and of the place where parts change hands.
 const NEAR_PLACE: f64 = 0.07;
@@ -92,12 +92,7 @@ impl PointerHand {
         }
     }
 
-    /// Nobody sees the hand any more, and when it comes back it is where the pointer is.
-    pub fn hide(&mut self) {
-        (self.motion, self.held, self.pressed) = (None, None, false);
-    }
-
-    /// Moves on by `dt` s, and gives the nine keypoints, m.
+    /// Moves on by `dt` s, and gives the nine keypoints, m. A hand that was not told of for a while goes on from where it was.
     pub fn step(&mut self, pointer: &Pointer, around: &Surroundings, dt: f64) -> [DVec3; 9] {
         self.grasp_or_let_go(pointer, around);
         let goal = self.goal(pointer, around);

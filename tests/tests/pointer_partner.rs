@@ -5,15 +5,13 @@
 use coact_console::{Pointer, PointerHand, Seen, Surroundings};
 use coact_joint_task::Agent;
 use coact_lockstep::Lockstep;
-use coact_messages::KeypointName;
 use coact_monitor::{Anticipation, Intentions};
 use coact_period::cycles;
 use coact_person::{Holder, PartsView};
 use coact_pipeline::{RunSettings, WorldMode};
-use coact_recordings::{Reach, read_folder};
 use coact_run_records::{ActionEvent, Event};
+use coact_tests::{Course, checkout};
 use glam::{DVec2, DVec3};
-use std::path::Path;
 use std::time::Duration;
 
 /// From one pointer that is told to the next, cycles: 60 Hz.
@@ -23,45 +21,6 @@ const PATIENCE: u64 = cycles(Duration::from_secs(60));
 /// Grips of the shipped task, by their places in it.
 const TOP: usize = 0;
 const SIDE: usize = 1;
-
-/// How one person reached once: how far along the way, and how far beside it, as fractions of its length, over time.
-struct Course {
-    points: Vec<(f64, DVec2)>,
-}
-
-impl Course {
-    /// The wrist's way from before the onset to the grasp; none where it was lost.
-    fn of(reach: &Reach) -> Option<Self> {
-        let wrist = KeypointName::Wrist as usize;
-        let frames = reach.frames.iter().filter(|frame| (-0.2..=reach.movement_time).contains(&frame.time));
-        let seen: Vec<(f64, DVec2)> = frames
-            .filter(|frame| frame.joints[wrist].confidence > 0.0)
-            .map(|frame| (frame.time + 0.2, DVec2::new(frame.joints[wrist].x, frame.joints[wrist].y)))
-            .collect();
-        let ((_, from), (_, to)) = (*seen.first()?, *seen.last()?);
-        let way = to - from;
-        if seen.len() < 10 || way.length() < 50.0 {
-            return None;
-        }
-        let fraction =
-            |at: DVec2| DVec2::new((at - from).dot(way), way.perp_dot(at - from)) / way.length_squared();
-        Some(Self { points: seen.iter().map(|(time, at)| (*time, fraction(*at))).collect() })
-    }
-
-    fn duration(&self) -> f64 {
-        self.points.last().unwrap().0
-    }
-
-    /// Along and beside the way after `time` s.
-    fn at(&self, time: f64) -> DVec2 {
-        let next = self.points.partition_point(|(then, _)| *then <= time);
-        match (next.checked_sub(1).map(|last| self.points[last]), self.points.get(next)) {
-            (Some((from, one)), Some((to, other))) => one.lerp(*other, (time - from) / (to - from)),
-            (None, Some((_, first))) => *first,
-            _ => DVec2::X,
-        }
-    }
-}
 
 /// Somebody with a pointer, who sees the table, knows the plan, and moves as a recorded person did.
 struct Player {
@@ -76,16 +35,14 @@ struct Player {
 }
 
 impl Player {
-    fn new(seed: u64, person: u32, reaches: &[Reach]) -> Self {
-        let shipped = RunSettings::shipped(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config"));
+    fn new(seed: u64, person: u32) -> Self {
+        let shipped = RunSettings::shipped(&checkout().join("rt-config"));
         let settings = RunSettings { seed, partner: "hand".into(), world: WorldMode::Kinematic, ..shipped };
         let stages = Lockstep::new(&settings).unwrap();
         let rest = DVec3::from(stages.task().scene.person_rest);
         let pointer =
             Pointer { x: rest.x + 0.14, y: rest.y, lift: 0.0, pressed: false, grip: TOP, gesture: None };
-        let own = reaches.iter().filter(|reach| reach.participant == person);
-        let courses: Vec<Course> = own.filter_map(Course::of).collect();
-        assert!(courses.len() > 20, "person {person}: {} reaches", courses.len());
+        let courses = Course::of_person(person);
         let watch = Anticipation::new(stages.task(), Intentions::from(stages.plan()));
         let hand = PointerHand::new(stages.task());
         let (around, turn) = (Surroundings::default(), seed as usize);
@@ -132,13 +89,11 @@ impl Player {
     /// The pointer goes there as the person's next reach went.
     fn go(&mut self, to: DVec2) {
         let from = DVec2::new(self.pointer.x, self.pointer.y);
-        let way = to - from;
         self.turn += 1;
         let course = self.turn % self.courses.len();
         let ticks = (self.courses[course].duration() * 1e3) as u64;
         for tick in 0..=ticks {
-            let fraction = self.courses[course].at(tick as f64 / 1e3);
-            let at = from + fraction.x * way + fraction.y * way.perp();
+            let at = self.courses[course].between(from, to, tick as f64 / 1e3);
             (self.pointer.x, self.pointer.y) = (at.x, at.y);
             self.step();
         }
@@ -246,12 +201,10 @@ impl Player {
 /// Assemblies of five people, all of them to the end; returns how many actions were to be answered, and how many were rightly
 /// answered before the grasp.
 fn build(runs: std::ops::Range<u64>) -> (usize, usize) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/reaches");
-    let reaches = read_folder(&folder).unwrap();
     let (mut expected, mut right) = (0, 0);
     for run in runs {
         let person = 1 + (run % 5) as u32;
-        let (actions, ticks) = Player::new(run, person, &reaches).build();
+        let (actions, ticks) = Player::new(run, person).build();
         let told: Vec<_> = actions.iter().filter(|action| action.expected.is_some()).collect();
         let in_time = |action: &ActionEvent| action.correct && action.lead_ms > Some(0);
         let before = told.iter().filter(|action| in_time(action)).count();
@@ -283,7 +236,7 @@ fn people_at_a_pointer_build_the_vehicle_and_are_understood_before_their_grasps(
 
 /// The figure of the documentation: 20 runs, five people.
 #[test]
-#[ignore = "takes minutes: cargo test --release -p coact-console --test pointer_partner -- --ignored --nocapture"]
+#[ignore = "takes minutes: cargo test --release -p coact-tests --test pointer_partner -- --ignored --nocapture"]
 fn twenty_vehicles() {
     let (expected, right) = build(101..121);
     assert!(right * 10 >= expected * 9, "{right} of {expected}");

@@ -1,0 +1,316 @@
+//! A person at the console, in a real browser: sees the run, plays a whole vehicle with the mouse, breaks a process, goes back in
+//! time, comes back after leaving the page, and looks at the recording. Where no browser is installed the test says so and ends.
+#![allow(clippy::unwrap_used)]
+
+use coact_tests::{Browser, Course, Launched, checkout, coact, wait_for, wait_within};
+use glam::{DVec2, DVec3};
+use rustix::process::Signal;
+use serde_json::Value;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+const WINDOW: [u32; 2] = [1440, 900];
+/// From one movement of the mouse to the next: 60 Hz.
+const FRAME: Duration = Duration::from_micros(16_667);
+/// How long anything is waited for.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Somebody at the page, who moves the mouse as a recorded person reached.
+struct Player {
+    browser: Browser,
+    courses: Vec<Course>,
+    turn: usize,
+    at: DVec2,
+    pressed: bool,
+}
+
+impl Player {
+    fn new(browser: Browser, person: u32) -> Self {
+        Self { browser, courses: Course::of_person(person), turn: 0, at: DVec2::ZERO, pressed: false }
+    }
+
+    fn sit_down(&mut self) {
+        self.browser.click("play");
+        self.wait_for("the role of the partner", "coact.state().role === 'player'");
+        self.browser.click("guide-skip");
+        self.at = self.rest();
+        self.mouse("mouseMoved");
+    }
+
+    fn wait_for(&mut self, what: &str, expression: &str) {
+        wait_within(PATIENCE, what, || {
+            std::thread::sleep(Duration::from_millis(30));
+            self.browser.value(expression).as_bool().filter(|is_so| *is_so)
+        });
+    }
+
+    fn rest(&mut self) -> DVec2 {
+        let rest = place(&self.browser.value("coact.hello().task.scene.person_rest"));
+        rest.truncate() + DVec2::new(0.14, 0.0)
+    }
+
+    fn handover(&mut self) -> DVec2 {
+        place(&self.browser.value("coact.hello().task.scene.handover")).truncate()
+    }
+
+    fn mouse(&mut self, what: &str) {
+        let pixels = self.pixels(&[self.at]);
+        self.browser.mouse(what, pixels[0], self.pressed);
+    }
+
+    /// What the page shows, for whoever reads why a test has failed.
+    fn state(&mut self) -> Value {
+        self.browser.value(
+            "({...coact.state(), events: coact.state().events.slice(-4), parts: [...coact.picture().parts].map((n) => +n.toFixed(2))})",
+        )
+    }
+
+    /// Where places of the hand's plane are on the page.
+    fn pixels(&mut self, places: &[DVec2]) -> Vec<[f64; 2]> {
+        let places: Vec<[f64; 2]> = places.iter().map(|place| place.to_array()).collect();
+        let places = serde_json::to_string(&places).unwrap();
+        let expression = format!(
+            "{places}.map(([x, y]) => coact.project([x, y, coact.handPlane()])).map(({{x, y}}) => [x, y])"
+        );
+        serde_json::from_value(self.browser.value(&expression)).unwrap()
+    }
+
+    /// Moves the mouse there as the person's next reach went.
+    fn go(&mut self, to: DVec2) {
+        self.turn += 1;
+        let course = self.courses[self.turn % self.courses.len()].clone();
+        let frames = (course.duration() / FRAME.as_secs_f64()) as u32;
+        let time = |frame: u32| f64::from(frame) * FRAME.as_secs_f64();
+        let mut way: Vec<DVec2> = (0..frames).map(|frame| course.between(self.at, to, time(frame))).collect();
+        way.push(to);
+        let begun = Instant::now();
+        for (frame, pixel) in self.pixels(&way).into_iter().enumerate() {
+            self.browser.mouse("mouseMoved", pixel, self.pressed);
+            std::thread::sleep((FRAME * frame as u32).saturating_sub(begun.elapsed()));
+        }
+        self.at = to;
+    }
+
+    /// The part of a kind that lies nearest to a place; with whoever holds it, 0 being nobody.
+    fn part(&mut self, kind: &str, near: DVec2, held_by: u32) -> Option<DVec3> {
+        let expression = format!(
+            "(() => {{ const kind = coact.hello().task.kinds.findIndex(({{name}}) => name === {kind:?}); const {{parts}} = \
+             coact.picture(); const found = []; for (let i = 0; i < parts.length; i += 9) if (parts[i] === kind && parts[i + 8] === \
+             {held_by}) found.push([parts[i + 1], parts[i + 2], parts[i + 3]]); return found; }})()"
+        );
+        let found: Vec<[f64; 3]> = serde_json::from_value(self.browser.value(&expression)).unwrap();
+        let away = |place: &DVec3| place.truncate().distance(near);
+        let places = found.into_iter().map(DVec3::from);
+        places.min_by(|one, other| away(one).total_cmp(&away(other)))
+    }
+
+    fn grip(&mut self, number: u32) {
+        self.browser.click(&format!("grip-{number}"));
+    }
+
+    fn grasp(&mut self, place: DVec2, grip: u32) {
+        self.grip(grip);
+        self.go(place);
+        std::thread::sleep(Duration::from_millis(150));
+        self.pressed = true;
+        self.mouse("mousePressed");
+        std::thread::sleep(Duration::from_millis(700));
+    }
+
+    fn let_go_and_rest(&mut self) {
+        self.pressed = false;
+        self.mouse("mouseReleased");
+        std::thread::sleep(Duration::from_millis(500));
+        let rest = self.rest();
+        self.go(rest);
+        std::thread::sleep(Duration::from_millis(800));
+    }
+
+    /// The place of a subgoal, and its number.
+    fn subgoal(&mut self, name: &str) -> (DVec2, usize) {
+        let subgoals = self.browser.value("coact.hello().task.subgoals");
+        let subgoals = subgoals.as_array().unwrap();
+        let index = subgoals.iter().position(|subgoal| subgoal["name"] == name).unwrap();
+        (place(&subgoals[index]["socket"]["at"]).truncate(), index)
+    }
+
+    fn wait_for_achieved(&mut self, name: &str) {
+        let so = format!(
+            "coact.state().events.some(({{sort, text}}) => sort === 'achieved' && text === {name:?})"
+        );
+        self.wait_for(name, &so);
+    }
+
+    fn insert(&mut self, name: &str) {
+        let (socket, _) = self.subgoal(name);
+        self.go(socket);
+        std::thread::sleep(Duration::from_millis(1500));
+        self.let_go_and_rest();
+        self.wait_for_achieved(name);
+    }
+
+    fn takes_and_inserts(&mut self, kind: &str, name: &str) {
+        let near = self.rest();
+        let part = self.part(kind, near, 0).unwrap();
+        self.grasp(part.truncate(), 0);
+        self.insert(name);
+    }
+
+    fn hands_over(&mut self, kind: &str, for_subgoal: &str) {
+        let (near, handover) = (self.rest(), self.handover());
+        let part = self.part(kind, near, 0).unwrap();
+        self.grasp(part.truncate(), 1);
+        self.go(handover);
+        let taken = Instant::now();
+        while self.part(kind, handover, 1).is_none() {
+            assert!(taken.elapsed() < PATIENCE, "the robot does not take the {kind}: {}", self.state());
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        std::thread::sleep(Duration::from_millis(300));
+        self.let_go_and_rest();
+        self.wait_for_achieved(for_subgoal);
+    }
+
+    fn requests_and_inserts(&mut self, kind: &str, name: &str) {
+        let handover = self.handover();
+        self.browser.click("gesture-0");
+        self.go(handover - DVec2::new(0.10, 0.0));
+        let asked = Instant::now();
+        while !self.part(kind, handover, 1).is_some_and(|part| part.truncate().distance(handover) < 0.05) {
+            assert!(asked.elapsed() < PATIENCE, "the robot does not give the {kind}: {}", self.state());
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        std::thread::sleep(Duration::from_millis(1000));
+        let given = self.part(kind, handover, 1).unwrap();
+        self.grasp(given.truncate(), 0);
+        let waited = Instant::now();
+        while self.part(kind, handover, 2).is_none() {
+            assert!(waited.elapsed() < PATIENCE, "the robot does not let the {kind} go: {}", self.state());
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        self.insert(name);
+    }
+
+    /// Breaks a process by the page's own buttons, and sees that it is back.
+    fn breaks_fields(&mut self) {
+        self.browser.value("document.getElementById('inject-process').value = 'fields'");
+        self.browser.value("document.getElementById('inject-fault').value = 'kill'");
+        self.browser.value("document.getElementById('inject').requestSubmit()");
+        self.wait_for("the replacement", "coact.state().events.some(({sort}) => sort === 'restart')");
+    }
+
+    /// Every view shows something, and something else a moment later.
+    fn sees_everything_move(&mut self) {
+        self.wait_for("pictures", "coact.state().pictures > 20 && coact.state().live");
+        let canvas = |id: &str| format!("document.getElementById({id:?}).toDataURL().length");
+        for id in ["mind", "timeline"] {
+            let before = self.browser.value(&format!("document.getElementById({id:?}).toDataURL()"));
+            assert!(self.browser.value(&canvas(id)).as_u64() > Some(2_000), "{id} is empty");
+            self.wait_for(id, &format!("document.getElementById({id:?}).toDataURL() !== {before}"));
+        }
+        let before = self.browser.picture();
+        wait_for("a scene that moves", || (self.browser.picture() != before).then_some(()));
+        self.browser.click("tab-machine");
+        self.wait_for("durations", "document.querySelectorAll('#machine tr').length > 10");
+        self.browser.click("tab-plan");
+        self.wait_for("the plan", "document.querySelectorAll('#plan li').length === 9");
+        self.browser.click("tab-mind");
+        self.browser.value("document.getElementById('scene').focus()");
+    }
+
+    fn asks_why(&mut self) {
+        self.browser.value(
+            "document.getElementById('mind').dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowDown', bubbles: true}))",
+        );
+        self.wait_for("an explanation", "/stand/.test(document.getElementById('why').textContent)");
+    }
+
+    /// The page shows the beginning of the run, then goes on with what is now.
+    fn goes_back(&mut self) {
+        self.browser.click("pause");
+        self.browser.value("document.getElementById('timeline').focus()");
+        for _ in 0..200 {
+            self.browser.click("before");
+        }
+        self.wait_for("the beginning", "!coact.state().live && coact.state().at_ms < 10000");
+        self.browser.click("live");
+        self.wait_for("now", "coact.state().live && coact.state().at_ms > 20000");
+    }
+
+    fn comes_back(&mut self) {
+        let known = self.browser.value("coact.state().events.length").as_u64().unwrap();
+        self.browser.call("Page.reload", serde_json::json!({}));
+        self.wait_for("the page again", "typeof coact !== 'undefined' && coact.state().pictures > 5");
+        self.wait_for("all events", &format!("coact.state().events.length >= {known}"));
+    }
+}
+
+fn place(value: &Value) -> DVec3 {
+    DVec3::from(serde_json::from_value::<[f64; 3]>(value.clone()).unwrap())
+}
+
+/// The address that the console has printed.
+fn address(said: &str) -> Option<String> {
+    let begin = said.find("open http://")? + "open ".len();
+    said[begin..].split_whitespace().next().map(str::to_owned)
+}
+
+fn console_of(recording: &Path) -> (Child, String) {
+    let mut command = Command::new(coact());
+    command.arg("console").arg(recording).current_dir(checkout()).stderr(Stdio::piped()).stdin(Stdio::null());
+    let mut child = command.spawn().unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    let address = lines.find_map(|line| address(&line.unwrap())).unwrap();
+    std::thread::spawn(move || lines.count());
+    (child, address)
+}
+
+#[test]
+fn somebody_at_the_page_builds_the_vehicle_breaks_a_process_and_looks_back() {
+    let mut launched = Launched::start(&["--console", "--world", "kinematic"]);
+    let folder = launched.folder();
+    launched.when_started();
+    let address = wait_for("the console's address", || address(&launched.said()));
+    let Some(browser) = Browser::open(&address, WINDOW) else {
+        println!("skipped: no browser is installed; expected chromium");
+        launched.signal(Signal::INT);
+        launched.finish();
+        return;
+    };
+    let mut player = Player::new(browser, 2);
+    player.sees_everything_move();
+    player.asks_why();
+    player.sit_down();
+    player.takes_and_inserts("wheel", "wheel on the person's side");
+    player.requests_and_inserts("nut", "nut on the person's side");
+    player.hands_over("wheel", "wheel on the robot's side");
+    player.wait_for_achieved("nut on the robot's side");
+    player.breaks_fields();
+    player.goes_back();
+    player.hands_over("column 1", "column 1 in its hole");
+    player.takes_and_inserts("column 2", "column 2 in its hole");
+    player.takes_and_inserts("column 4", "column 4 in its hole");
+    player.wait_for_achieved("top floor on the columns");
+    player.comes_back();
+    assert_eq!(player.browser.complaints(), [""; 0]);
+    player.browser.value("coact.end()");
+    player.wait_for("the report", "coact.state().ended && !document.getElementById('report').hidden");
+    let report = launched.report();
+    let finished = launched.finish();
+    let told = &finished.summary().anticipation;
+    let kinds: Vec<_> = told.events.iter().map(|action| action.chain.as_str()).collect();
+    assert_eq!(&kinds[..4], ["insert", "request", "insert", "hand over"], "{:?}", told.events);
+    assert!(finished.summary().work.passes(), "{:?}", finished.summary().work);
+    drop(player);
+
+    let (mut console, address) = console_of(&report.join("run.mcap"));
+    let mut player = Player::new(Browser::open(&address, WINDOW).unwrap(), 2);
+    player.wait_for("a picture of the past", "coact.state().pictures > 0 && !coact.state().live");
+    player.wait_for("its events", "coact.state().events.filter(({sort}) => sort === 'action').length >= 7");
+    assert_eq!(player.browser.complaints(), [""; 0]);
+    console.kill().unwrap();
+    console.wait().unwrap();
+    drop(folder);
+}
