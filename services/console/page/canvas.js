@@ -8,7 +8,7 @@ export function fitted(canvas, height = canvas.clientHeight) {
   const width = canvas.clientWidth;
   const [dots, rows] = [Math.round(width * ratio), Math.round(height * ratio)];
   if (canvas.width !== dots || canvas.height !== rows) [canvas.width, canvas.height] = [dots, rows];
-  const context = canvas.getContext("2d");
+  const context = canvas.getContext("2d", { willReadFrequently: true });
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
   return { context, width, height };

@@ -40,19 +40,36 @@ export class Connection extends EventTarget {
     };
     socket.onmessage = ({ data }) => {
       if (typeof data !== "string") return this.#tell("picture", data);
-      const message = JSON.parse(data);
-      this.#tell(message.kind, message);
+      const message = parsed(data);
+      if (message) this.#tell(message.kind, message);
     };
     socket.onclose = () => {
       if (this.#over) return;
       this.#failed += 1;
-      this.#tell("lost", { tries: this.#failed, everOpen: opened });
+      this.#tell("lost", {});
+      if (!opened) this.#askWhy();
       setTimeout(() => this.#open(), PAUSES[Math.min(this.#failed, PAUSES.length) - 1]);
     };
     this.#socket = socket;
   }
 
+  /** Who serves the page but opens no line does not know its token. */
+  async #askWhy() {
+    const served = await fetch("icon.svg", { cache: "no-store" }).catch(() => null);
+    if (served?.ok && !this.isOpen) this.#tell("unwanted", {});
+  }
+
   #tell(kind, detail) {
     this.dispatchEvent(new CustomEvent(kind, { detail }));
+  }
+}
+
+/** A message with its kind; what is none is passed over. */
+function parsed(text) {
+  try {
+    const message = JSON.parse(text);
+    return typeof message?.kind === "string" ? message : null;
+  } catch {
+    return null;
   }
 }

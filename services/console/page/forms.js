@@ -1,26 +1,28 @@
 // The three forms that everything in the scene is made of, drawn many at a time: balls, cylinders and boxes.
 
-import { axes, axesAlong, norm, subtract } from "./vectors.js";
+import { axes, axesAlong, norm, scale, subtract } from "./vectors.js";
 
 const VERTEX = `#version 300 es
 in vec3 place; in vec3 normal; in mat4 frame; in vec4 colour;
 uniform mat4 view;
-out vec3 facing; out vec4 painted;
+out vec4 painted;
 void main() {
   mat3 turn = mat3(frame);
-  facing = normalize(turn * (normal / vec3(dot(turn[0], turn[0]), dot(turn[1], turn[1]), dot(turn[2], turn[2]))));
-  painted = colour;
-  gl_Position = view * frame * vec4(place, 1.0);
+  vec3 facing = normalize(turn * (normal / vec3(dot(turn[0], turn[0]), dot(turn[1], turn[1]), dot(turn[2], turn[2]))));
+  float light = 0.62 + 0.24 * facing.z + 0.2 * max(dot(facing, normalize(vec3(-0.5, 0.6, 0.7))), 0.0);
+  painted = vec4(colour.rgb * light * colour.a, colour.a);
+  gl_Position = view * (frame * vec4(place, 1.0));
 }`;
 const FRAGMENT = `#version 300 es
 precision mediump float;
-in vec3 facing; in vec4 painted;
+in vec4 painted;
 out vec4 seen;
 void main() {
-  float light = 0.62 + 0.24 * facing.z + 0.2 * max(dot(facing, normalize(vec3(-0.5, 0.6, 0.7))), 0.0);
-  seen = vec4(painted.rgb * light * painted.a, painted.a);
+  seen = painted;
 }`;
 const SIDES = 14;
+/** A rod that is thinner than this, m, has four sides: nobody sees more. */
+const THIN = 0.006;
 const FLOATS = 20;
 
 /** A ball of radius 1, a cylinder of radius 1 from z 0 to 1, and a cube from -0.5 to 0.5: places and normals. */
@@ -74,9 +76,12 @@ export class Forms {
   #upload(program, vertices) {
     const gl = this.#gl;
     const array = gl.createVertexArray();
+    const { corners, order } = indexed(vertices);
     gl.bindVertexArray(array);
     gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(vertices), gl.STATIC_DRAW);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(corners), gl.STATIC_DRAW);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint16Array(order), gl.STATIC_DRAW);
     const attribute = (name, size, stride, offset, each) => {
       const place = gl.getAttribLocation(program, name);
       for (let column = 0; column < size / 4 || column === 0; column += 1) {
@@ -91,7 +96,7 @@ export class Forms {
     gl.bindBuffer(gl.ARRAY_BUFFER, instances);
     attribute("frame", 16, 4 * FLOATS, 0, 1);
     attribute("colour", 4, 4 * FLOATS, 64, 1);
-    return { array, instances, count: vertices.length / 6, solid: [], clear: [] };
+    return { array, instances, count: order.length, solid: [], clear: [] };
   }
 
   #put(mesh, [x, y, z], place, [red, green, blue], alpha) {
@@ -107,7 +112,12 @@ export class Forms {
     const along = subtract(to, from);
     if (norm(along) < 1e-6) return;
     const [x, y] = axesAlong(along);
-    this.#put(this.#meshes.cylinder, [x.map((v) => v * radius), y.map((v) => v * radius), along], from, colour, alpha);
+    if (radius < THIN) {
+      const middle = from.map((value, axis) => value + along[axis] / 2);
+      this.#put(this.#meshes.box, [scale(x, 2 * radius), scale(y, 2 * radius), along], middle, colour, alpha);
+    } else {
+      this.#put(this.#meshes.cylinder, [scale(x, radius), scale(y, radius), along], from, colour, alpha);
+    }
   }
 
   capsule(from, to, radius, colour, alpha = 1) {
@@ -119,14 +129,13 @@ export class Forms {
   /** A part's shape that stands on the place, turned by a quaternion. */
   shape(shape, place, turn, colour, alpha = 1) {
     const [x, y, z] = axes(turn);
-    const times = (axis, factor) => axis.map((value) => value * factor);
     if (shape.cylinder) {
       const { radius, height } = shape.cylinder;
-      this.#put(this.#meshes.cylinder, [times(x, radius), times(y, radius), times(z, height)], place, colour, alpha);
+      this.#put(this.#meshes.cylinder, [scale(x, radius), scale(y, radius), scale(z, height)], place, colour, alpha);
     } else if (shape.box) {
       const [across, along, high] = shape.box;
       const middle = place.map((value, axis) => value + (z[axis] * high) / 2);
-      this.#put(this.#meshes.box, [times(x, across), times(y, along), times(z, high)], middle, colour, alpha);
+      this.#put(this.#meshes.box, [scale(x, across), scale(y, along), scale(z, high)], middle, colour, alpha);
     }
   }
 
@@ -136,17 +145,34 @@ export class Forms {
     gl.uniformMatrix4fv(this.#view, false, view);
     for (const list of ["solid", "clear"]) {
       gl.depthMask(list === "solid");
+      if (list === "solid") gl.disable(gl.BLEND);
+      else gl.enable(gl.BLEND);
       for (const mesh of Object.values(this.#meshes)) {
         if (mesh[list].length === 0) continue;
         gl.bindVertexArray(mesh.array);
         gl.bindBuffer(gl.ARRAY_BUFFER, mesh.instances);
         gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(mesh[list]), gl.STREAM_DRAW);
-        gl.drawArraysInstanced(gl.TRIANGLES, 0, mesh.count, mesh[list].length / FLOATS);
+        gl.drawElementsInstanced(gl.TRIANGLES, mesh.count, gl.UNSIGNED_SHORT, 0, mesh[list].length / FLOATS);
         mesh[list].length = 0;
       }
     }
     gl.depthMask(true);
   }
+}
+
+/** Corners that several triangles share are computed once. */
+function indexed(vertices) {
+  const corners = [], order = [], found = new Map();
+  for (let index = 0; index < vertices.length; index += 6) {
+    const corner = vertices.slice(index, index + 6);
+    const name = corner.map((value) => value.toFixed(5)).join();
+    if (!found.has(name)) {
+      found.set(name, corners.length / 6);
+      corners.push(...corner);
+    }
+    order.push(found.get(name));
+  }
+  return { corners, order };
 }
 
 function linked(gl) {

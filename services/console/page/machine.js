@@ -4,7 +4,9 @@ import { fitted } from "./canvas.js";
 import { BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW, resolved } from "./colours.js";
 
 const COLOURS = [BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY, YELLOW, GREY];
-const LEFT = 56, RIGHT = 10, BOTTOM = 22, TOP = 8;
+/** Every four curves are dashed in another way. */
+const DASHES = [[], [7, 4], [2, 3]];
+const LEFT = 66, RIGHT = 10, BOTTOM = 24, TOP = 8;
 
 export class Machine {
   constructor(place, curves) {
@@ -29,14 +31,14 @@ export class Machine {
   }
 
   draw() {
+    if (!this.told || this.curves.clientWidth === 0) return;
     const { context, width, height } = fitted(this.curves);
-    if (!this.told) return;
-    const durations = [this.told.end_to_end, ...this.told.hops, ...this.told.wakeups].filter((found) => found?.curve.length > 1);
-    const most = Math.max(1000, ...durations.map(({ max_us }) => max_us));
-    const nines = Math.max(3, ...durations.map(({ curve }) => -Math.log10(1 - curve[curve.length - 1][0] / 100)));
+    const durations = [this.told.end_to_end, ...this.told.hops, ...this.told.wakeups].filter(Boolean);
+    const most = Math.max(1000, ...durations.map(({ max_us }) => max_us || 0));
+    const nines = Math.max(3, ...durations.map(({ curve }) => -Math.log10(Math.max(1e-9, 1 - (curve.at(-1)?.[0] ?? 0) / 100))));
     const x = (percentile) => LEFT + ((width - LEFT - RIGHT) * -Math.log10(Math.max(1 - percentile / 100, 1e-9))) / nines;
     const y = (duration) => height - BOTTOM - ((height - BOTTOM - TOP) * Math.log10(Math.max(duration, 1))) / Math.log10(most);
-    context.font = "13px system-ui, sans-serif";
+    context.font = "15px system-ui, sans-serif";
     const [quiet, line] = [resolved("--quiet"), resolved("--line")];
     for (let power = 0; 10 ** power <= most; power += 1) {
       context.fillStyle = line;
@@ -50,16 +52,19 @@ export class Machine {
       if (x(percentile) <= width - RIGHT) context.fillText(`${percentile} %`, x(percentile) + (percentile ? 0 : 10), height - 5);
     }
     durations.forEach(({ curve }, index) => {
+      if (curve.length < 2) return;
       context.beginPath();
       curve.forEach(([percentile, duration], point) => context[point ? "lineTo" : "moveTo"](x(percentile), y(duration)));
       context.strokeStyle = COLOURS[index % COLOURS.length];
+      context.setLineDash(DASHES[Math.floor(index / 4) % DASHES.length]);
       context.lineWidth = 2;
       context.stroke();
+      context.setLineDash([]);
     });
   }
 }
 
-const us = (value) => (value >= 100 ? Math.round(value) : value.toFixed(1));
+const us = (value) => (!Number.isFinite(value) ? "" : value >= 100 ? Math.round(value) : value.toFixed(1));
 
 function table(head, rows) {
   const made = document.createElement("table");

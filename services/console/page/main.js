@@ -1,5 +1,6 @@
 // The page: what the server tells goes to the views, what is done on the page goes to the server.
 
+import { forgetResolved } from "./colours.js";
 import { Connection } from "./connection.js";
 import { Guide } from "./guide.js";
 import { Machine } from "./machine.js";
@@ -7,44 +8,62 @@ import { Mind } from "./mind.js";
 import { Partner } from "./partner.js";
 import { readPicture } from "./picture.js";
 import { Plan, showReport } from "./plan.js";
+import { Playback } from "./playback.js";
 import { Scene } from "./scene.js";
 import { Timeline, told } from "./timeline.js";
+import { listenForTurning } from "./turning.js";
 import { showWhy } from "./why.js";
 
 const $ = (id) => document.getElementById(id);
 const connection = new Connection();
-const timeline = new Timeline($("timeline"), (cycle) => goTo(cycle));
+const timeline = new Timeline($("timeline"), (cycle) => lookAt(cycle), () => redraw());
 const machine = new Machine($("machine"), $("curves"));
+const playback = new Playback((passed) => {
+  if (timeline.cursor >= timeline.now) return false;
+  goTo(Math.min(timeline.cursor + passed, timeline.now));
+  return true;
+});
 let hello = null, scene = null, mind = null, partner = null, plan = null, guide = null;
 /** What is shown: the picture, whether it is of now, how many there were, and what is known of the run. */
-const shown = { picture: null, live: true, count: 0, ended: false, lost: false, role: "watcher", asked: null };
+const shown = {
+  picture: null, live: true, count: 0, drawn: 0, due: false, all: true, asked: false, stopped: false,
+  ended: false, lost: false, role: "watcher", playsSince: null, refusal: null,
+};
+
+// ---- what the server tells
 
 connection.addEventListener("hello", ({ detail }) => {
-  const again = hello?.run.id === detail.run.id;
+  // Another run has another task and other views.
+  if (hello && hello.run.id !== detail.run.id) return location.reload();
+  const again = hello !== null;
   hello = detail;
   shown.lost = false;
-  if (!again) begin();
   $("stage").classList.remove("lost");
-  cover(null);
-  if (again && mind.chosen !== null) connection.send({ why: mind.chosen });
-  if (again && shown.role === "player") connection.send({ play: true });
-  if (!shown.live) connection.send({ at: Math.round(timeline.cursor) });
+  if (!again) begin();
+  else {
+    cover(null);
+    if (mind.chosen !== null) connection.send({ why: mind.chosen });
+    if (shown.role === "player") connection.send({ play: true });
+    if (!shown.live) connection.send({ at: Math.round(timeline.cursor) });
+  }
   status();
 });
 connection.addEventListener("picture", ({ detail }) => {
   const picture = hello && readPicture(detail, hello.sizes);
-  if (!picture || (!picture.past && !shown.live)) return;
+  if (!picture || picture.past === shown.live) return;
   shown.picture = picture;
   shown.count += 1;
-  if (!picture.past) timeline.now = Math.max(timeline.now, picture.at);
-  if (shown.live) timeline.cursor = picture.at;
-  requestAnimationFrame(draw);
+  scene.sharpness.came();
+  if (shown.live) {
+    timeline.now = Math.max(timeline.now, picture.at);
+    timeline.cursor = picture.at;
+  }
+  redraw(picture.past);
 });
 connection.addEventListener("events", ({ detail: { first, events } }) => {
   timeline.add(first, events);
-  const count = (sort) => timeline.events.filter((event) => event.sort === sort).length;
-  guide?.saw({ grasps: count("action"), achieved: count("achieved"), asks: timeline.events.some(({ sort, text }) => sort === "action" && text.startsWith("request")) });
-  requestAnimationFrame(draw);
+  if (shown.playsSince !== null) teach();
+  redraw();
 });
 connection.addEventListener("machine", ({ detail }) => {
   machine.show(detail);
@@ -53,99 +72,133 @@ connection.addEventListener("machine", ({ detail }) => {
 connection.addEventListener("why", ({ detail }) => detail.population === mind?.chosen && showWhy($("why"), detail));
 connection.addEventListener("history", ({ detail: { first_ms, last_ms } }) => {
   timeline.now = Math.max(timeline.now, last_ms);
-  if (hello?.run.recorded && shown.picture === null) goTo(first_ms);
+  if (!hello?.run.recorded || shown.picture !== null) return;
+  timeline.showAll();
+  goTo(first_ms);
 });
 connection.addEventListener("role", ({ detail: { role, players } }) => {
   shown.role = role;
+  if (role === "player") shown.playsSince ??= timeline.now;
   partner?.become(role === "player");
-  $("play").textContent = role === "player" ? "leave the table" : players > 0 ? "somebody plays" : "be the partner";
+  text($("play"), role === "player" ? "leave the table" : players > 0 ? "somebody plays" : "be the partner");
   $("play").disabled = role !== "player" && players > 0;
   guide?.saw({ plays: role === "player" });
   status();
 });
 connection.addEventListener("ended", ({ detail }) => {
   shown.ended = true;
-  if (!hello.run.recorded) connection.finish();
   showReport($("report"), detail);
-  if (!hello.run.recorded) show("plan");
-  guide?.saw({});
-  $("guide").hidden = true;
+  guide?.end();
+  if (!hello.run.recorded) {
+    connection.finish();
+    partner.become(false);
+    show("plan");
+    for (const id of ["play", "stop", "resume", "inject", "say", "end"]) $(id).hidden = true;
+  }
   status();
 });
-connection.addEventListener("refused", ({ detail: { why } }) => {
-  $("refused").textContent = why;
+connection.addEventListener("refused", ({ detail: { what, why } }) => {
+  text($("refused"), `${what}: ${why}`);
   $("refused").hidden = false;
   clearTimeout(shown.refusal);
   shown.refusal = setTimeout(() => ($("refused").hidden = true), 5000);
 });
-connection.addEventListener("lost", ({ detail: { tries, everOpen } }) => {
+connection.addEventListener("lost", () => {
   shown.lost = true;
   $("stage").classList.add("lost");
-  const token = !everOpen && tries > 1 && !hello;
-  cover(token ? "This address lets nobody in: its token is not that of the run. The address that coact has printed does." : "The line is lost. It is tried again.");
+  cover(shown.ended ? "The run is over, and its server has gone." : "The line to the robot is lost. It is tried again and again.");
   status();
+});
+connection.addEventListener("unwanted", () => {
+  cover("This address lets nobody in: its token is not that of the run. Open the one that coact has printed.");
 });
 
 /** Sets the views up for a run. */
 function begin() {
-  $("task").textContent = hello.task.subgoals.length ? hello.run.task : "";
+  text($("task"), hello.run.task);
   document.title = `coact: ${hello.run.task}`;
   scene = new Scene($("scene"), $("labels"), hello);
   mind = new Mind($("mind"), hello, (population) => {
     connection.send({ why: population });
     if (population === null) showWhy($("why"), null);
-    requestAnimationFrame(draw);
+    redraw();
   });
   plan = new Plan(hello);
   partner = new Partner(scene, connection, hello);
   const { recorded } = hello.run;
   const mayPlay = hello.run.partner === "hand" && !recorded;
+  shown.live = !recorded;
   $("play").hidden = !mayPlay;
-  $("end").hidden = recorded;
-  for (const id of ["stop", "resume", "inject", "say"]) $(id).hidden = recorded;
-  guide = mayPlay ? new Guide() : null;
-  scene.camera.look("person");
+  for (const id of ["stop", "resume", "inject", "say", "end", "live"]) $(id).hidden = recorded;
   options($("inject-fault"), hello.faults.map(({ name, description }) => [name, description]));
   options($("inject-process"), hello.processes.map(({ name }) => [name, ""]));
   $("inject-process").value = "fields";
-  $("phrases").replaceChildren(...hello.task.phrases.map((phrase) => Object.assign(document.createElement("option"), { value: phrase })));
-  if (recorded) timeline.span = 60_000;
+  options($("phrases"), hello.task.phrases.map((phrase) => [phrase, ""]));
+  if (mayPlay) guide = new Guide((name) => narrow.matches || show(name));
+  scene.clear();
   cover("Nothing has been seen yet.");
 }
 
-function options(select, entries) {
-  select.replaceChildren(...entries.map(([name, title]) => Object.assign(document.createElement("option"), { value: name, textContent: name, title })));
+function options(list, entries) {
+  list.replaceChildren(...entries.map(([name, title]) => Object.assign(document.createElement("option"), { value: name, textContent: name, title })));
 }
 
-/** Draws all views of the picture that is shown, once for each picture. */
+// ---- what is shown
+
+/** Draws at the screen's next picture, once, whatever has changed until then: all, or what moves from one live picture to the next. */
+function redraw(all = true) {
+  shown.all ||= all;
+  if (shown.due) return;
+  shown.due = true;
+  requestAnimationFrame(() => {
+    shown.due = false;
+    draw();
+  });
+}
+
 function draw() {
-  const { picture } = shown;
-  timeline.draw();
-  const current = timeline.current();
-  text($("event"), current ? told(current) : "");
-  text($("clock"), `${(timeline.cursor / 1000).toFixed(1)} s`);
+  const { picture, all } = shown;
+  shown.all = false;
+  // The line creeps by a pixel or two: ten times a second is enough for it.
+  if (all || shown.drawn % 3 === 0) drawTimes();
   if (!picture) return;
   if (!shown.lost) cover(null);
   plan.show(picture);
-  scene.draw(picture, plan.achieved);
-  if (!$("mind-panel").hidden) mind.draw(picture);
+  scene.draw(picture, plan.states);
+  if (!$("mind-panel").hidden && (all || !scene.sharpness.isStrained || shown.drawn % 2 === 0)) mind.draw(picture);
   now(picture);
   if (partner.plays) guide?.saw({ nearPart: isOverPart(picture) });
+  shown.drawn += 1;
+  scene.sharpness.drew();
+}
+
+function drawTimes() {
+  timeline.draw();
+  const current = timeline.last(() => true);
+  text($("event"), current ? told(current) : "nothing has happened yet");
+  text($("clock"), `${(timeline.cursor / 1000).toFixed(1)} s`);
 }
 
 /** What is decided, said and expected, in words. */
 function now(picture) {
-  const at = (sort) => timeline.events.filter((event) => event.sort === sort && event.at_ms <= timeline.cursor).pop()?.text;
-  const phase = hello.phases[picture.state.phase];
+  const phase = hello.phases?.[picture.state.phase];
   const decided = plan.standing("AEL", picture);
-  text($("decided"), decided ? `${decided}${phase && phase !== "rest" ? ` (${phase})` : ""}` : "nothing");
-  text($("said"), at("said") ?? "nothing yet");
   const error = plan.standing("EML", picture);
-  text($("expects"), error ? `something is wrong: ${error}` : plan.standing("IL", picture) ?? (picture.state.hidden ? "your hand is not seen" : "nothing certain"));
-  if (picture.state.stopped !== shown.stopped) {
-    shown.stopped = picture.state.stopped;
-    status();
-  }
+  const expected = picture.state.hidden ? "your hand is not seen" : "nothing certain";
+  text($("decided"), decided ? `${decided}${phase && phase !== "rest" ? ` (${phase})` : ""}` : "nothing");
+  text($("said"), timeline.last(({ sort }) => sort === "said")?.text ?? "nothing yet");
+  text($("expects"), error ? `\u26A0 wrong: ${error}` : plan.standing("IL", picture) ?? expected);
+  if (picture.state.stopped === shown.stopped) return;
+  shown.stopped = picture.state.stopped;
+  status();
+}
+
+/** What the partner has done since it sits at the table leads on in the first round. */
+function teach() {
+  const own = timeline.events.filter(({ at_ms }) => at_ms >= shown.playsSince);
+  const count = (sort) => own.filter((event) => event.sort === sort).length;
+  const asks = own.some(({ sort, text: words }) => sort === "action" && words?.startsWith("request"));
+  guide?.saw({ grasps: count("action"), achieved: count("achieved"), asks });
 }
 
 function isOverPart({ parts }) {
@@ -162,13 +215,17 @@ function status() {
     if (!hello) return ["connecting", "connecting"];
     if (hello.run.recorded) return ["past", "a recording"];
     if (!shown.live) return ["past", "in the past"];
-    if (shown.stopped) return ["stopped", "the robot is stopped"];
+    if (shown.stopped) return ["stopped", "robot stopped"];
     return ["live", shown.role === "player" ? "live: you play" : "live"];
   };
   const [state, words] = say();
   $("status").dataset.state = state;
   text($("status"), words);
-  $("pause").setAttribute("aria-pressed", String(!shown.live));
+  const moves = shown.live || playback.runs;
+  text($("pause"), moves ? "pause" : "play on");
+  $("pause").setAttribute("aria-pressed", String(!moves));
+  $("live").setAttribute("aria-pressed", String(shown.live));
+  if (partner) partner.looksBack = !shown.live;
 }
 
 function cover(words) {
@@ -177,52 +234,84 @@ function cover(words) {
 }
 
 function text(place, words) {
-  if (place.textContent !== words) place.textContent = words;
+  if (place.textContent === words) return;
+  place.textContent = words;
+  // What is cut off for want of room is told in full under the pointer.
+  if (place.tagName === "DD") place.title = words;
 }
 
-/** Shows an instant of the past; at most one is asked for in each picture of the screen. */
+// ---- which instant is shown
+
+/** Shows an instant of the past, and stays there. */
+function lookAt(cycle) {
+  playback.stop();
+  goTo(cycle);
+}
+
+/** Shows an instant of the past; at most 30 are asked for in a second. */
 function goTo(cycle) {
   shown.live = false;
-  timeline.cursor = cycle;
+  timeline.cursor = Math.max(0, cycle);
+  timeline.follow();
   status();
-  if (shown.asked === null) {
-    requestAnimationFrame(() => {
-      connection.send({ at: Math.round(timeline.cursor) });
-      shown.asked = null;
-      draw();
-    });
-  }
-  shown.asked = cycle;
+  redraw();
+  if (shown.asked) return;
+  shown.asked = true;
+  setTimeout(() => {
+    shown.asked = false;
+    if (!shown.live) connection.send({ at: Math.round(timeline.cursor) });
+  }, 34);
 }
 
 function goLive() {
   if (!hello || hello.run.recorded) return;
+  playback.stop();
   shown.live = true;
   timeline.end = null;
   connection.send({ live: true });
   status();
 }
 
+function pause() {
+  if (!hello) return;
+  if (shown.live) lookAt(timeline.cursor);
+  else if (playback.runs) playback.stop();
+  else playback.start();
+  status();
+}
+
+/** Opens one of the panels; that of the scene is one only where there is no room for two. */
 function show(name) {
-  for (const tab of ["mind", "plan", "machine"]) {
-    $(`${tab}-panel`).hidden = tab !== name;
+  for (const tab of ["scene", "mind", "plan", "machine"]) {
+    const panel = $(`${tab}-panel`);
+    if (panel) panel.hidden = tab !== name;
     $(`tab-${tab}`).setAttribute("aria-selected", String(tab === name));
   }
+  $("views").dataset.tab = name;
   if (name === "machine") machine.draw();
-  requestAnimationFrame(draw);
+  redraw();
 }
 
 // ---- what is done on the page
 
-for (const name of ["mind", "plan", "machine"]) $(`tab-${name}`).addEventListener("click", () => show(name));
+const TABS = ["scene", "mind", "plan", "machine"];
+for (const name of TABS) $(`tab-${name}`).addEventListener("click", () => show(name));
 for (const view of ["person", "top", "side"]) {
   $(`view-${view}`).addEventListener("click", () => {
     scene?.camera.look(view);
-    requestAnimationFrame(draw);
+    redraw();
   });
 }
-$("show-true").addEventListener("change", ({ target }) => scene && (scene.shows.truth = target.checked));
-$("show-raw").addEventListener("change", ({ target }) => scene && (scene.shows.raw = target.checked));
+for (const [id, what] of [["show-true", "truth"], ["show-raw", "raw"]]) {
+  $(id).addEventListener("change", ({ target }) => {
+    if (scene) scene.shows[what] = target.checked;
+    redraw();
+  });
+}
+$("by-name").addEventListener("change", ({ target }) => {
+  if (mind) mind.byName = target.checked;
+  redraw();
+});
 $("play").addEventListener("click", () => {
   connection.send({ play: shown.role !== "player" });
   $("scene").focus();
@@ -230,12 +319,13 @@ $("play").addEventListener("click", () => {
 $("stop").addEventListener("click", () => connection.send({ stop: true }));
 $("resume").addEventListener("click", () => connection.send({ resume: true }));
 $("end").addEventListener("click", () => confirm("Finish the run, and see how you were understood?") && connection.send({ end: true }));
-$("pause").addEventListener("click", () => (shown.live ? goTo(timeline.cursor) : goLive()));
+$("pause").addEventListener("click", pause);
 $("live").addEventListener("click", goLive);
 $("before").addEventListener("click", () => timeline.jump(-1));
 $("after").addEventListener("click", () => timeline.jump(1));
-$("nearer").addEventListener("click", () => (timeline.zoom(0.6), requestAnimationFrame(draw)));
-$("farther").addEventListener("click", () => (timeline.zoom(1.6), requestAnimationFrame(draw)));
+for (const [id, change] of [["nearer", () => timeline.zoom(0.6)], ["farther", () => timeline.zoom(1.6)], ["earlier", () => timeline.scroll(-0.3)], ["later", () => timeline.scroll(0.3)]]) {
+  $(id).addEventListener("click", () => (change(), redraw()));
+}
 $("inject").addEventListener("submit", (event) => {
   event.preventDefault();
   connection.send({ inject: { process: $("inject-process").value, fault: $("inject-fault").value } });
@@ -250,60 +340,71 @@ $("theme").addEventListener("click", () => {
   const next = { undefined: "light", light: "dark", dark: undefined }[document.documentElement.dataset.theme];
   if (next) document.documentElement.dataset.theme = next;
   else delete document.documentElement.dataset.theme;
-  $("theme").setAttribute("aria-label", `colours: ${next ?? "as the system has them"}`);
-  scene?.colours();
-  requestAnimationFrame(draw);
+  text($("theme"), `colours: ${next ?? "system"}`);
+  takeColours();
 });
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => scene?.colours());
-addEventListener("resize", () => requestAnimationFrame(draw));
-addEventListener("keydown", ({ target, key }) => {
-  if (/^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName)) return;
-  if (key === "p") $("pause").click();
-  if (key === "l") goLive();
-  if (key === "t") setTimeout(() => $("say-text").focus());
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", takeColours);
+addEventListener("resize", () => {
+  if (!$("machine-panel").hidden) machine.draw();
+  redraw();
 });
 
-/** Turning and zooming: right button, or any button where the page does not play; two fingers or the wheel zoom. */
-const fingers = new Map();
-$("scene").addEventListener("contextmenu", (event) => event.preventDefault());
-$("scene").addEventListener("pointerdown", (event) => fingers.set(event.pointerId, event));
-for (const kind of ["pointerup", "pointercancel", "pointerleave"]) {
-  $("scene").addEventListener(kind, (event) => fingers.delete(event.pointerId));
+function takeColours() {
+  forgetResolved();
+  scene?.colours();
+  if (!shown.picture) scene?.clear();
+  if (!$("machine-panel").hidden) machine.draw();
+  redraw();
 }
-$("scene").addEventListener("pointermove", (event) => {
-  const before = fingers.get(event.pointerId);
-  if (!before || !scene) return;
-  const turns = event.buttons & 2 || shown.role !== "player";
-  if (fingers.size === 2) {
-    const other = [...fingers.values()].find(({ pointerId }) => pointerId !== event.pointerId);
-    const apart = (one) => Math.hypot(one.offsetX - other.offsetX, one.offsetY - other.offsetY);
-    scene.camera.zoom(apart(before) / Math.max(apart(event), 1));
-  } else if (turns) {
-    scene.camera.turn(event.offsetX - before.offsetX, event.offsetY - before.offsetY);
-  }
-  fingers.set(event.pointerId, event);
-  if (!shown.live) requestAnimationFrame(draw);
-});
-$("scene").addEventListener("wheel", (event) => {
+
+const HOTKEYS = {
+  p: pause,
+  l: goLive,
+  t: () => $("say-text").focus(),
+  "?": () => $("help").showModal(),
+  ",": () => timeline.jump(-1),
+  ".": () => timeline.jump(1),
+};
+addEventListener("keydown", (event) => {
+  if (event.key === "Escape" && event.target === $("say-text")) $("scene").focus();
+  if (/^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName) || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (!HOTKEYS[event.key] || $("help").open) return;
+  // The key must not become the first letter of a sentence.
   event.preventDefault();
-  if (event.shiftKey && partner?.plays) partner.lift(-Math.sign(event.deltaY || event.deltaX));
-  else scene?.camera.zoom(event.deltaY > 0 ? 1.1 : 0.9);
-  if (!shown.live) requestAnimationFrame(draw);
-}, { passive: false });
+  HOTKEYS[event.key]();
+});
+$("help-open").addEventListener("click", () => $("help").showModal());
+
+listenForTurning($("scene"), {
+  camera: () => scene?.camera,
+  movesHand: () => partner?.plays && shown.live,
+  lift: (by) => partner.lift(by),
+  changed: () => redraw(),
+});
+/** As the style has it: where there is no room for scene and panel beside one another. */
+const narrow = matchMedia("(max-width: 1060px)");
+narrow.addEventListener("change", arrange);
+arrange();
+
+function arrange() {
+  show(narrow.matches ? "scene" : "mind");
+}
 
 /** For tests: what the page shows, and where a place of the world is on it. */
 window.coact = {
   state: () => ({
     connected: connection.isOpen, role: shown.role, at_ms: shown.picture?.at ?? null, live: shown.live, pictures: shown.count,
-    events: timeline.events, decided: $("decided").textContent, ended: shown.ended, hand: partner?.hand,
+    drawn: shown.drawn, events: timeline.events, decided: $("decided").textContent, ended: shown.ended, hand: partner?.hand,
   }),
   project: (place) => {
     const { left, top } = $("scene").getBoundingClientRect();
     const at = scene?.camera.project(place);
     return at && { x: at.x + left, y: at.y + top };
   },
+  get handPlane() {
+    return scene?.handPlane;
+  },
   hello: () => hello,
   picture: () => shown.picture,
-  handPlane: () => scene?.handPlane,
   end: () => connection.send({ end: true }),
 };

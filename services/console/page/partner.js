@@ -1,10 +1,16 @@
 // The partner's hand: pointer, touch, pen or keys say where it is on the table and whether it closes. Nothing else is sent.
 
-const EVERY = 1000 / 60;
+import { HandButtons } from "./hand-buttons.js";
+
+/** How often the hand is told of, ms: 60 times a second. */
+const EVERY = 16;
 /** How fast the arrow keys move the hand, m/s. */
 const BY_KEYS = 0.35;
-/** How far a turn of the wheel lifts the hand, m. */
-const LIFT = 0.02;
+/** How far a turn of the wheel lifts the hand, and how high at most, m. */
+const LIFT = 0.02, HIGHEST = 0.4;
+/** A hand gets no farther from the robot's foot, m. */
+const FARTHEST = 3;
+const ARROWS = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"];
 
 export class Partner {
   /**
@@ -15,32 +21,57 @@ export class Partner {
   constructor(scene, connection, hello) {
     Object.assign(this, { scene, connection });
     this.plays = false;
-    this.hand = { x: hello.task.scene.person_rest[0] + 0.14, y: hello.task.scene.person_rest[1], lift: 0, pressed: false, grip: 0, gesture: null };
+    const [x, y] = hello.task.scene.person_rest;
+    this.hand = { x: x + 0.14, y, lift: 0, pressed: false, grip: 0, gesture: null };
+    /** Whether it is over the table, and can be seen. */
     this.present = false;
+    /** It was hidden on purpose, and comes back when it is called, or pressed. */
+    this.hides = false;
+    /** While the page shows the past, the hand stays where it is. */
+    this.looksBack = false;
     this.keys = new Set();
-    this.grips = hello.task.grips;
-    this.gestures = hello.task.gestures;
-    const { canvas } = scene;
-    canvas.addEventListener("pointerdown", (event) => this.plays && event.button === 0 && this.#press(event));
-    canvas.addEventListener("pointermove", (event) => this.plays && !(event.buttons & 2) && this.#move(event));
+    this.told = performance.now();
+    this.buttons = new HandButtons(this, hello.task);
+    this.#listen(scene.canvas);
+    setInterval(() => this.#tell(), EVERY);
+  }
+
+  #listen(canvas) {
+    const isMine = (event) => this.plays && !this.looksBack && !event.altKey && !(event.buttons & 2);
+    canvas.addEventListener("pointerdown", (event) => {
+      if (!isMine(event)) return;
+      // A second finger turns and zooms: the hand lets go of nothing that it has not, and takes nothing.
+      if (!event.isPrimary) this.hand.pressed = false;
+      else if (event.button === 0) this.#press(event);
+    });
+    canvas.addEventListener("pointermove", (event) => isMine(event) && event.isPrimary && this.#move(event));
     canvas.addEventListener("pointerup", (event) => event.button === 0 && (this.hand.pressed = false));
     canvas.addEventListener("pointercancel", () => (this.hand.pressed = false));
-    canvas.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && !this.hand.pressed && this.hide());
+    // Leaving the scene as a whole hides the hand; the buttons that lie over it are no way out.
+    canvas.parentElement.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && !this.hand.pressed && this.#leave());
     addEventListener("keydown", (event) => this.#key(event, true));
     addEventListener("keyup", (event) => this.#key(event, false));
     addEventListener("blur", () => this.keys.clear());
-    setInterval(() => this.#tell(), EVERY);
-    this.#buttons();
   }
 
   /** The server has said whether this page is the partner. */
   become(plays) {
     this.plays = plays;
     document.getElementById("hand").hidden = !plays;
-    if (!plays) this.hide();
+    this.hides = false;
+    if (!plays) this.#leave();
+    this.buttons.mark();
   }
 
-  hide() {
+  /** Hides the hand, or shows it again. */
+  hide(hides = !this.hides) {
+    this.hides = hides;
+    if (hides) this.#leave();
+    else this.present = true;
+    this.buttons.mark();
+  }
+
+  #leave() {
     if (this.present) this.connection.send({ hide: true });
     this.present = false;
     this.hand.pressed = false;
@@ -49,84 +80,75 @@ export class Partner {
 
   /** Raises or lowers the hand. */
   lift(by) {
-    this.hand.lift = Math.min(0.4, Math.max(0, this.hand.lift + by * LIFT));
+    this.hand.lift = Math.min(HIGHEST, Math.max(0, this.hand.lift + by * LIFT));
   }
 
   grip(index) {
     this.hand.gesture = null;
     this.hand.grip = index;
-    this.#mark();
+    this.buttons.mark();
   }
 
+  /** @param {number | null} index the gesture that is held out, or none */
   gesture(index) {
-    this.hand.gesture = this.hand.gesture === index ? null : index;
-    this.#mark();
-  }
-
-  #buttons() {
-    const make = (id, text, key, act) => {
-      const button = Object.assign(document.createElement("button"), { id, textContent: `${text} ` });
-      button.append(Object.assign(document.createElement("kbd"), { textContent: key }));
-      button.addEventListener("click", act);
-      return button;
-    };
-    document.getElementById("grips").replaceChildren(
-      ...this.grips.map(({ name }, index) => make(`grip-${index}`, `from ${name === "top" ? "above" : `the ${name}`}`, String(index + 1), () => this.grip(index))));
-    document.getElementById("gestures").replaceChildren(
-      ...this.gestures.map(({ name }, index) => make(`gesture-${index}`, name, index === 0 ? "g" : `g ${index + 1}`, () => this.gesture(index))));
-    document.getElementById("hide").addEventListener("click", () => this.hide());
-    this.#mark();
-  }
-
-  #mark() {
-    this.grips.forEach((_, index) => pressed(`grip-${index}`, this.hand.gesture === null && this.hand.grip === index));
-    this.gestures.forEach((_, index) => pressed(`gesture-${index}`, this.hand.gesture === index));
+    this.hand.gesture = index;
+    this.buttons.mark();
   }
 
   #move({ offsetX, offsetY }) {
     const place = this.scene.camera.placeAt(offsetX, offsetY, this.scene.handPlane);
-    if (!place || Math.hypot(place[0], place[1]) > 3) return;
+    if (!place || Math.hypot(place[0], place[1]) > FARTHEST) return;
     [this.hand.x, this.hand.y] = place;
-    this.present = true;
+    if (!this.hides) this.present = true;
   }
 
   #press(event) {
     this.scene.canvas.setPointerCapture(event.pointerId);
+    if (this.hides) this.hide(false);
     this.#move(event);
     this.hand.pressed = true;
   }
 
   #key(event, down) {
-    if (/^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (ARROWS.includes(event.key) && !down) this.keys.delete(event.key);
     const onScene = event.target === this.scene.canvas || event.target === document.body;
-    if (!this.plays || !onScene) return;
-    const arrow = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"].includes(event.key);
-    if (arrow) down ? this.keys.add(event.key) : this.keys.delete(event.key);
-    if (event.key === " " && !event.repeat) this.hand.pressed = down ? !this.hand.pressed : this.hand.pressed;
-    if (arrow || event.key === " ") {
+    if (!this.plays || this.looksBack || !onScene || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (ARROWS.includes(event.key) && down) this.keys.add(event.key);
+    if (event.key === " " && down && !event.repeat) this.hand.pressed = !this.hand.pressed;
+    if (down && (ARROWS.includes(event.key) || event.key === " ")) {
+      if (this.hides) this.hide(false);
       this.present = true;
       event.preventDefault();
     }
-    if (!down || event.repeat) return;
-    const number = Number(event.key) - 1;
-    if (this.grips[number]) this.grip(number);
-    if (event.key === "g") this.gesture(0);
+    if (event.repeat) return;
+    if (event.key === "g") this.buttons.hold(0, down);
+    if (!down) return;
+    if (this.buttons.choose(Number(event.key) - 1)) return;
     if (event.key === "h") this.hide();
+    if (event.key === "PageUp") this.lift(1);
+    if (event.key === "PageDown") this.lift(-1);
   }
 
-  /** Sends where the hand is; keys have moved it since. Forward is away from the person, who looks along x. */
-  #tell() {
+  /** Moves the hand as the arrow keys say: along the edges of the table, forward as the scene is seen. */
+  #go(seconds) {
     const along = (plus, minus) => (this.keys.has(plus) ? 1 : 0) - (this.keys.has(minus) ? 1 : 0);
-    const step = (BY_KEYS * EVERY) / 1000;
-    this.hand.x += step * along("ArrowUp", "ArrowDown");
-    this.hand.y += step * along("ArrowLeft", "ArrowRight");
-    if (!this.plays || !this.present) return;
-    const { x, y, lift, pressed: closes, grip, gesture } = this.hand;
-    this.scene.pointer = [x, y, this.scene.handPlane];
-    this.connection.send({ pointer: { x, y, lift, pressed: closes, grip, gesture } });
+    const [forward, left] = [along("ArrowUp", "ArrowDown"), along("ArrowLeft", "ArrowRight")];
+    if (!forward && !left) return;
+    const towards = Math.round((this.scene.camera.azimuth + Math.PI) / (Math.PI / 2)) * (Math.PI / 2);
+    const [x, y] = [Math.cos(towards), Math.sin(towards)];
+    const step = BY_KEYS * seconds;
+    this.hand.x += step * (forward * x - left * y);
+    this.hand.y += step * (forward * y + left * x);
   }
-}
 
-function pressed(id, is) {
-  document.getElementById(id)?.setAttribute("aria-pressed", String(is));
+  #tell() {
+    const now = performance.now();
+    // A page in the background is called rarely: its hand does not leap.
+    this.#go(Math.min(0.05, (now - this.told) / 1000));
+    this.told = now;
+    if (!this.plays || !this.present) return;
+    const { x, y, lift, pressed, grip, gesture } = this.hand;
+    this.scene.pointer = { at: [x, y, this.scene.handPlane + lift], closes: pressed };
+    this.connection.send({ pointer: { x, y, lift, pressed, grip, gesture } });
+  }
 }

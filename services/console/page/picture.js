@@ -26,6 +26,7 @@ function sections({ capsules, parts, path, populations }) {
  *   state: object, populations: Float32Array, sites: Float32Array}} null when it is none of this run
  */
 export function readPicture(bytes, sizes) {
+  if (bytes.byteLength < HEAD) return null;
   const head = new DataView(bytes);
   const [kind, sites] = [head.getUint32(0, true), head.getUint32(4, true)];
   const picture = { past: kind === 2, at: head.getFloat64(8, true) };

@@ -6,8 +6,9 @@ const SURE = 0.5;
 export class Plan {
   constructor(hello) {
     this.hello = hello;
-    this.achieved = hello.task.subgoals.map(() => false);
-    const items = hello.task.subgoals.map(({ name, side }) => element("li", `${name} (${side === "person" ? "your side" : "the robot's side"})`));
+    /** Of each subgoal: "done", "open" or "later". */
+    this.states = hello.task.subgoals.map(() => "later");
+    const items = hello.task.subgoals.map(({ name, side }) => element("li", `${name} \u2014 ${side === "person" ? "yours" : "the robot's"}`));
     document.getElementById("plan").replaceChildren(...items);
     const words = ({ grip, gesture, workspace, leads_to }) => {
       const part = workspace === "person" ? "a part of yours" : "a part of the robot's";
@@ -19,12 +20,12 @@ export class Plan {
   /** Takes in which subgoals stand as achieved. */
   show({ populations }) {
     const layer = this.hello.layers.find(({ name }) => name === "CSGL achieved");
+    if (!layer) return;
     const items = document.getElementById("plan").children;
+    const isDone = (index) => populations[3 * (layer.first + index)] > SURE;
     this.hello.task.subgoals.forEach(({ after }, index) => {
-      const signal = populations[3 * (layer.first + index)];
-      this.achieved[index] = signal > SURE;
-      const open = !this.achieved[index] && after.every((before) => populations[3 * (layer.first + before)] > SURE);
-      const state = this.achieved[index] ? "done" : open ? "open" : "later";
+      const state = isDone(index) ? "done" : after.every(isDone) ? "open" : "later";
+      this.states[index] = state;
       if (items[index].dataset.state !== state) items[index].dataset.state = state;
     });
   }
@@ -32,6 +33,7 @@ export class Plan {
   /** What a population of a layer that stands is called, of several the one that has stood longest; null without one. */
   standing(name, { populations }) {
     const layer = this.hello.layers.find((own) => own.name === name);
+    if (!layer) return null;
     let found = null, since = Infinity;
     for (let index = 0; index < layer.count; index += 1) {
       const stands = populations[3 * (layer.first + index) + 2];
@@ -48,19 +50,26 @@ export function showReport(place, { verdict, person }) {
     place.hidden = false;
     return;
   }
-  const lead = person.median_lead_ms === null ? "" : `, ${person.median_lead_ms} ms before your grasp in the middle`;
+  const lead = known(person.median_lead_ms) ? `, ${Math.round(person.median_lead_ms)} ms before your grasp in the middle` : "";
+  const answered = known(person.answered) ? `, ${person.answered} of them to be answered by the robot` : "";
   const lines = [
-    `${person.actions} things done, ${person.answered} of them to be answered by the robot`,
-    `${person.understood_before_grasp} answered before your grasp, ${person.rightly} rightly${lead}`,
-    `${person.errors_noticed} errors noticed`,
-    `${person.achieved} of ${person.subgoals} subgoals achieved; ${person.assemblies} vehicles complete`,
+    `things done: ${person.actions}${answered}`,
+    `${person.understood_before_grasp} understood before your grasp, ${person.rightly} rightly${lead}`,
+    known(person.errors) && `errors made: ${person.errors}`,
+    known(person.errors_noticed) && `errors noticed: ${person.errors_noticed}`,
+    known(person.person_waited_s) && `you waited ${person.person_waited_s.toFixed(1)} s for the robot`,
+    known(person.robot_waited_s) && `the robot waited ${person.robot_waited_s.toFixed(1)} s for you`,
+    known(person.subgoals) && `${person.achieved} of ${person.subgoals} subgoals achieved`,
+    known(person.assemblies) && `vehicles complete: ${person.assemblies}`,
     verdict?.work === "pass" ? "the work: as it should be" : `the work: ${verdict?.reasons?.join("; ") ?? "not judged"}`,
-  ];
+  ].filter(Boolean);
   const list = document.createElement("ul");
   list.append(...lines.map((line) => element("li", line)));
   place.replaceChildren(element("h2", "how you were understood"), list);
   place.hidden = false;
 }
+
+const known = (number) => Number.isFinite(number);
 
 function element(name, text) {
   return Object.assign(document.createElement(name), { textContent: text });

@@ -7,16 +7,19 @@ export function showWhy(place, told) {
     hint.className = "quiet";
     return place.replaceChildren(hint);
   }
-  const most = Math.max(1, ...told.shares.map(({ amount }) => Math.abs(amount)));
+  const most = Math.max(1, ...told.shares.map(({ amount }) => Math.abs(amount ?? 0)));
   const rows = told.shares.map((share) => {
     const row = document.createElement("tr");
-    const amount = element("td", share.amount.toFixed(2));
+    const amount = element("td", `${share.amount < 0 ? "\u2212" : "+"}${Math.abs(share.amount ?? 0).toFixed(2)}`);
     amount.className = "number";
     const bar = element("span", "");
-    bar.className = share.amount < 0 ? "bar less" : "bar";
-    bar.style.width = `${(60 * Math.abs(share.amount)) / most}px`;
+    bar.className = share.amount < 0 ? "less" : "";
+    bar.style.width = `${(50 * Math.abs(share.amount)) / most}%`;
+    const balance = element("span", "");
+    balance.className = "balance";
+    balance.append(bar);
     const drawn = document.createElement("td");
-    drawn.append(bar);
+    drawn.append(balance);
     const lacks = share.missing ? ` (lacks ${share.missing})` : "";
     row.append(amount, drawn, element("td", share.from + lacks), element("td", share.reason));
     return row;

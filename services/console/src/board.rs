@@ -1,4 +1,4 @@
-use crate::{ConsoleSettings, History, Moment};
+use crate::{ConsoleSettings, Glimpse, History};
 use coact_fields::Explanation;
 use coact_joint_task::NetworkPlan;
 use serde_json::{Value, json};
@@ -18,7 +18,7 @@ pub struct Board {
 #[derive(Debug)]
 struct Shown {
     greeting: Value,
-    now: Option<Arc<Moment>>,
+    now: Option<Arc<Glimpse>>,
     history: History,
     events: Vec<Value>,
     /// What is told of the machine, and how often it has changed.
@@ -56,10 +56,10 @@ impl Board {
     }
 
     /// Puts up what is seen now.
-    pub fn put_moment(&self, moment: Moment) {
+    pub fn put_glimpse(&self, glimpse: Glimpse) {
         let mut shown = self.shown();
-        shown.history.keep(&moment);
-        shown.now = Some(Arc::new(moment));
+        shown.history.keep(&glimpse);
+        shown.now = Some(Arc::new(glimpse));
         drop(shown);
         self.changed.send_replace(());
     }
@@ -127,12 +127,12 @@ impl Board {
     }
 
     /// What is seen now.
-    pub fn now(&self) -> Option<Arc<Moment>> {
+    pub fn now(&self) -> Option<Arc<Glimpse>> {
         self.shown().now.clone()
     }
 
-    /// The moment of the past that is nearest to `cycle`.
-    pub fn at(&self, cycle: u64) -> Option<Arc<Moment>> {
+    /// The glimpse of the past that is nearest to `cycle`.
+    pub fn at(&self, cycle: u64) -> Option<Arc<Glimpse>> {
         self.shown().history.at(cycle).cloned()
     }
 
@@ -160,11 +160,11 @@ impl Board {
         self.shown().ended.clone()
     }
 
-    /// Why a population stood or did not at a moment; none where there is no such population.
-    pub fn why(&self, population: usize, moment: &Moment) -> Option<Value> {
-        let since = *moment.since.get(population)?;
-        let signals: Vec<f64> = moment.signals.iter().map(|signal| f64::from(*signal)).collect();
+    /// Why a population stood or did not at a glimpse; none where there is no such population.
+    pub fn why(&self, population: usize, glimpse: &Glimpse) -> Option<Value> {
+        let since = *glimpse.since.get(population)?;
+        let signals: Vec<f64> = glimpse.signals.iter().map(|signal| f64::from(*signal)).collect();
         let explained = Explanation::of_signals(&self.plan, population, &signals, since);
-        Some(crate::why::to_json(&self.plan, &explained, moment.picture.cycle))
+        Some(crate::why::to_json(&self.plan, &explained, glimpse.picture.cycle))
     }
 }

@@ -1,5 +1,5 @@
 use crate::numbers::Numbers;
-use crate::{Moment, Picture, Seen};
+use crate::{Glimpse, Picture, Seen};
 use coact_joint_task::{Act, NetworkPlan, Task};
 use coact_messages::{
     ARM_JOINTS, Command, DriveReport, FieldFrame, HoldReason, LayerKind, NONE, Percept, PersonArm,
@@ -21,7 +21,7 @@ use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 /// 6. the hand's planned way from here on: [`PictureMaker::WAY`] places;
 /// 7. where robot and person are nearest to each other: a place on each, and the distance;
 /// 8. where the person's hand is expected, and the signal of the goal that is inferred;
-/// 9. twelve numbers: speed override, declared handover, phase, action (-1: none), stopped by an operator, aperture of the hand,
+/// 9. twelve numbers: speed override, declared handover, phase, action (-1: none), stopped by an supervisor, aperture of the hand,
 ///    speed of its tip, speed of the robot's hand, cycle of the person's last onset, whether the person is not seen, two reserved;
 /// 10. each population: signal, highest activity of its sites, cycle since which its peak stands (0: none);
 /// 11. the activity of each site.
@@ -89,7 +89,7 @@ impl PictureMaker {
     }
 
     /// What these messages show; none while there are none.
-    pub fn moment(&mut self, seen: &Seen) -> Option<Moment> {
+    pub fn glimpse(&mut self, seen: &Seen) -> Option<Glimpse> {
         let cycle = seen.cycle()?;
         let mut numbers = Numbers::default();
         let links = seen.sample.map(|sample| self.capsules(sample)).unwrap_or_default();
@@ -103,7 +103,7 @@ impl PictureMaker {
         let sites = self.draw_network(seen.frame, &mut numbers);
         let (signals, since) =
             seen.frame.map(|frame| self.explaining(frame, seen.percept)).unwrap_or_default();
-        Some(Moment { picture: Picture::new(cycle, &numbers.0, &sites), signals, since })
+        Some(Glimpse { picture: Picture::new(cycle, &numbers.0, &sites), signals, since })
     }
 
     /// The capsules around all links, the fingers as they stand.
@@ -322,22 +322,22 @@ mod tests {
     #[test]
     fn what_is_not_known_has_its_place_as_well() {
         let mut maker = maker();
-        assert!(maker.moment(&Seen::default()).is_none());
+        assert!(maker.glimpse(&Seen::default()).is_none());
         let (links, parts) = (maker.links() * 7, maker.task.parts.len() * 9);
         let populations = maker.plan.populations.len();
         let person = 9 * 4 + 4 * 5 + 4 * 3;
         let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
         frame.header.cycle = 70;
         frame.signal[2] = 1.0;
-        let moment = maker.moment(&Seen { frame: Some(&frame), ..Seen::default() }).unwrap();
+        let glimpse = maker.glimpse(&Seen { frame: Some(&frame), ..Seen::default() }).unwrap();
         let sites = populations * maker.plan.sites_per_population;
-        let drawn = numbers(&moment.picture);
+        let drawn = numbers(&glimpse.picture);
         let before = links + parts + person + PictureMaker::WAY * 3 + 7 + 4 + 12;
         assert_eq!(drawn.len(), before + 3 * populations + sites);
-        assert_eq!(moment.picture.cycle, 70);
+        assert_eq!(glimpse.picture.cycle, 70);
         assert_eq!(drawn[before + 3 * 2], 1.0);
         assert!(drawn[..links].iter().all(|number| number.is_nan()));
-        assert_eq!(moment.signals.len(), populations + maker.plan.channels.len());
+        assert_eq!(glimpse.signals.len(), populations + maker.plan.channels.len());
     }
 
     #[test]
@@ -354,7 +354,7 @@ mod tests {
             ..bytemuck::Zeroable::zeroed()
         };
         let drawn =
-            numbers(&maker.moment(&Seen { sample: Some(&sample), ..Seen::default() }).unwrap().picture);
+            numbers(&maker.glimpse(&Seen { sample: Some(&sample), ..Seen::default() }).unwrap().picture);
         let links = maker.links();
         let hand = Point3::from(maker.robot.palm(&sample.joints.position).translation.vector);
         let to_hand = |link: usize| {

@@ -28,7 +28,7 @@ struct Newest {
     command: Option<Box<Command>>,
 }
 
-/// From one moment that is shown to the next, cycles: the recorder keeps frames twice as often.
+/// From one glimpse that is shown to the next, cycles: the recorder keeps frames twice as often.
 const SPACING: u64 = 100;
 
 impl RecordedRun {
@@ -66,20 +66,20 @@ impl RecordedRun {
         Arc::clone(&self.board)
     }
 
-    /// Reads it to its end, and puts it on the board; returns how many moments there are. A truncated one is read up to where it
+    /// Reads it to its end, and puts it on the board; returns how many glimpses there are. A truncated one is read up to where it
     /// ends.
     ///
     /// # Errors
     /// It cannot be read.
     pub fn read(mut self) -> Result<u64, RecordingError> {
-        let (mut moments, mut due, mut cycle) = (0, 0, 0);
+        let (mut glimpses, mut due, mut cycle) = (0, 0, 0);
         while let Some(message) = self.recording.next_message()? {
             cycle = message.header().cycle.max(cycle);
             let is_sample = matches!(message, Recorded::Sample(_));
             self.take(message);
             if is_sample && cycle >= due {
                 due = cycle + SPACING;
-                moments += u64::from(self.show(cycle));
+                glimpses += u64::from(self.show(cycle));
             }
         }
         if let Err(error) = self.timeline.read_logs() {
@@ -89,7 +89,7 @@ impl RecordedRun {
         self.board.put_machine(&self.machine.to_json(cycle));
         let errors = self.timeline.events().iter().filter(|event| event["sort"] == "error").count();
         self.board.put_end(&report(&self.report, cycle, errors));
-        Ok(moments)
+        Ok(glimpses)
     }
 
     fn take(&mut self, message: Recorded) {
@@ -104,7 +104,7 @@ impl RecordedRun {
         }
     }
 
-    /// Puts the present moment on the board, if there is anything to be seen.
+    /// Puts the present glimpse on the board, if there is anything to be seen.
     fn show(&mut self, cycle: u64) -> bool {
         let Self { newest, timeline, maker, board, machine, .. } = self;
         let seen = Seen {
@@ -115,8 +115,8 @@ impl RecordedRun {
             truth: None,
         };
         timeline.watch(&seen);
-        let Some(moment) = maker.moment(&seen) else { return false };
-        board.put_moment(moment);
+        let Some(glimpse) = maker.glimpse(&seen) else { return false };
+        board.put_glimpse(glimpse);
         if cycle % 1000 < SPACING {
             board.put_events(timeline.events());
             board.put_machine(&machine.to_json(cycle));

@@ -1,5 +1,5 @@
 use crate::session::Session;
-use crate::{Board, Operator, Ticket, Wish, assets};
+use crate::{Board, SupervisorLink, Ticket, Wish, assets};
 use axum::Router;
 use axum::body::Body;
 use axum::extract::ws::WebSocketUpgrade;
@@ -23,7 +23,7 @@ pub struct Server {
     /// Where the wishes of the partner go.
     pub wishes: SyncSender<Wish>,
     /// Who carries out what operators ask for; none for a recording.
-    pub operator: Option<Arc<Operator>>,
+    pub supervisor: Option<Arc<SupervisorLink>>,
 }
 
 /// Longest message of a page, bytes: a sentence, and room.
@@ -99,8 +99,8 @@ async fn live(
     }
     let upgrade = upgrade.max_message_size(LONGEST_MESSAGE).max_frame_size(LONGEST_MESSAGE);
     upgrade.on_upgrade(move |socket| {
-        let Server { board, wishes, operator, .. } = server;
+        let Server { board, wishes, supervisor, .. } = server;
         let page = board.enter();
-        Session { socket, board, wishes, operator, page }.serve()
+        Session { socket, board, wishes, supervisor, page }.serve()
     })
 }

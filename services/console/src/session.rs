@@ -1,4 +1,4 @@
-use crate::{Board, Moment, Operator, Request, Wish};
+use crate::{Board, Glimpse, Request, SupervisorLink, Wish};
 use axum::extract::ws::{Message, WebSocket};
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ pub(crate) struct Session {
     pub board: Arc<Board>,
     pub wishes: SyncSender<Wish>,
     /// Who carries out what an operator asks for; none for a recording.
-    pub operator: Option<Arc<Operator>>,
+    pub supervisor: Option<Arc<SupervisorLink>>,
     /// Its number.
     pub page: u64,
 }
@@ -125,8 +125,8 @@ impl Session {
         Ok(())
     }
 
-    async fn explain(&mut self, asked: Option<usize>, moment: &Moment) -> Result<(), ()> {
-        match asked.and_then(|population| self.board.why(population, moment)) {
+    async fn explain(&mut self, asked: Option<usize>, glimpse: &Glimpse) -> Result<(), ()> {
+        match asked.and_then(|population| self.board.why(population, glimpse)) {
             Some(why) => self.tell(why).await,
             None => Ok(()),
         }
@@ -162,16 +162,16 @@ impl Session {
                 } else {
                     self.board.now()
                 };
-                if let Some(moment) = shown {
-                    self.explain(asked, &moment).await?;
+                if let Some(glimpse) = shown {
+                    self.explain(asked, &glimpse).await?;
                 }
             }
             Request::At(cycle) => {
                 told.looks_back = true;
-                if let Some(moment) = self.board.at(cycle) {
-                    told.picture = Some(moment.picture.cycle);
-                    self.send(Message::Binary(moment.picture.of_the_past().bytes.to_vec().into())).await?;
-                    self.explain(told.why, &moment).await?;
+                if let Some(glimpse) = self.board.at(cycle) {
+                    told.picture = Some(glimpse.picture.cycle);
+                    self.send(Message::Binary(glimpse.picture.of_the_past().bytes.to_vec().into())).await?;
+                    self.explain(told.why, &glimpse).await?;
                 }
             }
             Request::Live(_) => (told.looks_back, told.picture) = (false, None),
@@ -190,9 +190,9 @@ impl Session {
         if !wanted && self.board.plays(self.page) {
             self.wishes.try_send(Wish::Hide).ok();
         }
-        let refused = match &self.operator {
+        let refused = match &self.supervisor {
             None => Some("this run is over"),
-            Some(operator) if !operator.lets_play => {
+            Some(supervisor) if !supervisor.lets_play => {
                 Some("this run's partner is a program; coact launch --console")
             }
             Some(_) => None,
@@ -213,7 +213,7 @@ impl Session {
 
     /// What finds no room is passed over: a hand is told of again soon.
     fn wish(&self, wish: Wish, what: &'static str) -> Result<(), (&'static str, String)> {
-        if self.operator.is_none() {
+        if self.supervisor.is_none() {
             return Err((what, "this run is over".to_owned()));
         }
         match self.wishes.try_send(wish) {
@@ -223,7 +223,7 @@ impl Session {
     }
 
     async fn operate(&mut self, request: Request) -> Result<(), (&'static str, String)> {
-        let Some(operator) = self.operator.clone() else {
+        let Some(supervisor) = self.supervisor.clone() else {
             return Err(("run", "this run is over".to_owned()));
         };
         let what = match request {
@@ -232,7 +232,7 @@ impl Session {
             Request::End(_) => "end",
             _ => "stop",
         };
-        let done = tokio::task::spawn_blocking(move || operator.carry_out(&request)).await;
+        let done = tokio::task::spawn_blocking(move || supervisor.carry_out(&request)).await;
         done.unwrap_or_else(|_| Err("it failed".to_owned())).map_err(|why| (what, why))
     }
 }

@@ -5,11 +5,17 @@ use std::path::PathBuf;
 pub enum WorldError {
     /// The partner's name is none of the known ones.
     #[error(
-        "partner \"{name}\" is unknown; expected synthetic, random, random:KEY=VALUE,..., script:FILE, recorded:DIR, left-arm:FILE, right-arm:FILE or hand"
+        "partner \"{name}\" is unknown; expected synthetic, random, random:KEY=VALUE,..., script:FILE, recorded:DIR, recorded:FILE.mcap, left-arm:FILE, right-arm:FILE or hand"
     )]
     Partner {
         /// What was given.
         name: String,
+    },
+    /// A recorded run cannot be the partner.
+    #[error("{message}")]
+    Recording {
+        /// The file, and what is wrong with it.
+        message: String,
     },
     /// There can be no such partner.
     #[error(transparent)]

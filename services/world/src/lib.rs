@@ -34,6 +34,7 @@
 
 mod dynamics;
 mod error;
+mod hand_recording;
 mod palm;
 mod parts;
 mod replay;
@@ -47,6 +48,7 @@ mod simulation_state;
 mod world;
 
 pub use error::WorldError;
+pub use hand_recording::HandRecording;
 pub use replay::{METRES_PER_PIXEL, Replay, Span, has_part_for};
 pub use resume_error::ResumeError;
 pub use scenario::Scenario;

@@ -1,4 +1,4 @@
-use crate::{Scenario, WorldError};
+use crate::{HandRecording, Scenario, WorldError};
 use coact_joint_task::Task;
 use coact_person::{RandomBehaviour, RecordedArm, RecordedReaches};
 use coact_pipeline::WorldMode;
@@ -32,6 +32,8 @@ pub enum Partner {
     Recorded(RecordedReaches),
     /// Moves an arm as it was recorded, whatever the robot does, and takes no part in the task.
     Arm(RecordedArm),
+    /// Moves the hand as a person's was seen to move in a recorded run.
+    Again(HandRecording),
     /// Moves a hand that is told from outside ([`World::show_hand`](crate::World::show_hand)).
     Hand,
 }
@@ -41,8 +43,8 @@ impl Partner {
     pub const HAND: &str = "hand";
 
     /// Reads a partner as it is named on a command line: `synthetic`, `random`,
-    /// `random:KEY=VALUE,...` (see [`RandomBehaviour`]), `script:FILE`, `recorded:DIR`, `left-arm:FILE`, `right-arm:FILE` or
-    /// `hand`.
+    /// `random:KEY=VALUE,...` (see [`RandomBehaviour`]), `script:FILE`, `recorded:DIR`, `recorded:FILE.mcap`, `left-arm:FILE`,
+    /// `right-arm:FILE` or `hand`.
     ///
     /// A folder of recordings holds several people: each seed takes another one, in turn. An arm of motion capture is put
     /// elsewhere by each seed.
@@ -56,6 +58,9 @@ impl Partner {
             None if name == "random" => Ok(Self::Random(RandomBehaviour::default())),
             Some(("random", settings)) => Ok(Self::Random(RandomBehaviour::parse(settings)?)),
             Some(("script", file)) => Scenario::load(Path::new(file), task).map(Self::Script),
+            Some(("recorded", file)) if file.ends_with(HandRecording::EXTENSION) => {
+                HandRecording::load(Path::new(file)).map(Self::Again)
+            }
             Some(("recorded", folder)) => Ok(Self::Recorded(RecordedReaches::load(Path::new(folder), seed)?)),
             Some(("left-arm", file)) => Self::arm(file, ArmSide::Left, task, seed),
             Some(("right-arm", file)) => Self::arm(file, ArmSide::Right, task, seed),

@@ -1,6 +1,7 @@
 mod outputs;
 
 use crate::dynamics::{FingerStop, Influence, Joints, SimulatedRobot};
+use crate::hand_recording::HandRecording;
 use crate::palm::Palm;
 use crate::parts::Parts;
 use crate::robot_hand::RobotHand;
@@ -36,6 +37,8 @@ pub struct World {
     random: RandomStreams,
     hand: RobotHand,
     person: Person,
+    /// Where the person's hand is, if it moves as in a recorded run.
+    again: Option<HandRecording>,
     /// Between the commands and the joints.
     drive: Drive,
     /// Why the joints may not move now.
@@ -57,12 +60,17 @@ impl World {
     /// [`WorldError::Scene`] when the scene cannot be simulated as it is laid out.
     pub fn new(task: &Task, robot: &Robot, settings: Settings) -> Result<Self, WorldError> {
         let random = RandomStreams::new(settings.seed);
+        let mut again = None;
         let (policy, recorded, staging) = match settings.partner {
             Partner::Synthetic => (Policy::Synthetic, None, Staging::default()),
             Partner::Random(behaviour) => (Policy::Random(behaviour), None, Staging::default()),
             Partner::Script(scenario) => (Policy::Script(scenario.script), None, scenario.staging),
             Partner::Arm(arm) => (Policy::Arm(arm), None, Staging::default()),
             Partner::Hand => (Policy::Live, None, Staging::default()),
+            Partner::Again(recording) => {
+                again = Some(recording);
+                (Policy::Live, None, Staging::default())
+            }
             Partner::Recorded(recorded) => (Policy::Synthetic, Some(recorded), Staging::default()),
         };
         let mut task = task.clone();
@@ -77,6 +85,7 @@ impl World {
             random,
             hand: RobotHand::new(robot, &task),
             person: Person::new(&task.scene, policy, random, recorded),
+            again,
             drive: Drive::new(joint_limits(robot), settings.drive),
             hold: HoldReason::None,
             blind_until: 0,
@@ -204,9 +213,12 @@ impl World {
 
     /// Hands and parts: who grasps, carries and lets go of what.
     fn live(&mut self, tick: u64, palm: &Palm) {
-        let Self { task, hand, person, robot, parts, simulation, staging, .. } = self;
+        let Self { task, hand, person, again, robot, parts, simulation, staging, .. } = self;
         if !simulation.started.is_set() {
             person.start(tick, &mut simulation.person);
+        }
+        if let Some(points) = again.as_ref().and_then(|recording| recording.captured_in(tick)) {
+            person.show_hand(&mut simulation.person, tick, points);
         }
         hand.advance(palm, robot.grip(), &mut simulation.robot, simulation.person.held, parts, task);
         let held = simulation.robot.held.get().map(|part| parts.kind(part));

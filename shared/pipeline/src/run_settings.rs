@@ -22,7 +22,7 @@ pub struct RunSettings {
     pub report: PathBuf,
     /// Seed of every random generator of the run.
     pub seed: u64,
-    /// The partner: `synthetic`, `script:FILE`, `recorded:DIR`, `left-arm:FILE`, `right-arm:FILE` or `hand`; or `replay:PARTICIPANT:DIR`, a person's recorded
+    /// The partner: `synthetic`, `script:FILE`, `recorded:DIR`, `recorded:FILE.mcap`, `left-arm:FILE`, `right-arm:FILE` or `hand`; or `replay:PARTICIPANT:DIR`, a person's recorded
     /// reaches, played to the sensors in place of a world.
     pub partner: String,
     /// How the world computes.

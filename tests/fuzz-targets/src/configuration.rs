@@ -2,6 +2,7 @@
 
 use crate::scratch::Scratch;
 use crate::seeds::checkout;
+use coact_console::ConsoleSettings;
 use coact_fields::Network;
 use coact_joint_task::{NetworkPlan, Task, check};
 use coact_learning::{Demonstration, SerialOrder, TaskText};
@@ -37,6 +38,10 @@ pub(crate) fn process_table(bytes: &[u8]) -> bool {
 
 pub(crate) fn recorder_settings(bytes: &[u8]) -> bool {
     Scratch::with("recorder.toml", bytes, |path| taken(RecorderSettings::load(path)).is_some())
+}
+
+pub(crate) fn console_settings(bytes: &[u8]) -> bool {
+    Scratch::with("console.toml", bytes, |path| taken(ConsoleSettings::load(path)).is_some())
 }
 
 pub(crate) fn safety_limits(bytes: &[u8]) -> bool {

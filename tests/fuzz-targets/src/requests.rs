@@ -1,4 +1,4 @@
-//! What is asked of a run: on its socket, on the command line.
+//! What is asked of a run: on its socket, on the command line, on a page.
 
 use crate::configuration::{taken, task};
 use coact_person::HandModel;
@@ -17,6 +17,12 @@ pub(crate) fn injection(bytes: &[u8]) -> bool {
 pub(crate) fn hand_line(bytes: &[u8]) -> bool {
     let Ok(line) = std::str::from_utf8(bytes) else { return false };
     taken(coact::hand::keypoints(line, &HandModel::new(&task().scene))).is_some()
+}
+
+/// What a page of the console sends.
+pub(crate) fn page_request(bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else { return false };
+    taken(coact_console::Request::read(text)).is_some()
 }
 
 /// Only the words: which files are read, this target must not choose.

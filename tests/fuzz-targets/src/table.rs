@@ -10,11 +10,12 @@ const fn target(
 }
 
 /// Every target.
-pub const TARGETS: [Target; 45] = [
+pub const TARGETS: [Target; 47] = [
     target("process-table", Input::Text, &["rt-config/pipeline.toml"], configuration::process_table),
     target("safety-limits", Input::Text, &["rt-config/safety.toml"], configuration::safety_limits),
     target("verdict-rules", Input::Text, &["rt-config/verdict.toml"], configuration::verdict_rules),
     target("recorder-settings", Input::Text, &["rt-config/recorder.toml"], configuration::recorder_settings),
+    target("console-settings", Input::Text, &["rt-config/console.toml"], configuration::console_settings),
     target("network-file", Input::Text, &["rt-config/joint-action.toml"], configuration::network_file),
     target("task-file", Input::Text, &["rt-config/tasks/*.toml"], configuration::task_file),
     target("learned-mapping", Input::Text, &["rt-config/learned/*.toml"], configuration::learned_mapping),
@@ -49,6 +50,7 @@ pub const TARGETS: [Target; 45] = [
     target("injection", Input::Text, &[], requests::injection),
     target("partner", Input::Text, &[], requests::partner),
     target("hand-line", Input::Text, &[], requests::hand_line),
+    target("page-request", Input::Text, &[], requests::page_request),
     target("message-sample", Input::Patch, &[], messages::sample),
     target("message-percept", Input::Patch, &[], messages::percept),
     target("message-frame", Input::Patch, &[], messages::frame),

@@ -5,13 +5,13 @@ use rustix::process::{Pid, Signal, kill_process};
 
 /// Carries out what an operator at a page asks of the run's supervisor.
 #[derive(Debug)]
-pub struct Operator {
+pub struct SupervisorLink {
     run: Run,
     /// Whether a page may be the partner.
     pub(crate) lets_play: bool,
 }
 
-impl Operator {
+impl SupervisorLink {
     /// Of this run, whose partner may be a page.
     pub fn new(run: Run, lets_play: bool) -> Self {
         Self { run, lets_play }

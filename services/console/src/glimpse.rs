@@ -2,7 +2,7 @@ use crate::Picture;
 
 /// One instant of a run: what is drawn of it, and what explains it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Moment {
+pub struct Glimpse {
     /// What is drawn.
     pub picture: Picture,
     /// Signals of all populations, and of the percept's channels behind them, as [`coact_fields::signals`] gives them. Kept in single

@@ -1,0 +1,92 @@
+use crate::page_partner::PagePartner;
+use coact_console::{Board, LiveTopics, Machine, PictureMaker, Timeline, Wish, report};
+use coact_realtime::{Process, Schedule, now};
+use coact_run_records::Summary;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::Receiver;
+use std::time::{Duration, Instant};
+
+/// How often the run is looked at: often enough for all pulses, and for a hand that is to be passed on at once.
+const LOOK_EVERY: Duration = Duration::from_millis(4);
+/// How often it is looked into the logs, and what the machine does is told anew.
+const READ_EVERY: Duration = Duration::from_millis(200);
+const TELL_EVERY: Duration = Duration::from_secs(1);
+/// How long the console waits for the monitor's summary at the end: less than the process table gives it.
+const SUMMARY_WITHIN: Duration = Duration::from_millis(4500);
+/// How long pages have then to take in how it ended.
+const FAREWELL: Duration = Duration::from_millis(300);
+
+/// What is shown of a run, and done in it.
+pub struct LiveConsole {
+    pub topics: LiveTopics,
+    pub maker: PictureMaker,
+    pub timeline: Timeline,
+    pub machine: Machine,
+    pub board: Arc<Board>,
+    pub partner: PagePartner,
+    pub schedule: Schedule,
+    /// From one picture to the next.
+    pub every: Duration,
+}
+
+impl LiveConsole {
+    /// Follows the run until it ends.
+    pub fn follow(&mut self, process: &mut Process, wishes: &Receiver<Wish>) -> anyhow::Result<()> {
+        let mut heartbeat = process.heartbeat()?;
+        let (mut picture, mut read, mut told) = (Instant::now(), Instant::now(), Instant::now());
+        while !process.stop_requested() {
+            heartbeat.beat()?;
+            self.topics.refresh(&mut self.machine)?;
+            let seen = self.topics.seen();
+            self.timeline.watch(&seen);
+            let cycle = self.schedule.tick_at(now());
+            if let Ok(wish) = wishes.recv_timeout(LOOK_EVERY) {
+                self.partner.take(wish, cycle)?;
+                wishes.try_iter().try_for_each(|wish| self.partner.take(wish, cycle))?;
+            }
+            self.partner.show_hand(self.maker.task(), &seen, cycle)?;
+            if picture.elapsed() >= self.every {
+                picture = next(picture, self.every);
+                if let Some(glimpse) = self.maker.glimpse(&seen) {
+                    self.board.put_glimpse(glimpse);
+                }
+            }
+            if read.elapsed() >= READ_EVERY {
+                read = Instant::now();
+                self.timeline.read_logs()?;
+                self.board.put_events(self.timeline.events());
+            }
+            if told.elapsed() >= TELL_EVERY {
+                told = Instant::now();
+                self.board.put_machine(&self.machine.to_json(cycle));
+            }
+            process.warn_of_refusals();
+        }
+        Ok(())
+    }
+
+    /// Tells all pages how the run has ended, once the monitor has said so.
+    pub fn say_how_it_ended(&mut self, folder: &Path) -> anyhow::Result<()> {
+        let begin = Instant::now();
+        while !folder.join(Summary::FILE).is_file() && begin.elapsed() < SUMMARY_WITHIN {
+            std::thread::sleep(LOOK_EVERY);
+        }
+        // A log that cannot be read must not hide how it ended.
+        if let Err(error) = self.timeline.read_logs() {
+            tracing::warn!("{error}");
+        }
+        self.board.put_events(self.timeline.events());
+        let cycle = self.topics.seen().cycle().unwrap_or_default();
+        let errors = self.timeline.events().iter().filter(|event| event["sort"] == "error").count();
+        self.board.put_end(&report(folder, cycle, errors));
+        std::thread::sleep(FAREWELL);
+        Ok(())
+    }
+}
+
+/// When something is due again that is due so often: what is late is not caught up with.
+pub fn next(due: Instant, every: Duration) -> Instant {
+    let next = due + every;
+    if next.elapsed() >= every { Instant::now() } else { next }
+}
