@@ -401,9 +401,7 @@ window.coact = {
     const at = scene?.camera.project(place);
     return at && { x: at.x + left, y: at.y + top };
   },
-  get handPlane() {
-    return scene?.handPlane;
-  },
+  handPlane: () => scene?.handPlane,
   hello: () => hello,
   picture: () => shown.picture,
   end: () => connection.send({ end: true }),

@@ -1,4 +1,5 @@
 use crate::PictureMaker;
+use crate::supervisor_link::tasks;
 use coact_joint_task::{Act, Agent, Chain, NetworkPlan, Shape, Subgoal, Task};
 use coact_messages::{LayerKind, MotionPhase};
 use coact_pipeline::{Pipeline, RunSettings, Trigger};
@@ -69,10 +70,17 @@ impl Greeting<'_> {
                 "path": PictureMaker::WAY,
                 "populations": plan.populations.len(),
             },
+            "tasks": names_of_tasks(settings, *recorded),
             "faults": faults,
             "processes": processes.collect::<Vec<_>>(),
         })
     }
+}
+
+/// Tasks that can be played after this one; none of a run that is over.
+fn names_of_tasks(settings: &RunSettings, recorded: bool) -> Vec<String> {
+    let tasks = if recorded { Vec::new() } else { tasks(&settings.task) };
+    tasks.into_iter().map(|(name, _)| name).collect()
 }
 
 /// The phases of a movement, in the order of their numbers.

@@ -14,6 +14,7 @@ use coact_period::PERIOD_NS;
 use coact_pipeline::RunSettings;
 use coact_realtime::Process;
 use coact_robot::Robot;
+use coact_run_records::NextRound;
 use coact_safety::SafetyLimits;
 use live_console::LiveConsole;
 use page_partner::PagePartner;
@@ -92,13 +93,18 @@ fn serve(
     board: &Arc<Board>,
 ) -> anyhow::Result<Receiver<Wish>> {
     let folder = process.run().directory();
-    let predecessor = Ticket::of_predecessor(folder).context("the address of the console before")?;
-    let mut ticket = predecessor.unwrap_or_else(|| Ticket::new(own.port));
+    let mut ticket = match Ticket::of_predecessor(folder).context("the address of the console before")? {
+        Some(ticket) => ticket,
+        None => match NextRound::take(&settings.report).context("the address of the round before")? {
+            Some(NextRound { port, token, .. }) => Ticket { port, token },
+            None => Ticket::new(own.port),
+        },
+    };
     let listener = listen(&mut ticket)?;
     ticket.leave(folder).context("the console's address cannot be left for a successor")?;
     let (sender, wishes): (SyncSender<Wish>, _) = sync_channel(WISHES);
     let lets_play = settings.partner == "hand";
-    let supervisor = SupervisorLink::new(process.run().clone(), lets_play);
+    let supervisor = SupervisorLink::new(process.run().clone(), lets_play, ticket.clone());
     let server = Server {
         board: Arc::clone(board),
         ticket: Arc::new(ticket.clone()),

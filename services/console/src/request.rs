@@ -26,6 +26,8 @@ pub enum Request {
     Resume(bool),
     /// Ends the run, as Ctrl-C at its terminal does.
     End(bool),
+    /// Ends the run, and begins another one with the task of this name.
+    Again(String),
     /// To be told why this population stands or does not; of none any more.
     Why(Option<usize>),
     /// The picture of the past that is nearest to this cycle.

@@ -179,7 +179,11 @@ impl Session {
             Request::Pointer(pointer) => return Ok(self.move_hand(Wish::Point(pointer))),
             Request::Hide(_) => return Ok(self.move_hand(Wish::Hide)),
             Request::Say(sentence) => return Ok(self.wish(Wish::Say(sentence.trim().to_owned()), "say")),
-            Request::Inject { .. } | Request::Stop(_) | Request::Resume(_) | Request::End(_) => {
+            Request::Inject { .. }
+            | Request::Stop(_)
+            | Request::Resume(_)
+            | Request::End(_)
+            | Request::Again(_) => {
                 return Ok(self.operate(request).await);
             }
         }
@@ -230,6 +234,7 @@ impl Session {
             Request::Inject { .. } => "inject",
             Request::Resume(_) => "resume",
             Request::End(_) => "end",
+            Request::Again(_) => "again",
             _ => "stop",
         };
         let done = tokio::task::spawn_blocking(move || supervisor.carry_out(&request)).await;

@@ -7,6 +7,8 @@
 //! | `supervisor.jsonl`, the supervisor log | [`SupervisorEvent`] | what happened to a process |
 //! | `snapshots.jsonl`, the snapshot log | [`Snapshot`] | what the scene looked like at one instant |
 //!
+//! Between two runs at a console a [`NextRound`] lies there.
+//!
 //! `at_ms`, `onset_ms` and the like are numbers of cycles from the start of the run: a cycle lasts 1 ms. `at_ns` is an
 //! instant of `CLOCK_MONOTONIC`.
 //!
@@ -37,6 +39,7 @@ mod fault_report;
 mod judgement;
 mod log_follower;
 mod motion_report;
+mod next_round;
 mod operator_stop_report;
 mod outage_report;
 mod percentiles;
@@ -63,6 +66,7 @@ pub use fault_report::FaultReport;
 pub use judgement::{Judgement, Verdict};
 pub use log_follower::LogFollower;
 pub use motion_report::{JointMoment, MotionReport};
+pub use next_round::NextRound;
 pub use operator_stop_report::OperatorStopReport;
 pub use outage_report::OutageReport;
 pub use percentiles::Percentiles;

@@ -6,7 +6,7 @@ use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
 use coact_pipeline::{Pipeline, RunSettings, WorldMode};
 use coact_robot::Robot;
-use coact_run_records::{Record, Snapshot};
+use coact_run_records::{NextRound, Record, Snapshot};
 use coact_safety::SafetyLimits;
 use coact_supervisor::{Ending, Injection, Launch, LaunchError};
 use coact_world::Partner;
@@ -96,13 +96,31 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// A file is missing or malformed, or the machine refuses the run: nothing was started, or it was stopped again.
 pub fn run(args: Args) -> Result<ExitCode> {
     let (json, strict, in_lockstep) = (args.json, args.strict, args.lockstep);
-    let launch = prepare(args)?;
-    let settings = launch.settings.clone();
-    if in_lockstep {
-        lockstep::run(&launch)?;
-        return show(&settings, json, strict);
+    let mut launch = prepare(args)?;
+    loop {
+        let settings = launch.settings.clone();
+        if in_lockstep {
+            lockstep::run(&launch)?;
+            return show(&settings, json, strict);
+        }
+        let code = report(launch.run(), &settings, json, strict)?;
+        match next_round(settings)? {
+            Some(next) => launch = next,
+            None => return Ok(code),
+        }
     }
-    report(launch.run(), &settings, json, strict)
+}
+
+/// The run that somebody at the console wants after this one, if anybody does: of the task that was chosen, with all else as before.
+fn next_round(before: RunSettings) -> Result<Option<Launch>> {
+    let Some(next) = NextRound::take(&before.report)? else { return Ok(None) };
+    let report = unused_report_folder(before.report.parent().unwrap_or(Path::new("reports")));
+    let settings = RunSettings { task: next.task.clone(), report, ..before };
+    std::fs::create_dir_all(&settings.report)?;
+    next.leave(&settings.report)?;
+    let (task, _) = NetworkPlan::load(&settings.task)?;
+    let (pipeline, programs) = (Pipeline::of_run(&settings)?, Installation::programs()?);
+    Ok(Some(Launch { pipeline, settings, task, programs, injections: Vec::new() }))
 }
 
 /// Shows how a set of processes has ended.
