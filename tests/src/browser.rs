@@ -1,15 +1,16 @@
+use crate::EndedWithTest;
 use serde_json::{Value, json};
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::Duration;
 use tungstenite::{Message, WebSocket};
 
 /// A browser without a window, driven by the DevTools protocol.
 #[derive(Debug)]
 pub struct Browser {
-    child: Child,
+    _child: EndedWithTest,
     socket: WebSocket<TcpStream>,
     requests: u64,
     /// What went wrong on the page.
@@ -45,12 +46,14 @@ impl Browser {
         command.args(["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]);
         command.arg(format!("--user-data-dir={}", profile.path().display()));
         command.arg(format!("--window-size={width},{height}")).arg("about:blank");
-        let child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        let child = EndedWithTest(command.spawn().unwrap());
         let (port, page) = first_page(profile.path());
         let stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
         stream.set_read_timeout(Some(WITHIN)).unwrap();
         let (socket, _) = tungstenite::client(page, stream).unwrap();
-        let mut browser = Self { child, socket, requests: 0, complaints: Vec::new(), _profile: profile };
+        let mut browser =
+            Self { _child: child, socket, requests: 0, complaints: Vec::new(), _profile: profile };
         browser.call("Runtime.enable", json!({}));
         let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         browser.call("Emulation.setDeviceMetricsOverride", size);
@@ -120,13 +123,6 @@ impl Browser {
     pub fn complaints(&mut self) -> &[String] {
         self.value("0");
         &self.complaints
-    }
-}
-
-impl Drop for Browser {
-    fn drop(&mut self) {
-        self.child.kill().ok();
-        self.child.wait().ok();
     }
 }
 

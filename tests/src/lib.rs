@@ -7,6 +7,7 @@
 mod alone;
 mod browser;
 mod course;
+mod ended_with_test;
 mod finished;
 mod joint_viewer;
 mod launched;
@@ -18,6 +19,7 @@ mod tracer;
 pub use alone::alone;
 pub use browser::Browser;
 pub use course::Course;
+pub use ended_with_test::EndedWithTest;
 pub use finished::Finished;
 pub use joint_viewer::JointViewer;
 pub use launched::Launched;

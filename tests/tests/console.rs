@@ -2,13 +2,13 @@
 //! time, comes back after leaving the page, and looks at the recording. Where no browser is installed the test says so and ends.
 #![allow(clippy::unwrap_used)]
 
-use coact_tests::{Browser, Course, Launched, checkout, coact, wait_for, wait_within};
+use coact_tests::{Browser, Course, EndedWithTest, Launched, alone, checkout, coact, wait_for, wait_within};
 use glam::{DVec2, DVec3};
 use rustix::process::Signal;
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 const WINDOW: [u32; 2] = [1440, 900];
@@ -40,9 +40,10 @@ impl Player {
     }
 
     fn wait_for(&mut self, what: &str, expression: &str) {
+        let there = format!("typeof coact !== 'undefined' && ({expression})");
         wait_within(PATIENCE, what, || {
             std::thread::sleep(Duration::from_millis(30));
-            self.browser.value(expression).as_bool().filter(|is_so| *is_so)
+            self.browser.value(&there).as_bool().filter(|is_so| *is_so)
         });
     }
 
@@ -204,6 +205,7 @@ impl Player {
     /// Every view shows something, and something else a moment later.
     fn sees_everything_move(&mut self) {
         self.wait_for("pictures", "coact.state().pictures > 20 && coact.state().live");
+        self.browser.click("tab-mind");
         let canvas = |id: &str| format!("document.getElementById({id:?}).toDataURL().length");
         for id in ["mind", "timeline"] {
             let before = self.browser.value(&format!("document.getElementById({id:?}).toDataURL()"));
@@ -242,7 +244,7 @@ impl Player {
     fn comes_back(&mut self) {
         let known = self.browser.value("coact.state().events.length").as_u64().unwrap();
         self.browser.call("Page.reload", serde_json::json!({}));
-        self.wait_for("the page again", "typeof coact !== 'undefined' && coact.state().pictures > 5");
+        self.wait_for("the page again", "coact.state().pictures > 5");
         self.wait_for("all events", &format!("coact.state().events.length >= {known}"));
     }
 }
@@ -257,11 +259,11 @@ fn address(said: &str) -> Option<String> {
     said[begin..].split_whitespace().next().map(str::to_owned)
 }
 
-fn console_of(recording: &Path) -> (Child, String) {
+fn console_of(recording: &Path) -> (EndedWithTest, String) {
     let mut command = Command::new(coact());
     command.arg("console").arg(recording).current_dir(checkout()).stderr(Stdio::piped()).stdin(Stdio::null());
-    let mut child = command.spawn().unwrap();
-    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    let mut child = EndedWithTest(command.spawn().unwrap());
+    let mut lines = BufReader::new(child.0.stderr.take().unwrap()).lines();
     let address = lines.find_map(|line| address(&line.unwrap())).unwrap();
     std::thread::spawn(move || lines.count());
     (child, address)
@@ -269,6 +271,7 @@ fn console_of(recording: &Path) -> (Child, String) {
 
 #[test]
 fn somebody_at_the_page_builds_the_vehicle_breaks_a_process_and_looks_back() {
+    let _alone = alone();
     let mut launched = Launched::start(&["--console", "--world", "kinematic"]);
     let folder = launched.folder();
     launched.when_started();
@@ -305,12 +308,47 @@ fn somebody_at_the_page_builds_the_vehicle_breaks_a_process_and_looks_back() {
     assert!(finished.summary().work.passes(), "{:?}", finished.summary().work);
     drop(player);
 
-    let (mut console, address) = console_of(&report.join("run.mcap"));
+    let (console, address) = console_of(&report.join("run.mcap"));
     let mut player = Player::new(Browser::open(&address, WINDOW).unwrap(), 2);
     player.wait_for("a picture of the past", "coact.state().pictures > 0 && !coact.state().live");
     player.wait_for("its events", "coact.state().events.filter(({sort}) => sort === 'action').length >= 7");
     assert_eq!(player.browser.complaints(), [""; 0]);
-    console.kill().unwrap();
-    console.wait().unwrap();
+    drop((player, console));
+    the_recorded_hand_comes_again(&report.join("run.mcap"));
     drop(folder);
+}
+
+/// What the person's hand did in the recording it does again, in a world of its own.
+fn the_recorded_hand_comes_again(recording: &Path) {
+    let partner = format!("recorded:{}", recording.display());
+    let finished =
+        Launched::start(&["--partner", &partner, "--world", "kinematic", "--duration", "40"]).finish();
+    let told = &finished.summary().anticipation.events;
+    let first = told.first().unwrap_or_else(|| panic!("the hand took nothing: {}", finished.stderr));
+    assert_eq!((first.chain.as_str(), first.kind.as_str()), ("insert", "wheel"), "{told:?}");
+}
+
+#[test]
+fn another_round_with_another_task_begins_at_the_same_address() {
+    let _alone = alone();
+    let mut launched = Launched::start(&["--console", "--world", "kinematic"]);
+    launched.when_started();
+    let address = wait_for("the console's address", || address(&launched.said()));
+    let Some(browser) = Browser::open(&address, WINDOW) else {
+        println!("skipped: no browser is installed; expected chromium");
+        launched.signal(Signal::INT);
+        launched.finish();
+        return;
+    };
+    let mut player = Player::new(browser, 3);
+    player.wait_for("pictures", "coact.state().pictures > 10");
+    player.browser.click("tab-plan");
+    player.browser.value("document.getElementById('again-task').value = 'electronics-box'");
+    player.browser.value("document.getElementById('again').requestSubmit()");
+    let begun = "coact.state().pictures > 10 && coact.hello().run.task === 'electronics box'";
+    player.wait_for("the next round", begun);
+    let next: Vec<_> = std::fs::read_dir(launched.report().parent().unwrap()).unwrap().collect();
+    assert!(next.len() > 3, "a report of its own: {next:?}");
+    launched.signal(Signal::INT);
+    launched.finish();
 }

@@ -27,7 +27,7 @@ let hello = null, scene = null, mind = null, partner = null, plan = null, guide 
 /** What is shown: the picture, whether it is of now, how many there were, and what is known of the run. */
 const shown = {
   picture: null, live: true, count: 0, drawn: 0, due: false, all: true, asked: false, stopped: false,
-  ended: false, lost: false, role: "watcher", playsSince: null, refusal: null,
+  ended: false, again: false, lost: false, role: "watcher", playsSince: null, refusal: null,
 };
 
 // ---- what the server tells
@@ -90,10 +90,11 @@ connection.addEventListener("ended", ({ detail }) => {
   showReport($("report"), detail);
   guide?.end();
   if (!hello.run.recorded) {
-    connection.finish();
+    // Another round is served at the same address: the page then loads itself anew.
+    if (!shown.again) connection.finish();
     partner.become(false);
     show("plan");
-    for (const id of ["play", "stop", "resume", "inject", "say", "end"]) $(id).hidden = true;
+    for (const id of ["play", "stop", "resume", "inject", "say", "end", "again"]) $(id).hidden = true;
   }
   status();
 });
@@ -106,7 +107,7 @@ connection.addEventListener("refused", ({ detail: { what, why } }) => {
 connection.addEventListener("lost", () => {
   shown.lost = true;
   $("stage").classList.add("lost");
-  cover(shown.ended ? "The run is over, and its server has gone." : "The line to the robot is lost. It is tried again and again.");
+  cover(shown.again ? "Another round begins." : shown.ended ? "The run is over, and its server has gone." : "The line to the robot is lost. It is tried again and again.");
   status();
 });
 connection.addEventListener("unwanted", () => {
@@ -130,6 +131,8 @@ function begin() {
   shown.live = !recorded;
   $("play").hidden = !mayPlay;
   for (const id of ["stop", "resume", "inject", "say", "end", "live"]) $(id).hidden = recorded;
+  $("again").hidden = !mayPlay;
+  options($("again-task"), hello.tasks.map((name) => [name, ""]));
   options($("inject-fault"), hello.faults.map(({ name, description }) => [name, description]));
   options($("inject-process"), hello.processes.map(({ name }) => [name, ""]));
   $("inject-process").value = "fields";
@@ -326,6 +329,11 @@ $("after").addEventListener("click", () => timeline.jump(1));
 for (const [id, change] of [["nearer", () => timeline.zoom(0.6)], ["farther", () => timeline.zoom(1.6)], ["earlier", () => timeline.scroll(-0.3)], ["later", () => timeline.scroll(0.3)]]) {
   $(id).addEventListener("click", () => (change(), redraw()));
 }
+$("again").addEventListener("submit", (event) => {
+  event.preventDefault();
+  shown.again = true;
+  connection.send({ again: $("again-task").value });
+});
 $("inject").addEventListener("submit", (event) => {
   event.preventDefault();
   connection.send({ inject: { process: $("inject-process").value, fault: $("inject-fault").value } });
