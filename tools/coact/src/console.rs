@@ -16,7 +16,16 @@ pub struct Args {
 }
 
 /// Name of the program and of its package.
-pub(crate) const PROGRAM: &str = "coact-console";
+const PROGRAM: &str = "coact-console";
+
+/// The console, built first when there is none. `tools/launch` builds it anew where it has changed.
+///
+/// # Errors
+/// It cannot be built.
+pub(crate) fn program() -> Result<PathBuf> {
+    let path = Installation::programs()?.join(PROGRAM);
+    if path.is_file() { Ok(path) } else { companion::up_to_date(PROGRAM) }
+}
 
 /// Becomes the console.
 ///
@@ -30,7 +39,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         args.recording.display()
     );
     let settings = Installation::find()?.configuration.join("console.toml");
-    let mut command = Command::new(companion::up_to_date(PROGRAM)?);
+    let mut command = Command::new(program()?);
     command.arg("--recording").args([file, settings]);
     Err(companion::become_it(command))
 }

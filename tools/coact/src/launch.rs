@@ -1,6 +1,6 @@
 use crate::installation::Installation;
 use crate::report_folder::unused_report_folder;
-use crate::{closed_pipe, companion, console, lockstep, partner, run_report, snapshots};
+use crate::{closed_pipe, console, lockstep, partner, run_report, snapshots};
 use anyhow::{Result, ensure};
 use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
@@ -159,7 +159,7 @@ fn prepare(args: Args) -> Result<Launch> {
     let requested = requested.iter().filter(|(wanted, _)| *wanted).map(|(_, process)| (*process).to_owned());
     let sits = args.console && partner == Partner::HAND;
     if args.console {
-        companion::up_to_date(console::PROGRAM)?;
+        console::program()?;
     }
     let settings = RunSettings {
         task: absolute(args.task.unwrap_or(shipped.task))?,
