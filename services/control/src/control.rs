@@ -236,7 +236,7 @@ impl Control {
     }
 
     /// Where the fingers are, rad: parts keep them from their setpoints.
-    fn fingers(&self, inputs: &Inputs) -> [f64; HAND_JOINTS] {
+    pub(crate) fn fingers(&self, inputs: &Inputs) -> [f64; HAND_JOINTS] {
         inputs.fingers().unwrap_or_else(|| hand_of(&self.servo.position()[ARM_JOINTS..]))
     }
 
