@@ -26,7 +26,7 @@ pub(super) struct DrivenJoint {
     pub is_source: bool,
     /// Largest torque of its motor, Nm.
     pub effort: f64,
-    /// Largest acceleration that it is driven with, rad/s², and largest speed that it is drawn to, rad/s.
+    /// Largest acceleration that it is driven with, rad/s², and largest speed that it is driven to, rad/s.
     most_acceleration: f64,
     most_speed: f64,
     /// The URDF joint that it is geared to, and its angle for each rad of that.
@@ -107,10 +107,10 @@ impl DrivenJoint {
         let (stiffness, damping) = ARM;
         let most_error = self.most_acceleration / stiffness;
         let error = (setpoint.position - position - PERIOD_S * velocity).clamp(-most_error, most_error);
-        let speed = setpoint.velocity + error * stiffness / damping;
-        let speed = speed.clamp(-self.most_speed, self.most_speed);
-        let drawn = setpoint.acceleration + damping * (speed - velocity);
+        let drawn = setpoint.acceleration + stiffness * error + damping * (setpoint.velocity - velocity);
         let wanted = drawn / (1.0 + PERIOD_S * damping + PERIOD_S * PERIOD_S * stiffness);
+        let to_speed = |speed: f64| (speed - velocity) / PERIOD_S;
+        let wanted = wanted.clamp(to_speed(-self.most_speed), to_speed(self.most_speed));
         wanted.clamp(-self.most_acceleration, self.most_acceleration)
     }
 
