@@ -235,9 +235,14 @@ impl Control {
         inputs.person(&self.model.part_capsules, &self.limits)
     }
 
-    /// Where the fingers are, rad: parts keep them from their setpoints.
-    fn fingers(&self, inputs: &Inputs) -> [f64; HAND_JOINTS] {
-        inputs.fingers().unwrap_or_else(|| hand_of(&self.servo.position()[ARM_JOINTS..]))
+    /// Where the fingers are, rad, within their limits: parts keep them from their setpoints.
+    pub(crate) fn fingers(&self, inputs: &Inputs) -> [f64; HAND_JOINTS] {
+        let (setpoints, limits) = (self.servo.position(), self.model.limits());
+        let measured = inputs.fingers().unwrap_or_else(|| hand_of(&setpoints[ARM_JOINTS..]));
+        std::array::from_fn(|joint| {
+            let limits = &limits[ARM_JOINTS + joint];
+            measured[joint].clamp(limits.lower, limits.upper)
+        })
     }
 
     /// Whether the guard lets the fingers go on. Those that close on something hold what they have.

@@ -94,7 +94,9 @@ impl Control {
         match skill.skill {
             Skill::Park => None,
             Skill::Pick => inputs.part(ROBOT, kind?).map(|seen| self.goals.above_table(seen)),
-            Skill::Insert => Some(self.goals.socket(self.actions.get(skill.action.get()?)?.subgoal?)),
+            Skill::Insert | Skill::Steady => {
+                Some(self.goals.socket(self.actions.get(skill.action.get()?)?.subgoal?))
+            }
             Skill::PutBack => {
                 let hand = &self.state.hand;
                 let [x, y, _] = hand.picked_at;
@@ -106,7 +108,6 @@ impl Control {
                 }))
             }
             Skill::Request | Skill::Receive | Skill::Give => Some(self.goals.handover_frame()),
-            Skill::Steady => Some(Isometry3::identity()),
             // The person is shown what lies at hand for the person.
             Skill::Point => inputs.part(PERSON, kind?).or_else(|| inputs.part(ROBOT, kind?)),
         }

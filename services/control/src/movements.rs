@@ -5,7 +5,6 @@ use crate::inputs::Inputs;
 use crate::planning::{INSERTION_DEPTH, InSight, PlanningQuery};
 use crate::state::{MovementQuery, Skill, SkillPhase};
 use coact_joint_task::ActionType;
-use coact_messages::ARM_JOINTS;
 use coact_period::seconds;
 use coact_robot::{MotionState, NextUse};
 use coact_stage_state::{Flag, Slot};
@@ -180,7 +179,7 @@ impl Control {
             stops_before: skill.stops_before.is_set(),
             loosely: planning.refusals >= LOOSELY,
             start,
-            fingers: std::array::from_fn(|joint| self.servo.joints[ARM_JOINTS + joint].position),
+            fingers: self.fingers(inputs),
             finger_target: std::array::from_fn(|joint| self.state.fingers.target[joint]),
             leave: self.leave(start),
             held: hand.held().map(|kind| (kind, hand.in_palm.isometry())),

@@ -52,10 +52,8 @@ impl Attempt<'_> {
     fn check_lines(&self, segments: &[Segment]) -> Result<(), Refusal> {
         let mechanism = self.clearance.mechanism;
         let excesses = self.line_constraints(segments).flat_map(|line| {
-            fractions(SPARSE).map(move |s| {
-                let posture = segments[line.segment].motion.posture(s);
-                line.excess(&(mechanism.arm.palm(&posture) * mechanism.grasp_point()))
-            })
+            let motion = &segments[line.segment].motion;
+            fractions(SPARSE).map(move |s| line.excess(&mechanism.arm.palm(&motion.posture(s))))
         });
         let short = excesses.fold(0.0, f64::max);
         if short > 0.0 {

@@ -61,6 +61,32 @@ fn the_hand_comes_to_its_goal_from_the_side_it_was_told() {
     assert_eq!(plan.broken(&AROS.0.limits()), None);
 }
 
+/// A wheel that came to the end of its axle 8 mm aside, and a nut that was 10 degrees askew there, were pressed against it.
+#[test]
+fn what_the_hand_puts_into_its_place_goes_in_straight() {
+    let (scene, depth) = (Scene::default(), 0.05);
+    for (x, y) in [(-0.6, 0.3), (-0.56, 0.24), (-0.45, 0.35), (-0.4, 0.55), (-0.3, 0.7)] {
+        let goal = grip_at(x, y, 0.85);
+        let problem = Problem { insertion_depth: depth, ..problem(&scene, parked(), goal) };
+        let plan = problem.plan().unwrap();
+        let axis = AROS.0.arm.palm(&plan.end()).inverse_transform_vector(&goal.along);
+        for step in (0..=1000).rev() {
+            let palm = AROS.0.arm.palm(&posture(&plan, f64::from(step) / 1000.0));
+            let off = palm * AROS.0.grasp_point() - goal.point;
+            let outside = -off.dot(&goal.along);
+            if outside > depth {
+                break;
+            }
+            let aside = (off + outside * goal.along).norm();
+            let turned = (palm * axis).angle(&goal.along).to_degrees();
+            assert!(
+                aside < 0.004 && turned < 4.0,
+                "{x}, {y}: {aside} m, {turned} degrees, {outside} m outside"
+            );
+        }
+    }
+}
+
 #[test]
 fn what_blocks_the_direct_movement_is_passed_at_the_required_clearance() {
     let goal = grip_at(-0.55, 0.25, 0.9);

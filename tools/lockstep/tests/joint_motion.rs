@@ -15,11 +15,13 @@ const LONGEST: u64 = 120 * CYCLES_PER_SECOND;
 /// What `rt-config/verdict.toml` allows in real time, of the acceleration limit.
 const ACCELERATION: f64 = 1.05;
 
-/// A wheel that met the end of its axle was pressed against it, until it gave way: 14 times the wrist's limit.
+/// A wheel that met the end of its axle was pressed against it, until it gave way: 15 times the wrist's limit. Fingers that were
+/// planned to be as far closed as they were told, not as the part in them let them, struck the base; and a hand that steadied it was
+/// pushed aside by the part that the person mounted.
 #[test]
 fn parts_are_put_into_their_places_within_the_joints_limits() {
     let config = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
-    for seed in [1, 4, 5, 9, 12] {
+    for seed in [1, 4, 5, 9, 12, 106, 107, 211, 212, 321] {
         let settings = RunSettings { seed, world: WorldMode::Physics, ..RunSettings::shipped(&config) };
         let limits = Robot::load(&settings.robot).unwrap().limits()[..ARM_JOINTS].to_vec();
         let mut motion = JointMotion::new(limits, Duration::from_secs(1));

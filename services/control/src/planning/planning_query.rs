@@ -10,7 +10,8 @@ pub(crate) struct PlanningQuery {
     /// What the hand does, and the kind of part that this concerns.
     pub skill: Skill,
     pub kind: Option<usize>,
-    /// Frame of the place: of the part to pick, of the socket, of the place on the table, of the handover.
+    /// Frame of the place: of the part to pick, of the socket that the robot fills, or for which it steadies the base, of the place
+    /// on the table, of the handover.
     pub place: Isometry3<f64>,
     /// What is done next with a part that is picked, and the frame to which it is brought, if that is known.
     pub next_use: NextUse,
@@ -21,7 +22,8 @@ pub(crate) struct PlanningQuery {
     pub loosely: bool,
     /// State of the arm in which the movement shall begin.
     pub start: [MotionState; 7],
-    /// Angles of the hand's joints now, and to which they are on their way, rad.
+    /// Angles of the hand's joints now, as measured, for what it holds keeps them from closing farther; and to which they are on their
+    /// way, rad.
     pub fingers: [f64; HAND_JOINTS],
     pub finger_target: [f64; HAND_JOINTS],
     /// First out of a narrow place: direction and distance, m.

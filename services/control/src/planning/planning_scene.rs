@@ -20,6 +20,8 @@ pub(crate) struct PlanningScene {
 
 /// Name of the person's arm among the obstacles.
 pub(crate) const PERSON: &str = "person";
+/// Name of the part that the person is about to mount among the obstacles.
+const AWAITED: &str = "awaited part";
 /// What the names of parts among the obstacles begin with.
 const PART: &str = "part ";
 /// What is nearer than this to where the hand works may be touched by it there, m: the width of a finger and some, for the
@@ -44,6 +46,7 @@ impl PlanningScene {
     pub fn without_person(&self, query: &PlanningQuery, goals: &[GripGoal]) -> Scene {
         let mut obstacles = self.fixtures.clone();
         obstacles.extend(self.parts(query));
+        obstacles.extend(self.awaited(query));
         for [x, y, z, half_x, half_y, half_z] in query.in_sight.occluders() {
             let edges = 2.0 * Vector3::new(*half_x, *half_y, *half_z);
             obstacles.push(Obstacle::new("occluder", Solid::Box(edges), &Isometry3::translation(*x, *y, *z)));
@@ -113,6 +116,13 @@ impl PlanningScene {
             parts.push(coact_workplace::upright(&format!("{PART}{index}"), *shape, &frame));
         }
         parts
+    }
+
+    /// The part that the person mounts while the robot steadies the base, where it will be: a hand that stood there would be pushed
+    /// aside by it.
+    fn awaited(&self, query: &PlanningQuery) -> Option<Obstacle> {
+        let kind = query.kind.filter(|_| query.skill == Skill::Steady)?;
+        Some(coact_workplace::upright(AWAITED, *self.shapes.get(kind)?, &query.place))
     }
 
     /// What the hand may touch where it leaves: what lies around it, and what it stands on.

@@ -28,8 +28,9 @@ const SEARCH_AT_REST: u32 = 4_000;
 /// The same where the person waits for the hand: a movement that is found late is better than a hand that goes as far as it
 /// can and stops there.
 const SEARCH_FOR_PERSON: u32 = 10_000;
-/// How much of a part fingers leave free for what it goes into, and the least length on which the hand puts a part down along a
-/// straight line, m. Sockets that are deeper, or axles that stick out farther, ask for more of the latter.
+/// How much of a part fingers leave free for what it goes into, and the least length on which the hand puts a part down, or
+/// comes to the base that it steadies, along a straight line, m. Sockets that are deeper, or axles that stick out farther, ask for
+/// more of the latter.
 pub(crate) const INSERTION_DEPTH: f64 = 0.03;
 /// Fraction of a withdrawal that is a straight line: the rest rounds the corner to its end.
 const STRAIGHT_WITHDRAWAL: f64 = 0.9;
@@ -124,7 +125,7 @@ impl SkillPlanner {
         };
         let insertion_depth = match query.skill {
             Skill::Insert => INSERTION_DEPTH.max(self.goals.insertion_depth(&query.place)),
-            Skill::PutBack => INSERTION_DEPTH,
+            Skill::PutBack | Skill::Steady => INSERTION_DEPTH,
             _ => 0.0,
         };
         let next = query.next_place.map(|next| next * query.place.inverse());

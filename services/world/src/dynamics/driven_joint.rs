@@ -26,8 +26,9 @@ pub(super) struct DrivenJoint {
     pub is_source: bool,
     /// Largest torque of its motor, Nm.
     pub effort: f64,
-    /// Largest acceleration that it is driven with, rad/s².
+    /// Largest acceleration that it is driven with, rad/s², and largest speed that it is driven to, rad/s.
     most_acceleration: f64,
+    most_speed: f64,
     /// The URDF joint that it is geared to, and its angle for each rad of that.
     pub gear: Option<(String, f64)>,
 }
@@ -66,14 +67,15 @@ impl DrivenJoint {
         let handle = world
             .insert_multibody_joint(parent, child, data.build())
             .ok_or_else(|| fault("closes a loop; expected a tree of links"))?;
-        let most_acceleration = PUSHED * robot.limits()[source].acceleration;
+        let limits = robot.limits()[source];
         Ok(Self {
             handle,
             name: joint.name.clone(),
             source,
             is_source: own.is_some(),
             effort,
-            most_acceleration,
+            most_acceleration: PUSHED * limits.acceleration,
+            most_speed: limits.velocity,
             gear,
         })
     }
@@ -98,12 +100,17 @@ impl DrivenJoint {
 
     /// The acceleration with which an arm's joint follows its setpoint, rad/s²: the setpoint's own, and what draws the joint to it,
     /// as it acts at the step's end (backward Euler), so that it is stable whatever the stiffness.
+    ///
+    /// An error beyond that at which it is pushed as hard as it may be counts as that one. So a joint that was held back returns no
+    /// faster than such an error takes it, and not faster than it may move at all, however far it has to go.
     pub fn acceleration(&self, setpoint: &MotionState, position: f64, velocity: f64) -> f64 {
         let (stiffness, damping) = ARM;
-        let drawn = setpoint.acceleration
-            + stiffness * (setpoint.position - position - PERIOD_S * velocity)
-            + damping * (setpoint.velocity - velocity);
+        let most_error = self.most_acceleration / stiffness;
+        let error = (setpoint.position - position - PERIOD_S * velocity).clamp(-most_error, most_error);
+        let drawn = setpoint.acceleration + stiffness * error + damping * (setpoint.velocity - velocity);
         let wanted = drawn / (1.0 + PERIOD_S * damping + PERIOD_S * PERIOD_S * stiffness);
+        let to_speed = |speed: f64| (speed - velocity) / PERIOD_S;
+        let wanted = wanted.clamp(to_speed(-self.most_speed), to_speed(self.most_speed));
         wanted.clamp(-self.most_acceleration, self.most_acceleration)
     }
 

@@ -42,14 +42,18 @@ impl Smoothing<'_> {
         let mut violations = self.violations(&postures);
         for (piece, posture) in postures.iter().enumerate() {
             let frames = Frames::of(self.mechanism, posture);
-            let hand = frames.pose[joints - 1] * self.mechanism.arm.tool * self.mechanism.grasp_point();
+            let palm = frames.pose[joints - 1] * self.mechanism.arm.tool;
+            let hand = palm * self.mechanism.grasp_point();
             let jacobian = frames.jacobian(&hand, joints);
             let mut gradient = Matrix3xX::zeros(7 * count);
             for (shape, values) in self.shapes.iter().enumerate() {
                 gradient.fixed_columns_mut::<7>(7 * shape).copy_from(&(values[piece] * jacobian));
             }
             for line in self.lines.iter().filter(|line| line.segment == self.segments[piece]) {
-                violations.extend(off_line(line, piece, &hand, &jacobian));
+                let places = line.places(&palm);
+                violations.extend(
+                    places.flat_map(|place| off_line(line, piece, &place, &frames.jacobian(&place, joints))),
+                );
             }
             places.push(hand.coords);
             gradients.push(gradient);
@@ -117,19 +121,18 @@ fn joint_jerk(postures: &[Posture]) -> f64 {
         .sum()
 }
 
-/// How far the hand is off its line, along each axis of the world.
+/// How far this place of the hand is off its line, along each axis of the world.
 fn off_line(
     line: &LineConstraint,
     piece: usize,
-    hand: &Point3<f64>,
+    place: &Point3<f64>,
     jacobian: &SMatrix<f64, 3, 7>,
 ) -> impl Iterator<Item = Violation> + use<> {
     let gradients = line.across() * jacobian * OFF_LINE.sqrt();
-    line.offset(hand).into_iter().flat_map(move |offset| {
-        (0..3).map(move |axis| Violation {
-            piece,
-            amount: offset[axis] * OFF_LINE.sqrt(),
-            gradient: std::array::from_fn(|joint| gradients[(axis, joint)]),
-        })
+    let offset = line.offset(place);
+    (0..3).map(move |axis| Violation {
+        piece,
+        amount: offset[axis] * OFF_LINE.sqrt(),
+        gradient: std::array::from_fn(|joint| gradients[(axis, joint)]),
     })
 }
