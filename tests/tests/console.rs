@@ -259,6 +259,17 @@ fn address(said: &str) -> Option<String> {
     said[begin..].split_whitespace().next().map(str::to_owned)
 }
 
+/// A browser that has opened the console of a running set; where none is installed it says so, and there is none.
+fn browser_at(launched: &mut Launched) -> Option<Browser> {
+    launched.when_started();
+    let address = wait_for("the console's address", || address(&launched.said()));
+    let browser = Browser::open(&address, WINDOW);
+    if browser.is_none() {
+        println!("skipped: no browser is installed; expected chromium");
+    }
+    browser
+}
+
 fn console_of(recording: &Path) -> (EndedWithTest, String) {
     let mut command = Command::new(coact());
     command.arg("console").arg(recording).current_dir(checkout()).stderr(Stdio::piped()).stdin(Stdio::null());
@@ -274,14 +285,7 @@ fn somebody_at_the_page_builds_the_vehicle_breaks_a_process_and_looks_back() {
     let _alone = alone();
     let mut launched = Launched::start(&["--console", "--world", "kinematic"]);
     let folder = launched.folder();
-    launched.when_started();
-    let address = wait_for("the console's address", || address(&launched.said()));
-    let Some(browser) = Browser::open(&address, WINDOW) else {
-        println!("skipped: no browser is installed; expected chromium");
-        launched.signal(Signal::INT);
-        launched.finish();
-        return;
-    };
+    let Some(browser) = browser_at(&mut launched) else { return };
     let mut player = Player::new(browser, 2);
     player.sees_everything_move();
     player.asks_why();
@@ -332,14 +336,7 @@ fn the_recorded_hand_comes_again(recording: &Path) {
 fn another_round_with_another_task_begins_at_the_same_address() {
     let _alone = alone();
     let mut launched = Launched::start(&["--console", "--world", "kinematic"]);
-    launched.when_started();
-    let address = wait_for("the console's address", || address(&launched.said()));
-    let Some(browser) = Browser::open(&address, WINDOW) else {
-        println!("skipped: no browser is installed; expected chromium");
-        launched.signal(Signal::INT);
-        launched.finish();
-        return;
-    };
+    let Some(browser) = browser_at(&mut launched) else { return };
     let mut player = Player::new(browser, 3);
     player.wait_for("pictures", "coact.state().pictures > 10");
     player.browser.click("tab-plan");

@@ -1,10 +1,11 @@
+use crate::cadence::Cadence;
 use crate::page_partner::PagePartner;
 use coact_console::{Board, LiveTopics, Machine, PictureMaker, Timeline, Wish, report};
 use coact_realtime::{Process, Schedule, now};
 use coact_run_records::Summary;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::mpsc::Receiver;
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 /// How often the run is looked at: often enough for all pulses, and for a hand that is to be passed on at once.
@@ -34,31 +35,31 @@ impl LiveConsole {
     /// Follows the run until it ends.
     pub fn follow(&mut self, process: &mut Process, wishes: &Receiver<Wish>) -> anyhow::Result<()> {
         let mut heartbeat = process.heartbeat()?;
-        let (mut picture, mut read, mut told) = (Instant::now(), Instant::now(), Instant::now());
+        let [mut picture, mut read, mut told] = [self.every, READ_EVERY, TELL_EVERY].map(Cadence::new);
         while !process.stop_requested() {
             heartbeat.beat()?;
             self.topics.refresh(&mut self.machine)?;
             let seen = self.topics.seen();
             self.timeline.watch(&seen);
             let cycle = self.schedule.tick_at(now());
-            if let Ok(wish) = wishes.recv_timeout(LOOK_EVERY) {
-                self.partner.take(wish, cycle)?;
-                wishes.try_iter().try_for_each(|wish| self.partner.take(wish, cycle))?;
+            match wishes.recv_timeout(LOOK_EVERY.min(self.partner.frame_due_in())) {
+                Ok(wish) => self.partner.take(wish, cycle)?,
+                Err(RecvTimeoutError::Timeout) => (),
+                // Nobody is served any more.
+                Err(RecvTimeoutError::Disconnected) => std::thread::sleep(LOOK_EVERY),
             }
+            wishes.try_iter().try_for_each(|wish| self.partner.take(wish, cycle))?;
             self.partner.show_hand(self.maker.task(), &seen, cycle)?;
-            if picture.elapsed() >= self.every {
-                picture = next(picture, self.every);
-                if let Some(glimpse) = self.maker.glimpse(&seen) {
-                    self.board.put_glimpse(glimpse);
-                }
+            if picture.is_due()
+                && let Some(glimpse) = self.maker.glimpse(&seen)
+            {
+                self.board.put_glimpse(glimpse);
             }
-            if read.elapsed() >= READ_EVERY {
-                read = Instant::now();
+            if read.is_due() {
                 self.timeline.read_logs()?;
                 self.board.put_events(self.timeline.events());
             }
-            if told.elapsed() >= TELL_EVERY {
-                told = Instant::now();
+            if told.is_due() {
                 self.board.put_machine(&self.machine.to_json(cycle));
             }
             process.warn_of_refusals();
@@ -83,10 +84,4 @@ impl LiveConsole {
         std::thread::sleep(FAREWELL);
         Ok(())
     }
-}
-
-/// When something is due again that is due so often: what is late is not caught up with.
-pub fn next(due: Instant, every: Duration) -> Instant {
-    let next = due + every;
-    if next.elapsed() >= every { Instant::now() } else { next }
 }

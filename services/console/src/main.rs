@@ -1,6 +1,7 @@
 //! The console as a process: shows the run in a browser, and passes on what is done there. With `--recording FILE` it is a program of
 //! its own, which shows a run that is over.
 
+mod cadence;
 mod live_console;
 mod page_partner;
 

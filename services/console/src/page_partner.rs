@@ -1,4 +1,4 @@
-use crate::live_console::next;
+use crate::cadence::Cadence;
 use coact_console::{Pointer, PointerHand, Seen, Surroundings, Wish};
 use coact_joint_task::Task;
 use coact_messages::{HandPoints, Speech, topic};
@@ -16,7 +16,9 @@ pub struct PagePartner {
     hand: PointerHand,
     around: Surroundings,
     pointed: Option<(Pointer, Instant)>,
-    frame: Instant,
+    frame: Cadence,
+    /// When the hand was shown last.
+    shown: Instant,
     hands: Option<Output<HandPoints>>,
     speech: Output<Speech>,
 }
@@ -27,7 +29,15 @@ impl PagePartner {
         let hands = (settings.partner == "hand").then(|| bus.output(topic::HAND)).transpose()?;
         let speech = bus.output(topic::HEARD)?;
         let (hand, around) = (PointerHand::new(task), Surroundings::default());
-        Ok(Self { hand, around, pointed: None, frame: Instant::now(), hands, speech })
+        Ok(Self {
+            hand,
+            around,
+            pointed: None,
+            frame: Cadence::new(FRAME),
+            shown: Instant::now(),
+            hands,
+            speech,
+        })
     }
 
     pub fn take(&mut self, wish: Wish, cycle: u64) -> Result<(), PortError> {
@@ -43,18 +53,23 @@ impl PagePartner {
         Ok(())
     }
 
+    /// How long until the next frame of the hand is due; long, while there is none.
+    pub fn frame_due_in(&self) -> Duration {
+        if self.pointed.is_some() { self.frame.due_in() } else { POINTED_WITHIN }
+    }
+
     /// Shows the hand to the tracker, when a frame is due and somebody points.
     pub fn show_hand(&mut self, task: &Task, seen: &Seen, cycle: u64) -> Result<(), PortError> {
         let Some(hands) = &mut self.hands else { return Ok(()) };
         let Some((pointer, _)) = self.pointed.filter(|(_, when)| when.elapsed() < POINTED_WITHIN) else {
             return Ok(());
         };
-        let elapsed = self.frame.elapsed();
-        if elapsed < FRAME {
+        if !self.frame.is_due() {
             return Ok(());
         }
-        self.frame = next(self.frame, FRAME);
-        let step = elapsed.min(2 * FRAME).as_secs_f64();
+        // A hand that was not shown for a while stood.
+        let step = self.shown.elapsed().min(2 * FRAME).as_secs_f64();
+        self.shown = Instant::now();
         self.around.look(task, seen);
         let points = self.hand.step(&pointer, &self.around, step);
         let mut message = hands.loan()?;
