@@ -17,18 +17,18 @@ pub(crate) fn become_it(mut command: Command) -> Error {
     Error::new(command.exec()).context(format!("{program}: cannot be started"))
 }
 
-/// The program beside this one, built first when there is none or when it is older than this one.
+/// The program beside this one, which users know by `name`, built first when there is none or when it is older than this one.
 ///
 /// # Errors
 /// It cannot be built.
-pub(crate) fn up_to_date(program: &str) -> Result<PathBuf> {
+pub(crate) fn up_to_date(program: &str, name: &str) -> Result<PathBuf> {
     let programs = Installation::programs()?;
     let own = std::env::current_exe().context("this program's own place is unknown")?;
     let path = programs.join(program);
     match (modified(&path), modified(&own)) {
         (Some(built), Some(own)) if built >= own => return Ok(path),
-        (Some(_), _) => eprintln!("building {program} anew: it is older than coact"),
-        (None, _) => eprintln!("building {program}, once: about a minute"),
+        (Some(_), _) => eprintln!("building {name} anew: they are older than coact"),
+        (None, _) => eprintln!("building {name}, once: about a minute"),
     }
     build(program, &programs).with_context(|| {
         format!(

@@ -24,7 +24,7 @@ const PROGRAM: &str = "coact-console";
 /// It cannot be built.
 pub(crate) fn program() -> Result<PathBuf> {
     let path = Installation::programs()?.join(PROGRAM);
-    if path.is_file() { Ok(path) } else { companion::up_to_date(PROGRAM) }
+    if path.is_file() { Ok(path) } else { companion::up_to_date(PROGRAM, "the console") }
 }
 
 /// Becomes the console.

@@ -35,7 +35,7 @@ pub fn are_meant(arguments: &[OsString]) -> bool {
 
 /// Becomes the program of the studies, with these arguments; returns only what prevented it.
 pub fn run(arguments: &[OsString]) -> Error {
-    companion::up_to_date(PROGRAM).map_or_else(
+    companion::up_to_date(PROGRAM, "the studies").map_or_else(
         |error| error,
         |program| {
             let mut command = Command::new(program);
