@@ -118,7 +118,7 @@ fn expected(entry: &TopicEntry) -> Vec<(String, &'static str, Parties)> {
 
 #[test]
 fn processes_open_the_topics_that_the_table_names() {
-    let mut launched = Launched::start(&["--world", "kinematic", "--record", "--partner", "hand"]);
+    let mut launched = Launched::start(&["--world", "kinematic", "--console", "--partner", "hand"]);
     let run = launched.when_started();
     let topics: Vec<_> = ALL.iter().flat_map(expected).collect();
     assert_eq!(topics.len(), 10 + 4 + 4);

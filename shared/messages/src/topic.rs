@@ -145,7 +145,7 @@ pub const ALL: [TopicEntry; 12] = [
     TopicEntry {
         name: HEARD,
         message: "Speech",
-        writers: &[ANYONE],
+        writers: &[ANYONE, "console"],
         readers: &["world"],
         lifetime: None,
         depth: SENTENCES,
@@ -154,7 +154,7 @@ pub const ALL: [TopicEntry; 12] = [
     TopicEntry {
         name: HAND,
         message: "HandPoints",
-        writers: &[ANYONE],
+        writers: &[ANYONE, "console"],
         // Only of a set whose partner's hand comes from outside.
         readers: &["world"],
         lifetime: Some(HandPoints::LIFETIME),
