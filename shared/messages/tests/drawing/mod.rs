@@ -161,6 +161,7 @@ fn draw_legend(svg: &mut String, y: usize) {
 /// The chain has a colour for each topic; what is beside it has one by its first writer.
 fn colour_of(entry: &TopicEntry) -> usize {
     match entry.writers[0] {
+        ANYONE => 5,
         _ if entry.writers.len() > 1 => 4,
         "world" => 0,
         "perception" => 1,
