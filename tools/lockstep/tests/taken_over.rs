@@ -18,8 +18,8 @@ const OFTEN: f64 = 0.01;
 /// How far the onset of most decisions may move, ticks, by frames that are missing while the same is perceived: each costs a peak that is
 /// building up one tick.
 const LATER: u64 = 10;
-/// How far any may. A peak whose evidence stands just at its threshold for a while waits for its noise, and has another one where frames are
-/// missing: of 112 decisions of 16 seeds 111 moved by up to 5 ticks, and one by 25.
+/// How far any may: of 112 decisions of 16 seeds 111 moved by up to 5 ticks, and one by 25. Not shown why; a peak whose evidence stands just
+/// at its threshold would wait for its noise, and has another one where frames are missing.
 const LATEST: u64 = 50;
 /// Decisions in so many that may move by more than [`LATER`].
 const SELDOM: usize = 20;
