@@ -13,6 +13,11 @@ impl Cadence {
         Self { every, due: Instant::now() + every }
     }
 
+    /// Due at once, and then so often.
+    pub fn from_now(every: Duration) -> Self {
+        Self { every, due: Instant::now() }
+    }
+
     /// Whether it is due now; it then is again after its time.
     pub fn is_due(&mut self) -> bool {
         let now = Instant::now();

@@ -1,4 +1,5 @@
 use serde::Deserialize;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// How the console serves: `rt-config/console.toml`.
@@ -36,14 +37,12 @@ impl ConsoleSettings {
         let text = coact_input_file::read_text(path).map_err(|error| malformed(error.to_string()))?;
         let settings: Self =
             toml::from_str(&text).map_err(|error| malformed(error.to_string().trim_end().to_owned()))?;
-        if !(1..=60).contains(&settings.pictures_per_second) {
-            let found = settings.pictures_per_second;
-            return Err(malformed(format!("pictures_per_second: is {found}, not 1 to 60")));
-        }
-        if !(100..=100_000).contains(&settings.pictures_kept) {
-            let found = settings.pictures_kept;
-            return Err(malformed(format!("pictures_kept: is {found}, not 100 to 100000")));
-        }
+        let within = |key: &str, value: usize, range: RangeInclusive<usize>| match range.contains(&value) {
+            true => Ok(()),
+            false => Err(malformed(format!("{key}: is {value}, not {} to {}", range.start(), range.end()))),
+        };
+        within("pictures_per_second", settings.pictures_per_second as usize, 1..=60)?;
+        within("pictures_kept", settings.pictures_kept, 100..=100_000)?;
         Ok(settings)
     }
 }

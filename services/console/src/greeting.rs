@@ -63,7 +63,7 @@ impl Greeting<'_> {
             "task": of_task(task),
             "layers": LayerKind::ALL.map(|kind| of_layer(plan, kind)),
             "sites_per_population": plan.sites_per_population,
-            "phases": PHASES.map(|phase| format!("{phase:?}").to_lowercase()),
+            "phases": MotionPhase::ALL.map(|phase| format!("{phase:?}").to_lowercase()),
             "sizes": {
                 "capsules": maker.links(),
                 "parts": task.parts.len(),
@@ -82,19 +82,6 @@ fn names_of_tasks(settings: &RunSettings, recorded: bool) -> Vec<String> {
     let tasks = if recorded { Vec::new() } else { tasks(&settings.task) };
     tasks.into_iter().map(|(name, _)| name).collect()
 }
-
-/// The phases of a movement, in the order of their numbers.
-const PHASES: [MotionPhase; 9] = [
-    MotionPhase::Rest,
-    MotionPhase::Reach,
-    MotionPhase::Approach,
-    MotionPhase::Grasp,
-    MotionPhase::Transport,
-    MotionPhase::Release,
-    MotionPhase::Retreat,
-    MotionPhase::Dwell,
-    MotionPhase::Brake,
-];
 
 fn of_task(task: &Task) -> Value {
     let shape = |shape: Shape| match shape {
@@ -145,13 +132,12 @@ fn grasps(task: &Task) -> Vec<Value> {
         ),
         _ => None,
     };
-    let mut grasps: Vec<Value> = task.chains.iter().filter_map(read).collect();
-    let mut seen = Vec::new();
-    grasps.retain(|grasp| {
-        let is_new = !seen.contains(grasp);
-        seen.push(grasp.clone());
-        is_new
-    });
+    let mut grasps = Vec::new();
+    for grasp in task.chains.iter().filter_map(read) {
+        if !grasps.contains(&grasp) {
+            grasps.push(grasp);
+        }
+    }
     grasps
 }
 
@@ -185,6 +171,6 @@ mod tests {
 
     #[test]
     fn phases_stand_at_their_numbers() {
-        PHASES.iter().enumerate().for_each(|(index, phase)| assert_eq!(*phase as usize, index));
+        MotionPhase::ALL.iter().enumerate().for_each(|(index, phase)| assert_eq!(*phase as usize, index));
     }
 }

@@ -50,11 +50,6 @@ impl History {
         let cycle = |glimpse: &Arc<Glimpse>| glimpse.picture.cycle;
         Some((self.glimpses.first().map(cycle)?, self.glimpses.last().map(cycle)?))
     }
-
-    /// The last glimpse.
-    pub fn last(&self) -> Option<&Arc<Glimpse>> {
-        self.glimpses.last()
-    }
 }
 
 impl Picture {

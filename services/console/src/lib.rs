@@ -13,6 +13,7 @@
 
 mod assets;
 mod board;
+mod cadence;
 mod console_settings;
 mod glimpse;
 mod greeting;
@@ -38,6 +39,7 @@ mod why;
 mod wish;
 
 pub use board::Board;
+pub use cadence::Cadence;
 pub use console_settings::{ConsoleSettings, SettingsError};
 pub use glimpse::Glimpse;
 pub use greeting::Greeting;

@@ -1,6 +1,5 @@
-use crate::cadence::Cadence;
 use crate::page_partner::PagePartner;
-use coact_console::{Board, LiveTopics, Machine, PictureMaker, Timeline, Wish, report};
+use coact_console::{Board, Cadence, LiveTopics, Machine, PictureMaker, Timeline, Wish, report};
 use coact_realtime::{Process, Schedule, now};
 use coact_run_records::Summary;
 use std::path::Path;
@@ -79,8 +78,7 @@ impl LiveConsole {
         }
         self.board.put_events(self.timeline.events());
         let cycle = self.topics.seen().cycle().unwrap_or_default();
-        let errors = self.timeline.events().iter().filter(|event| event["sort"] == "error").count();
-        self.board.put_end(&report(folder, cycle, errors));
+        self.board.put_end(&report(folder, cycle, self.timeline.errors()));
         std::thread::sleep(FAREWELL);
         Ok(())
     }

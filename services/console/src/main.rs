@@ -1,7 +1,6 @@
 //! The console as a process: shows the run in a browser, and passes on what is done there. With `--recording FILE` it is a program of
 //! its own, which shows a run that is over.
 
-mod cadence;
 mod live_console;
 mod page_partner;
 
@@ -104,7 +103,7 @@ fn serve(
     let listener = listen(&mut ticket)?;
     ticket.leave(folder).context("the console's address cannot be left for a successor")?;
     let (sender, wishes): (SyncSender<Wish>, _) = sync_channel(WISHES);
-    let lets_play = settings.partner == "hand";
+    let lets_play = settings.partner == RunSettings::HAND;
     let supervisor = SupervisorLink::new(process.run().clone(), lets_play, ticket.clone());
     let server = Server {
         board: Arc::clone(board),

@@ -1,5 +1,4 @@
-use crate::cadence::Cadence;
-use coact_console::{Pointer, PointerHand, Seen, Surroundings, Wish};
+use coact_console::{Cadence, Pointer, PointerHand, Seen, Surroundings, Wish};
 use coact_joint_task::Task;
 use coact_messages::{HandPoints, Speech, topic};
 use coact_pipeline::RunSettings;
@@ -26,7 +25,7 @@ pub struct PagePartner {
 impl PagePartner {
     pub fn new(process: &Process, task: &Task, settings: &RunSettings) -> Result<Self, PortError> {
         let bus = process.bus();
-        let hands = (settings.partner == "hand").then(|| bus.output(topic::HAND)).transpose()?;
+        let hands = (settings.partner == RunSettings::HAND).then(|| bus.output(topic::HAND)).transpose()?;
         let speech = bus.output(topic::HEARD)?;
         let (hand, around) = (PointerHand::new(task), Surroundings::default());
         Ok(Self {

@@ -1,4 +1,4 @@
-use std::sync::Arc;
+use axum::body::Bytes;
 
 /// All that a page draws of one instant, as it is sent: little endian, 16 bytes of head, then 32-bit floating-point numbers.
 ///
@@ -8,8 +8,8 @@ use std::sync::Arc;
 pub struct Picture {
     /// The cycle that it shows.
     pub cycle: u64,
-    /// What is sent.
-    pub bytes: Arc<[u8]>,
+    /// What is sent: shared by all who send it.
+    pub bytes: Bytes,
 }
 
 /// What the head begins with.

@@ -128,7 +128,7 @@ impl PictureMaker {
     }
 
     fn draw_parts(&self, seen: &Seen, numbers: &mut Numbers) {
-        let sightings = seen.sample.map(sightings).unwrap_or_default();
+        let sightings = seen.sample.map(|sample| sample.scene.sightings()).unwrap_or_default();
         let count = sightings.len().min(self.task.parts.len());
         for part in &sightings[..count] {
             numbers.push(f64::from(part.kind));
@@ -295,10 +295,6 @@ impl PictureMaker {
         let signals = signals.iter().map(|signal| *signal as f32).collect();
         (signals, frame.since[..self.plan.populations.len()].to_vec())
     }
-}
-
-fn sightings(sample: &SensorSample) -> &[Sighting] {
-    &sample.scene.sighting[..(sample.scene.sightings as usize).min(sample.scene.sighting.len())]
 }
 
 #[cfg(test)]

@@ -87,8 +87,7 @@ impl RecordedRun {
         }
         self.board.put_events(self.timeline.events());
         self.board.put_machine(&self.machine.to_json(cycle));
-        let errors = self.timeline.events().iter().filter(|event| event["sort"] == "error").count();
-        self.board.put_end(&report(&self.report, cycle, errors));
+        self.board.put_end(&report(&self.report, cycle, self.timeline.errors()));
         Ok(glimpses)
     }
 

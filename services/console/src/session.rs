@@ -1,4 +1,4 @@
-use crate::{Board, Glimpse, Request, SupervisorLink, Wish};
+use crate::{Board, Cadence, Glimpse, Request, SupervisorLink, Wish};
 use axum::extract::ws::{Message, WebSocket};
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -17,7 +17,7 @@ pub(crate) struct Session {
 }
 
 /// What a page has been told, and what it wants.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Told {
     role: Option<u64>,
     events: usize,
@@ -29,8 +29,8 @@ struct Told {
     looks_back: bool,
     /// Which population it asks about.
     why: Option<usize>,
-    explained: Option<Instant>,
-    history: Option<Instant>,
+    explained: Cadence,
+    history: Cadence,
 }
 
 /// How often an explanation is renewed, and how often it is told how far one can go back.
@@ -43,11 +43,28 @@ const MOST_MESSAGES: u32 = 300;
 /// A page that takes nothing in for so long is given up.
 const TAKES_WITHIN: Duration = Duration::from_secs(10);
 
+impl Told {
+    /// Of a page that has just been opened.
+    fn new() -> Self {
+        Self {
+            role: None,
+            events: 0,
+            machine: 0,
+            picture: None,
+            ended: false,
+            looks_back: false,
+            why: None,
+            explained: Cadence::from_now(EXPLAIN_EVERY),
+            history: Cadence::from_now(HISTORY_EVERY),
+        }
+    }
+}
+
 impl Session {
     /// Serves the page until it closes, or breaks a rule.
     pub async fn serve(mut self) {
         let mut changed = self.board.subscribe();
-        let mut told = Told::default();
+        let mut told = Told::new();
         let mut rate = (Instant::now(), 0);
         if self.tell(self.board.greeting()).await.is_err() {
             return self.board.leave(self.page);
@@ -105,7 +122,7 @@ impl Session {
             told.machine = version;
             self.send(Message::Text(machine.as_ref().into())).await?;
         }
-        if is_due(&mut told.history, HISTORY_EVERY)
+        if told.history.is_due()
             && let Some(history) = self.board.history()
         {
             self.tell(history).await?;
@@ -117,8 +134,8 @@ impl Session {
         let Some(now) = self.board.now().filter(|_| !told.looks_back) else { return Ok(()) };
         if told.picture != Some(now.picture.cycle) {
             told.picture = Some(now.picture.cycle);
-            self.send(Message::Binary(now.picture.bytes.to_vec().into())).await?;
-            if told.why.is_some() && is_due(&mut told.explained, EXPLAIN_EVERY) {
+            self.send(Message::Binary(now.picture.bytes.clone())).await?;
+            if told.why.is_some() && told.explained.is_due() {
                 self.explain(told.why, &now).await?;
             }
         }
@@ -170,7 +187,7 @@ impl Session {
                 told.looks_back = true;
                 if let Some(glimpse) = self.board.at(cycle) {
                     told.picture = Some(glimpse.picture.cycle);
-                    self.send(Message::Binary(glimpse.picture.of_the_past().bytes.to_vec().into())).await?;
+                    self.send(Message::Binary(glimpse.picture.bytes.clone())).await?;
                     self.explain(told.why, &glimpse).await?;
                 }
             }
@@ -240,12 +257,4 @@ impl Session {
         let done = tokio::task::spawn_blocking(move || supervisor.carry_out(&request)).await;
         done.unwrap_or_else(|_| Err("it failed".to_owned())).map_err(|why| (what, why))
     }
-}
-
-fn is_due(last: &mut Option<Instant>, every: Duration) -> bool {
-    let is_due = last.is_none_or(|last| last.elapsed() >= every);
-    if is_due {
-        *last = Some(Instant::now());
-    }
-    is_due
 }

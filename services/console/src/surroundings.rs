@@ -61,10 +61,9 @@ impl Surroundings {
     }
 
     fn look_at_parts(&mut self, task: &Task, sample: &SensorSample) {
-        let (scene, now) = (&sample.scene, sample.header.cycle);
-        let sightings = &scene.sighting[..(scene.sightings as usize).min(scene.sighting.len())];
+        let now = sample.header.cycle;
         let mut missing = std::mem::take(&mut self.things);
-        for part in sightings {
+        for part in sample.scene.sightings() {
             let Some(kind) = task.kinds.get(part.kind as usize) else { continue };
             let half = DQuat::from_array(part.orientation) * DVec3::Z * (0.5 * kind.shape.height());
             let centre = DVec3::from(part.position) + half;

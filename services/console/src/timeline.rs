@@ -52,6 +52,11 @@ impl Timeline {
         &self.events
     }
 
+    /// How many errors the network has noticed.
+    pub fn errors(&self) -> usize {
+        self.events.iter().filter(|event| event["sort"] == "error").count()
+    }
+
     /// Adds what the newest messages tell.
     pub fn watch(&mut self, seen: &Seen) {
         if let Some(frame) = seen.frame {
@@ -68,8 +73,7 @@ impl Timeline {
         let Some(heard) = seen.sample.map(|sample| &sample.heard) else { return };
         if heard.sentences != self.heard {
             self.heard = heard.sentences;
-            let length = (heard.length as usize).min(heard.text.len());
-            let text = format!("\u{201c}{}\u{201d}", String::from_utf8_lossy(&heard.text[..length]));
+            let text = format!("\u{201c}{}\u{201d}", heard.sentence());
             self.events.push(json!({ "sort": "heard", "at_ms": heard.cycle, "text": text }));
         }
     }
@@ -114,12 +118,11 @@ impl Timeline {
     fn of_action(&self, action: &ActionEvent) -> Value {
         let ActionEvent { onset_ms, grasp_ms, decided_ms, lead_ms, decided, expected, correct, .. } = action;
         let span = onset_ms.saturating_sub(BELONGS.0)..=grasp_ms + BELONGS.1;
-        let inferred = self.events.iter().rev().find(|event| {
-            event["sort"] == "inferred" && event["at_ms"].as_u64().is_some_and(|at| span.contains(&at))
-        });
-        let error = self.events.iter().rev().find(|event| {
-            event["sort"] == "error" && event["at_ms"].as_u64().is_some_and(|at| span.contains(&at))
-        });
+        let newest = |sort: &str| {
+            let is_near = |event: &Value| event["at_ms"].as_u64().is_some_and(|at| span.contains(&at));
+            self.events.iter().rev().find(|event| event["sort"] == sort && is_near(event))
+        };
+        let (inferred, error) = (newest("inferred"), newest("error"));
         json!({
             "sort": "action",
             "at_ms": onset_ms,

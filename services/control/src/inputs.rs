@@ -1,8 +1,6 @@
 use crate::person_capsules::PersonCapsules;
 use crate::sighting_frame::{SHORTEST, frame_of};
-use coact_messages::{
-    ARM_JOINTS, Decision, FieldFrame, Percept, PersonArm, ROBOT, SceneView, SensorSample, Sighting,
-};
+use coact_messages::{ARM_JOINTS, Decision, FieldFrame, Percept, PersonArm, ROBOT, SensorSample, Sighting};
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
 use coact_robot::HAND_JOINTS;
@@ -145,7 +143,7 @@ impl<'a> Inputs<'a> {
     pub fn person(&self, part_capsules: &[Capsule], limits: &SafetyLimits) -> Option<PersonCapsules> {
         let scene = &self.sample?.scene;
         let held =
-            sightings(scene).iter().enumerate().filter(|(_, seen)| self.in_person_hand(seen.kind as usize));
+            scene.sightings().iter().enumerate().filter(|(_, seen)| self.in_person_hand(seen.kind as usize));
         let capsules = held.filter_map(|(index, seen)| {
             Some((index, part_capsules.get(seen.kind as usize)?.within(&frame_of(seen)?)))
         });
@@ -169,7 +167,7 @@ impl<'a> Inputs<'a> {
         within: f64,
     ) -> Option<(u64, Isometry3<f64>)> {
         let scene = &self.sample?.scene;
-        let places = sightings(scene).iter().filter(|sighting| sighting.kind as usize == kind);
+        let places = scene.sightings().iter().filter(|sighting| sighting.kind as usize == kind);
         let near = places.map(|sighting| ((Point3::from(sighting.position) - expected).norm(), sighting));
         let nearest =
             near.filter(|(distance, _)| *distance < within).min_by(|one, other| one.0.total_cmp(&other.0));
@@ -179,16 +177,11 @@ impl<'a> Inputs<'a> {
 
     /// All parts in sight.
     pub fn parts_in_sight(&self) -> &'a [Sighting] {
-        self.sample.map_or(&[], |sample| sightings(&sample.scene))
+        self.sample.map_or(&[], |sample| sample.scene.sightings())
     }
 
     /// All occluders in sight: centre and half extents, m.
     pub fn occluders(&self) -> &'a [[f64; 6]] {
         self.sample.map_or(&[], |sample| sample.scene.occluders())
     }
-}
-
-/// The parts that the recogniser has seen, as many as a message can hold.
-fn sightings(scene: &SceneView) -> &[Sighting] {
-    &scene.sighting[..(scene.sightings as usize).min(scene.sighting.len())]
 }

@@ -34,7 +34,7 @@ impl RecognisedParts {
         }
         self.captured = Some(view.captured_cycle);
         self.kinds.resize(task.kinds.len(), KindSightings::default());
-        let seen = &view.sighting[..(view.sightings as usize).min(view.sighting.len())];
+        let seen = view.sightings();
         for (kind, newest) in self.kinds.iter_mut().enumerate() {
             let parts: Vec<_> = seen.iter().filter(|part| part.kind as usize == kind).copied().collect();
             if parts.len() >= newest.parts.len() || view.captured_cycle > newest.captured + RECENT {

@@ -92,8 +92,7 @@ impl TaskWatch {
             return;
         }
         self.spoken = speech.header.cycle;
-        let length = (speech.length as usize).min(speech.text.len());
-        let text = String::from_utf8_lossy(&speech.text[..length]).into_owned();
+        let text = speech.sentence().to_owned();
         events.push(Event::Utterance { at_ms: speech.header.cycle, text });
     }
 

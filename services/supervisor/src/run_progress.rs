@@ -73,8 +73,7 @@ impl RunProgress {
 
     /// A message of what the robot says.
     pub fn speech(&mut self, speech: &Speech) {
-        let length = usize::try_from(speech.length).unwrap_or(usize::MAX).min(speech.text.len());
-        self.says(&String::from_utf8_lossy(&speech.text[..length]));
+        self.says(speech.sentence());
     }
 
     /// The robot says this sentence.

@@ -1,7 +1,7 @@
 use crate::{HandRecording, Scenario, WorldError};
 use coact_joint_task::Task;
 use coact_person::{RandomBehaviour, RecordedArm, RecordedReaches};
-use coact_pipeline::WorldMode;
+use coact_pipeline::{RunSettings, WorldMode};
 use coact_recordings::ArmSide;
 use coact_safety::DriveLimits;
 use std::path::Path;
@@ -40,7 +40,7 @@ pub enum Partner {
 
 impl Partner {
     /// The name of a partner whose hand comes from outside.
-    pub const HAND: &str = "hand";
+    pub const HAND: &str = RunSettings::HAND;
 
     /// Reads a partner as it is named on a command line: `synthetic`, `random`,
     /// `random:KEY=VALUE,...` (see [`RandomBehaviour`]), `script:FILE`, `recorded:DIR`, `recorded:FILE.mcap`, `left-arm:FILE`,

@@ -68,6 +68,21 @@ pub enum MotionPhase {
 /// limits, which whoever drives the joints keeps.
 const MOST: [f64; 3] = [1e2, 1e3, 1e5];
 
+impl MotionPhase {
+    /// All of them, in the order of their numbers.
+    pub const ALL: [Self; 9] = [
+        Self::Rest,
+        Self::Reach,
+        Self::Approach,
+        Self::Grasp,
+        Self::Transport,
+        Self::Release,
+        Self::Retreat,
+        Self::Dwell,
+        Self::Brake,
+    ];
+}
+
 impl Plausible for Command {
     fn check(&self) -> Result<(), Flaw> {
         bounded("position", &self.position, MOST[0])?;
@@ -75,6 +90,6 @@ impl Plausible for Command {
         bounded("acceleration", &self.acceleration, MOST[2])?;
         bounded("tracking_error", &self.tracking_error, MOST[0])?;
         optional("action", self.action, MAX_POPULATIONS)?;
-        index("phase", self.phase, MotionPhase::Brake as usize + 1)
+        index("phase", self.phase, MotionPhase::ALL.len())
     }
 }

@@ -1,9 +1,14 @@
-use crate::SceneView;
+use crate::{SceneView, Sighting};
 
 /// A line that comes no farther than this along an axis, m, is parallel to the faces across it.
 const PARALLEL: f64 = 1e-12;
 
 impl SceneView {
+    /// The recognised parts, as many as are valid.
+    pub fn sightings(&self) -> &[Sighting] {
+        &self.sighting[..(self.sightings as usize).min(self.sighting.len())]
+    }
+
     /// The occluders that are valid: centre and half extents, m.
     pub fn occluders(&self) -> &[[f64; 6]] {
         &self.occluder[..(self.occluders as usize).min(self.occluder.len())]

@@ -36,6 +36,9 @@ pub struct RunSettings {
 }
 
 impl RunSettings {
+    /// The partner whose hand comes from outside.
+    pub const HAND: &str = "hand";
+
     /// The toy vehicle and ARoS with the synthetic partner, in the physics world, seed 1, without a report: all that is
     /// shipped in the folder `rt_config`. To be varied with `..RunSettings::shipped(rt_config)`.
     pub fn shipped(rt_config: &Path) -> Self {

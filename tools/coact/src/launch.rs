@@ -97,12 +97,12 @@ fn seconds(text: &str) -> Result<Duration, String> {
 pub fn run(args: Args) -> Result<ExitCode> {
     let (json, strict, in_lockstep) = (args.json, args.strict, args.lockstep);
     let mut launch = prepare(args)?;
+    if in_lockstep {
+        lockstep::run(&launch)?;
+        return show(&launch.settings, json, strict);
+    }
     loop {
         let settings = launch.settings.clone();
-        if in_lockstep {
-            lockstep::run(&launch)?;
-            return show(&settings, json, strict);
-        }
         let code = report(launch.run(), &settings, json, strict)?;
         match next_round(settings)? {
             Some(next) => launch = next,

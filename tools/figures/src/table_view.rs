@@ -61,7 +61,7 @@ fn table(sheet: &mut Sheet, trace: &RunTrace, top: i32) -> i32 {
     let base = place(scene.platform[0], scene.platform[1]);
     sheet.marks.push(Mark::Disc(base, pixels(scene.platform_radius) as u32, BASE));
     sheet.text("base", base, LETTERS - 2, Anchor::Middle);
-    for sighting in &trace.scene.sighting[..trace.scene.sightings as usize] {
+    for sighting in trace.scene.sightings() {
         let [x, y, _] = sighting.position;
         let kind = &trace.task.kinds[sighting.kind as usize];
         let [x, y] = place(x, y);

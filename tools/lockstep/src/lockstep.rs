@@ -7,6 +7,7 @@ use coact_messages::{
 };
 use coact_perception::Perception;
 use coact_period::PERIOD_NS;
+use coact_person::PartsView;
 use coact_pipeline::RunSettings;
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
@@ -144,6 +145,11 @@ impl Lockstep {
     /// The network's layers, populations and synapses.
     pub fn plan(&self) -> &NetworkPlan {
         self.network.plan()
+    }
+
+    /// The parts as they truly are.
+    pub fn parts(&self) -> PartsView<'_> {
+        PartsView::new(&self.state.part[..self.state.parts as usize])
     }
 
     /// Ticks so far.

@@ -96,7 +96,7 @@ impl Sender {
     }
 
     fn parts(&self) -> PartsView<'_> {
-        PartsView::new(&self.stages.state.part[..self.stages.state.parts as usize])
+        self.stages.parts()
     }
 
     fn centre(&self, part: usize) -> DVec3 {

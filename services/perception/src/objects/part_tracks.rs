@@ -93,8 +93,7 @@ impl PartTracks {
 
     /// Gives every sighting to the nearest track of its kind, or to a new one.
     fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces) {
-        let count = (view.sightings as usize).min(MAX_PARTS);
-        for sighting in view.sighting[..count].iter().filter(|sighting| is_plausible(sighting, places)) {
+        for sighting in view.sightings().iter().filter(|sighting| is_plausible(sighting, places)) {
             match self.nearest(sighting).or_else(|| self.turned_up(sighting, view, places)) {
                 Some(index) => self.tracks[index].follow(sighting, self.captured, cycles),
                 None => {

@@ -37,8 +37,7 @@ impl Scene {
 
     /// At `ns` since 1970.
     pub fn of(&self, sample: &SensorSample, ns: u64) -> Value {
-        let seen =
-            &sample.scene.sighting[..(sample.scene.sightings as usize).min(sample.scene.sighting.len())];
+        let seen = sample.scene.sightings();
         let parts: Vec<_> = seen.iter().filter_map(|part| self.part(part)).collect();
         let names: Vec<_> = seen.iter().filter_map(|part| self.name(part)).collect();
         let entities = [
@@ -89,11 +88,10 @@ fn limbs(sample: &SensorSample) -> Vec<[f64; 3]> {
 }
 
 fn occluders(scene: &SceneView) -> Vec<Value> {
-    let boxes = &scene.occluder[..(scene.occluders as usize).min(scene.occluder.len())];
     let shown = |[x, y, z, half_x, half_y, half_z]: [f64; 6]| {
         cube(pose(&[x, y, z], &UPRIGHT), &[2.0 * half_x, 2.0 * half_y, 2.0 * half_z], OCCLUDER)
     };
-    boxes.iter().copied().map(shown).collect()
+    scene.occluders().iter().copied().map(shown).collect()
 }
 
 fn cube(pose: Value, size: &[f64; 3], of: [f64; 4]) -> Value {

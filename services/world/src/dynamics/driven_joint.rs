@@ -26,6 +26,8 @@ pub(super) struct DrivenJoint {
     pub is_source: bool,
     /// Largest torque of its motor, Nm.
     pub effort: f64,
+    /// The engine has a motor for it.
+    has_motor: bool,
     /// Largest acceleration that it is driven with, rad/s², and largest speed that it is driven to, rad/s.
     most_acceleration: f64,
     most_speed: f64,
@@ -63,7 +65,8 @@ impl DrivenJoint {
                 .set_motor(JointAxis::AngX, 0.0, 0.0, HAND.0, HAND.1)
                 .motor_max_force(JointAxis::AngX, effort)
         };
-        let data = if gear.is_none() && source >= ARM_JOINTS { motor(data) } else { data };
+        let has_motor = gear.is_none() && source >= ARM_JOINTS;
+        let data = if has_motor { motor(data) } else { data };
         let handle = world
             .insert_multibody_joint(parent, child, data.build())
             .ok_or_else(|| fault("closes a loop; expected a tree of links"))?;
@@ -74,6 +77,7 @@ impl DrivenJoint {
             source,
             is_source: own.is_some(),
             effort,
+            has_motor,
             most_acceleration: PUSHED * limits.acceleration,
             most_speed: limits.velocity,
             gear,
@@ -82,20 +86,16 @@ impl DrivenJoint {
 
     /// Sets its motor, if it has one, to follow this, rad and rad/s.
     pub fn aim_motor(&self, link: &mut MultibodyLink, position: f64, velocity: f64) {
-        if self.has_motor() {
+        if self.has_motor {
             link.joint.data.set_motor(JointAxis::AngX, position, velocity, HAND.0, HAND.1);
         }
     }
 
     /// Leaves so much torque to its motor, if it has one, Nm.
     pub fn limit_motor(&self, link: &mut MultibodyLink, torque: f64) {
-        if self.has_motor() {
+        if self.has_motor {
             link.joint.data.set_motor_max_force(JointAxis::AngX, torque);
         }
-    }
-
-    fn has_motor(&self) -> bool {
-        self.gear.is_none() && self.source >= ARM_JOINTS
     }
 
     /// The acceleration with which an arm's joint follows its setpoint, rad/s²: the setpoint's own, and what draws the joint to it,
