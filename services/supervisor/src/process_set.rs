@@ -331,7 +331,9 @@ impl ProcessSet {
     fn on_exit(&mut self, index: usize, death: Death, checkpoints: &dyn Checkpoints) -> Result<(), GaveUp> {
         let of_its_state = self.processes[index].died_of_its_state(&death);
         let Death { pid, mut reason, was_ready, not_ready_in_time, exited, child, .. } = death;
-        let crowd = if was_ready { None } else { checkpoints.crowd(&self.processes[index].spec.name) };
+        // Whoever finds no place ends by itself: one that was killed may die in a crowd, but not of it.
+        let kept_out = exited && !was_ready;
+        let crowd = if kept_out { checkpoints.crowd(&self.processes[index].spec.name) } else { None };
         if let Some(crowd) = &crowd {
             reason = format!("{reason}; {crowd}");
         }

@@ -8,7 +8,7 @@ use coact_run_records::{RunLog, SupervisorEvent, SupervisorEventKind};
 use coact_supervisor::{Checkpoints, Fault, InjectionRefusal, RunningChild};
 use rustix::process::{Pid, Signal};
 use std::time::{Duration, Instant};
-use trial::{READY_AND_RUN, RecordedCalls, Trial, exists};
+use trial::{Crowd, READY_AND_RUN, RecordedCalls, Trial, exists};
 
 #[test]
 fn each_process_starts_when_those_before_it_are_ready() {
@@ -99,6 +99,25 @@ fn a_crash_loop_gives_the_set_up() {
     let gave_up = trial.gives_up();
     assert!(gave_up.reason.starts_with("killed before it was ready, by an injected fault"), "{gave_up:?}");
     assert_eq!(trial.count(SupervisorEventKind::Ready, "a"), 1);
+}
+
+#[test]
+fn a_crash_loop_gives_the_set_up_in_a_crowd_too() {
+    let mut trial = Trial::of(&[("a", READY_AND_RUN)]);
+    trial.run_until_ready();
+    trial.set.inject("a", Fault::CrashLoop).unwrap();
+    let gave_up = trial.until(&mut Crowd, |_| false).unwrap_err();
+    assert!(gave_up.reason.starts_with("killed before it was ready, by an injected fault"), "{gave_up:?}");
+}
+
+#[test]
+fn a_replacement_that_finds_no_place_is_tried_again_until_there_is_one() {
+    let refused = "[ \"$COACT_GENERATION\" -gt 0 ] && exit 1; touch \"$READY\"; exec sleep 600";
+    let mut trial = Trial::of(&[("a", refused)]);
+    trial.run_until_ready();
+    trial.set.inject("a", Fault::Kill).unwrap();
+    let deaths = |trial: &Trial| trial.count(SupervisorEventKind::Died, "a");
+    trial.until(&mut Crowd, |trial| deaths(trial) == 6).unwrap();
 }
 
 #[test]

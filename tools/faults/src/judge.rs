@@ -119,7 +119,9 @@ impl Case<'_> {
             reasons.push(format!("left behind: {}", ending.left_behind.join(", ")));
         }
         let Some(status) = ending.status else {
-            reasons.push("the supervisor did not end, and was killed".into());
+            let last = self.evidence.supervisor.last();
+            let last = last.map_or("nothing".into(), |last| format!("{:?} of {}", last.event, last.process));
+            reasons.push(format!("the supervisor did not end, and was killed; it last noted: {last}"));
             return reasons;
         };
         let work = self.evidence.summary.as_ref().is_some_and(|summary| summary.work.passes());

@@ -35,6 +35,19 @@ impl Checkpoints for RecordedCalls {
     }
 }
 
+/// Others have taken all places.
+pub struct Crowd;
+
+impl Checkpoints for Crowd {
+    fn publish(&mut self, _process: &str) -> Option<String> {
+        None
+    }
+    fn recovered(&mut self, _process: &str) {}
+    fn crowd(&self, _process: &str) -> Option<String> {
+        Some("no place is left".into())
+    }
+}
+
 pub fn script(folder: &Path, name: &str, script: &str) -> ProcessSpec {
     let script =
         format!("DIR='{}'; READY=\"$DIR/{name}.$COACT_GENERATION.json\"; {script}", folder.display());
