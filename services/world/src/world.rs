@@ -230,7 +230,7 @@ impl World {
         hand.notice(tick, palm, &mut simulation.robot, parts, task);
         let around = Surroundings { tick, task, parts: parts.view(), robot: simulation.robot.view() };
         let done = person.advance(&mut simulation.person, &around);
-        handle(&done, simulation.robot.held, parts, task);
+        handle(&done, simulation.robot.held, robot, parts, task);
         if let Some(sentence) = person.speak(&mut simulation.person, task) {
             simulation.heard.hear(tick, sentence);
         }
@@ -284,12 +284,18 @@ impl World {
 
 /// Carries out what the person's hand did to the parts. A part that the robot has as well stays with the robot when the
 /// person lets it go.
-fn handle(done: &Manipulation, held_by_robot: Slot, parts: &mut Parts, task: &Task) {
+fn handle(
+    done: &Manipulation,
+    held_by_robot: Slot,
+    robot: &mut SimulatedRobot,
+    parts: &mut Parts,
+    task: &Task,
+) {
     if let Some(part) = done.grasped {
         parts.give_to(part, Holder::Person);
     }
     if let Some((part, position, orientation)) = done.moved {
-        parts.place(part, position, orientation);
+        robot.carry(part, position, orientation, parts);
     }
     match done.released {
         Some(part) if held_by_robot.get() == Some(part) => parts.give_to(part, Holder::Robot),

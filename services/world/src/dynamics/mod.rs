@@ -16,6 +16,7 @@ mod kinematic_robot;
 mod layer;
 mod link_body;
 mod measured_grip;
+mod person_grip;
 mod physics_simulation;
 mod simulated_robot;
 

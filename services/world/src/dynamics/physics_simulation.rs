@@ -8,6 +8,7 @@ use super::influence::Influence;
 use super::joints::Joints;
 use super::layer::Layer;
 use super::measured_grip::MeasuredGrip;
+use super::person_grip::PersonGrip;
 use crate::WorldError;
 use crate::parts::Parts;
 use coact_joint_task::Task;
@@ -15,7 +16,7 @@ use coact_messages::PartState;
 use coact_period::PERIOD_S;
 use coact_person::Holder;
 use coact_robot::Robot;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use rapier3d::prelude::*;
 
 /// Gravity, m/s².
@@ -25,13 +26,21 @@ const GRAVITY: f64 = 9.81;
 const SUBSTEPS: usize = 2;
 /// Size of the things that are handled, m: the engine scales its tolerances by it, and lets them overlap by 0.5 % of it.
 const SIZE: f64 = 0.1;
+/// Natural frequency of contacts between things that move, Hz: as the engine's of contacts with what stands still. With its 30 Hz
+/// a finger that holds a nut sinks 3 mm into it, and its tip meets the axle on which the nut belongs.
+const CONTACT_FREQUENCY: f64 = 60.0;
+/// What fraction of the way to its exact place a mounted part goes in a step: a socket centres it within some tenths of a second, at
+/// less than 30 mm/s. One that was there at once threw the fingers that had just let it go.
+const SETTLING: f64 = PERIOD_S / 0.3;
+/// A mounted part that is as near as this is in its place, m and rad. Not sensitive.
+const SETTLED: (f64, f64) = (1e-5, 1e-3);
 /// The person's hand is a ball of this radius, m: half the breadth of an adult's hand.
-const PERSON_HAND: f64 = 0.045;
+pub(super) const PERSON_HAND: f64 = 0.045;
 
 /// Rigid-body dynamics of table, base, parts and robot; one step is one tick.
 ///
-/// Parts in the person's hand follow it, mounted parts stand fast, and all others are loose: the robot's fingers hold a
-/// part by contact and friction.
+/// Mounted parts stand fast, and all others are loose: the person's hand pulls the part that it has, as hard as fingers can, and the
+/// robot's fingers hold a part by contact and friction.
 pub(crate) struct PhysicsSimulation {
     world: PhysicsWorld,
     articulation: Articulation,
@@ -39,6 +48,7 @@ pub(crate) struct PhysicsSimulation {
     /// Parts as the last step left them: what differs now was placed by someone else.
     left: Vec<PartState>,
     person: RigidBodyHandle,
+    person_grip: Option<PersonGrip>,
     forces: ForceSensor,
     grip: MeasuredGrip,
     outside: DVec3,
@@ -58,6 +68,7 @@ impl PhysicsSimulation {
         world.integration_parameters.dt = PERIOD_S;
         world.integration_parameters.num_solver_iterations = SUBSTEPS;
         world.integration_parameters.length_unit = SIZE;
+        world.integration_parameters.contact_softness.natural_frequency = CONTACT_FREQUENCY;
         insert_fixtures(&mut world, task)?;
         let articulation = Articulation::build(&mut world, robot)?;
         let numbered = parts.all().iter().zip(1..);
@@ -72,6 +83,7 @@ impl PhysicsSimulation {
             parts: bodies,
             left,
             person,
+            person_grip: None,
             forces: ForceSensor::new(),
             grip: MeasuredGrip::NONE,
             outside: DVec3::ZERO,
@@ -85,6 +97,7 @@ impl PhysicsSimulation {
     /// Takes over joints and parts as they are.
     pub fn resume(&mut self, joints: &Joints, parts: &Parts) {
         self.release();
+        self.person_opens();
         self.articulation.place(&mut self.world, joints);
         for (index, part) in parts.all().iter().enumerate() {
             self.put(index, part);
@@ -100,6 +113,7 @@ impl PhysicsSimulation {
         self.articulation.drive(&mut self.world);
         parts.settle(influence.task);
         self.follow(influence.person, parts);
+        self.person_grips(parts);
         self.assign_layers(parts, influence);
         let held = influence.held.filter(|held| parts.is(*held, Holder::Robot));
         self.clasp_held(held);
@@ -111,6 +125,13 @@ impl PhysicsSimulation {
             clasp.check(&mut self.world, &self.articulation, &self.grip);
         }
         self.report(parts);
+    }
+
+    /// The person's hand has the part there from now on, if nothing is in its way.
+    pub fn carry(&mut self, part: usize, position: DVec3, orientation: DQuat) {
+        if let Some(grip) = self.person_grip.as_mut().filter(|grip| grip.part() == part) {
+            grip.carry(Pose::from_parts(position, orientation.normalize()));
+        }
     }
 
     /// Pulls at a part from now on, N.
@@ -170,11 +191,30 @@ impl PhysicsSimulation {
         }
     }
 
+    /// Grips what the person's hand has, and nothing else.
+    fn person_grips(&mut self, parts: &Parts) {
+        let held = (0..self.parts.len()).find(|part| parts.is(*part, Holder::Person));
+        if self.person_grip.map(|grip| grip.part()) != held {
+            self.person_opens();
+            self.person_grip = held.map(|part| PersonGrip::new(&mut self.world, part, self.parts[part]));
+        }
+        if let Some(grip) = &mut self.person_grip {
+            grip.pull(&mut self.world);
+        }
+    }
+
+    fn person_opens(&mut self) {
+        if let Some(grip) = self.person_grip.take() {
+            grip.open(&mut self.world);
+        }
+    }
+
     /// Says what each part touches: parts that are true to a socket enter what they are mounted in, and no others.
     fn assign_layers(&mut self, parts: &Parts, influence: &Influence) {
         for (index, part) in self.parts.iter().enumerate() {
             let layer = match () {
                 () if parts.is(index, Holder::Socket) => Layer::Fixture,
+                () if parts.is(index, Holder::Person) => Layer::Carried,
                 () if influence.slipped == Some(index) => Layer::Slipping,
                 () if parts.enters(index, influence.task) => Layer::Entering,
                 () => Layer::Part,
@@ -193,10 +233,10 @@ impl PhysicsSimulation {
             let left = self.left[index];
             let kind = body_type(part);
             let there = part.position == left.position && part.orientation == left.orientation;
-            if kind == body_type(&left) && kind == RigidBodyType::KinematicPositionBased {
-                self.carry(index, part);
-            } else if !(there && kind == body_type(&left)) {
-                self.put(index, part);
+            match kind {
+                RigidBodyType::Fixed => self.settle(index, part),
+                kind if there && kind == body_type(&left) => {}
+                _ => self.put(index, part),
             }
             self.left[index] = *part;
         }
@@ -205,13 +245,23 @@ impl PhysicsSimulation {
         }
     }
 
-    fn carry(&mut self, index: usize, part: &PartState) {
-        if let Some(body) = self.world.bodies.get_mut(self.parts[index]) {
-            body.set_next_kinematic_position(pose_of(part));
+    /// Lets a mounted part stand fast, and centres it in its socket.
+    fn settle(&mut self, index: usize, part: &PartState) {
+        let (place, handle) = (pose_of(part), self.parts[index]);
+        let Some(body) = self.world.bodies.get(handle) else { return };
+        let stands = body.body_type() == RigidBodyType::Fixed;
+        let offset = body.translation().distance(place.translation);
+        let turned = body.rotation().angle_between(place.rotation);
+        if stands && offset <= SETTLED.0 && turned <= SETTLED.1 {
+            return;
+        }
+        if let Some(body) = self.world.bodies.get_mut(handle) {
+            body.set_body_type(RigidBodyType::Fixed, true);
+            body.set_position(body.position().lerp(&place, SETTLING), true);
         }
     }
 
-    /// Places a part, and makes it loose, carried or fixed as its state says.
+    /// Places a part, and makes it loose or fixed as its state says.
     fn put(&mut self, index: usize, part: &PartState) {
         let Some(body) = self.world.bodies.get_mut(self.parts[index]) else { return };
         let kind = body_type(part);
@@ -261,11 +311,7 @@ fn insert_part(world: &mut PhysicsWorld, task: &Task, part: &PartState, number: 
 }
 
 fn body_type(part: &PartState) -> RigidBodyType {
-    match part.state {
-        state if state == Holder::Person as u32 => RigidBodyType::KinematicPositionBased,
-        state if state == Holder::Socket as u32 => RigidBodyType::Fixed,
-        _ => RigidBodyType::Dynamic,
-    }
+    if part.state == Holder::Socket as u32 { RigidBodyType::Fixed } else { RigidBodyType::Dynamic }
 }
 
 fn pose_of(part: &PartState) -> Pose {

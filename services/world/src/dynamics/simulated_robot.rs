@@ -8,7 +8,7 @@ use crate::parts::Parts;
 use coact_joint_task::Task;
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 /// The simulated robot, and how parts that nobody holds behave.
 pub(crate) enum SimulatedRobot {
@@ -51,6 +51,14 @@ impl SimulatedRobot {
             Self::Physics(robot) => {
                 robot.advance(influence, joints, parts);
             }
+        }
+    }
+
+    /// The person's hand has the part there: it is there, or with dynamics on its way.
+    pub fn carry(&mut self, part: usize, position: DVec3, orientation: DQuat, parts: &mut Parts) {
+        match self {
+            Self::Kinematic(_) => parts.place(part, position, orientation),
+            Self::Physics(robot) => robot.carry(part, position, orientation),
         }
     }
 
