@@ -1,4 +1,4 @@
-//! A hand that is told from outside, in the world without dynamics.
+//! A hand that is told from outside, in the world without dynamics if nothing else is said.
 
 use super::fake_robot::FakeRobot;
 use super::{Out, held_by, robot, safety, task};
@@ -15,8 +15,12 @@ const FRAME: u64 = 17;
 const TOP: f64 = -1.31;
 
 fn world() -> World {
+    world_in(WorldMode::Kinematic)
+}
+
+fn world_in(mode: WorldMode) -> World {
     let partner = Partner::load("hand", &task(), 1).unwrap();
-    let settings = Settings { seed: 1, partner, mode: WorldMode::Kinematic, drive: safety().drive };
+    let settings = Settings { seed: 1, partner, mode, drive: safety().drive };
     World::new(&task(), &robot(), settings).unwrap()
 }
 
@@ -31,9 +35,13 @@ struct Bench {
 
 impl Bench {
     fn new() -> Self {
+        Self::of(WorldMode::Kinematic)
+    }
+
+    fn of(mode: WorldMode) -> Self {
         let model = HandModel::new(&task().scene);
         let hand = (model.centre(&model.rest()), 0.03);
-        Self { world: world(), out: Out::new(), model, tick: 0, hand }
+        Self { world: world_in(mode), out: Out::new(), model, tick: 0, hand }
     }
 
     fn step(&mut self, told: bool) {
@@ -59,7 +67,11 @@ impl Bench {
 
     /// The first wheel, in the hand.
     fn with_wheel() -> Self {
-        let mut bench = Self::new();
+        Self::with_wheel_in(WorldMode::Kinematic)
+    }
+
+    fn with_wheel_in(mode: WorldMode) -> Self {
+        let mut bench = Self::of(mode);
         let centre = bench.world.parts.view().centre(0, &bench.world.task);
         let width = bench.world.task.kinds[bench.world.parts.kind(0)].width;
         bench.go(bench.hand, 300);
@@ -103,6 +115,30 @@ fn a_part_that_is_let_go_elsewhere_lies_there() {
     let at = bench.world.parts.position(0);
     assert_eq!(at.z, bench.world.task.scene.table_height);
     assert!(at.truncate().distance(above.truncate()) < 0.01);
+}
+
+#[test]
+fn a_part_that_meets_the_robots_fingers_stays_behind_and_moves_no_joint_far() {
+    let mut bench = Bench::with_wheel_in(WorldMode::Physics);
+    let joints = |bench: &Bench| bench.out.state.position;
+    let (before, palm) = (joints(&bench), bench.world.hand.palm(&joints(&bench)).grasp_point);
+    let wheel = |bench: &Bench| bench.world.parts.view().centre(0, &bench.world.task);
+    let on_the_way = wheel(&bench).distance(bench.hand.0);
+    let (mut behind, mut pushed) = (0.0_f64, 0.0_f64);
+    let (from, over) = (bench.hand.0, bench.hand.0.with_z(palm.z));
+    let through = palm + 0.15 * (palm - over).normalize();
+    for (from, to) in [(from, over), (over, through)] {
+        for part in 1..=10 {
+            bench.go((from.lerp(to, 0.1 * f64::from(part)), bench.hand.1), 100);
+            behind = behind.max(wheel(&bench).distance(bench.hand.0) - on_the_way);
+            let now = joints(&bench);
+            let moved = now.iter().zip(&before).take(7).map(|(now, then)| (now - then).abs());
+            pushed = moved.fold(pushed, f64::max);
+        }
+    }
+    assert!(behind > 0.02, "the wheel was never more than {behind} m behind: it met nothing");
+    // A hand three times as strong pushes twice as far.
+    assert!(pushed < 0.001, "a joint was pushed aside by {pushed} rad");
 }
 
 #[test]
