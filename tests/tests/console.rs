@@ -241,6 +241,22 @@ impl Player {
         self.wait_for("now", "coact.state().live && coact.state().at_ms > 20000");
     }
 
+    /// The report says for how long each waited, and shows as many waits as there were; the robot came to hold the base meanwhile.
+    fn sees_who_waited(&mut self) {
+        let waits = self
+            .browser
+            .value("coact.state().events.filter(({sort}) => sort === 'wait').map(({who}) => who)");
+        let waits: Vec<String> = serde_json::from_value(waits).unwrap();
+        for who in ["person", "robot"] {
+            let shown = format!("document.querySelectorAll('#waits .wait-{who} span').length");
+            let count = waits.iter().filter(|own| *own == who).count();
+            assert_eq!(self.browser.value(&shown).as_u64(), Some(count as u64), "{who}");
+            assert!(count > 0, "{who} has waited for nobody: {waits:?}");
+        }
+        let told = self.browser.value("document.getElementById('waits').textContent");
+        assert!(told.as_str().unwrap().contains("longest: "), "{told}");
+    }
+
     fn comes_back(&mut self) {
         let known = self.browser.value("coact.state().events.length").as_u64().unwrap();
         self.browser.call("Page.reload", serde_json::json!({}));
@@ -304,6 +320,7 @@ fn somebody_at_the_page_builds_the_vehicle_breaks_a_process_and_looks_back() {
     assert_eq!(player.browser.complaints(), [""; 0]);
     player.browser.value("coact.end()");
     player.wait_for("the report", "coact.state().ended && !document.getElementById('report').hidden");
+    player.sees_who_waited();
     let report = launched.report();
     let finished = launched.finish();
     let told = &finished.summary().anticipation;
