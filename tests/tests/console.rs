@@ -2,7 +2,10 @@
 //! time, comes back after leaving the page, and looks at the recording. Where no browser is installed the test says so and ends.
 #![allow(clippy::unwrap_used)]
 
+use coact_joint_task::Task;
+use coact_pipeline::Layout;
 use coact_tests::{Browser, Course, EndedWithTest, Launched, alone, checkout, coact, wait_for, wait_within};
+use coact_world::laid_out;
 use glam::{DVec2, DVec3};
 use rustix::process::Signal;
 use serde_json::Value;
@@ -257,6 +260,20 @@ impl Player {
         assert!(told.as_str().unwrap().contains("longest: "), "{told}");
     }
 
+    /// Each part is seen where this seed has it, and the page says by which it is.
+    fn sees_parts_laid_out_by(&mut self, seed: u64) {
+        let file = checkout().join("rt-config/tasks/electronics-box.toml");
+        let laid = laid_out(&Task::load(&file).unwrap(), Layout::Random(seed)).unwrap();
+        assert_eq!(self.browser.value("coact.hello().run.layout"), format!("random:{seed}"));
+        let told = self.browser.value("document.getElementById('layout').textContent");
+        assert!(told.as_str().unwrap().contains(&seed.to_string()), "{told}");
+        for part in &laid.parts {
+            let (kind, at) = (laid.kinds[part.kind].name.clone(), DVec2::from(part.at));
+            let seen = self.part(&kind, at, 0).unwrap_or_else(|| panic!("no {kind} is seen"));
+            assert!(seen.truncate().distance(at) < 0.02, "{kind}: seen at {seen}, laid out at {at}");
+        }
+    }
+
     fn comes_back(&mut self) {
         let known = self.browser.value("coact.state().events.length").as_u64().unwrap();
         self.browser.call("Page.reload", serde_json::json!({}));
@@ -358,9 +375,13 @@ fn another_round_with_another_task_begins_at_the_same_address() {
     player.wait_for("pictures", "coact.state().pictures > 10");
     player.browser.click("tab-plan");
     player.browser.value("document.getElementById('again-task').value = 'electronics-box'");
+    player.browser.value("document.getElementById('again-layout').value = 'random'");
+    player.browser.value("document.getElementById('again-layout').dispatchEvent(new Event('change'))");
+    player.browser.value("document.getElementById('again-seed').value = '4711'");
     player.browser.value("document.getElementById('again').requestSubmit()");
     let begun = "coact.state().pictures > 10 && coact.hello().run.task === 'electronics box'";
     player.wait_for("the next round", begun);
+    player.sees_parts_laid_out_by(4711);
     let next: Vec<_> = std::fs::read_dir(launched.report().parent().unwrap()).unwrap().collect();
     assert!(next.len() > 3, "a report of its own: {next:?}");
     launched.signal(Signal::INT);

@@ -46,6 +46,12 @@ export class Plan {
   }
 }
 
+/** @param {string} layout "task", or "random:" and the number that gives the same places again */
+export function layoutInWords(layout) {
+  const seed = layout.split(":")[1];
+  return seed === undefined ? "as in the task" : `shuffled, by the number ${seed}`;
+}
+
 /** The report of the person who has played. */
 export function showReport(place, { at_ms, verdict, person, waits }) {
   if (!person) {

@@ -54,9 +54,12 @@ impl Greeting<'_> {
             "version": VERSION,
             "run": {
                 "id": run,
+                // Names of runs come again; each has a folder of its own.
+                "report": settings.report.file_name().map(|name| name.to_string_lossy()),
                 "task": task.name,
                 "partner": settings.partner,
                 "world": settings.world,
+                "layout": settings.layout,
                 "seed": settings.seed,
                 "recorded": recorded,
             },
