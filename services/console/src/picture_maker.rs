@@ -88,6 +88,12 @@ impl PictureMaker {
         self.hand.model.links().len()
     }
 
+    /// How many numbers of a picture come before those of the truth.
+    #[cfg(test)]
+    pub(crate) fn numbers_before_truth(&self) -> usize {
+        self.links() * 7 + self.task.parts.len() * 9 + 9 * 4 + 4 * 5
+    }
+
     /// What these messages show; none while there are none.
     pub fn glimpse(&mut self, seen: &Seen) -> Option<Glimpse> {
         let cycle = seen.cycle()?;
