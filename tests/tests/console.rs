@@ -2,7 +2,10 @@
 //! time, comes back after leaving the page, and looks at the recording. Where no browser is installed the test says so and ends.
 #![allow(clippy::unwrap_used)]
 
+use coact_joint_task::Task;
+use coact_pipeline::Layout;
 use coact_tests::{Browser, Course, EndedWithTest, Launched, alone, checkout, coact, wait_for, wait_within};
+use coact_world::laid_out;
 use glam::{DVec2, DVec3};
 use rustix::process::Signal;
 use serde_json::Value;
@@ -107,6 +110,12 @@ impl Player {
         places.min_by(|one, other| away(one).total_cmp(&away(other)))
     }
 
+    /// The part of a kind that lies nearest to where the hand rests, once it is seen: single frames lack it.
+    fn lying(&mut self, kind: &str) -> DVec3 {
+        let near = self.rest();
+        wait_within(PATIENCE, kind, || self.part(kind, near, 0))
+    }
+
     fn grip(&mut self, number: u32) {
         self.browser.click(&format!("grip-{number}"));
     }
@@ -153,15 +162,13 @@ impl Player {
     }
 
     fn takes_and_inserts(&mut self, kind: &str, name: &str) {
-        let near = self.rest();
-        let part = self.part(kind, near, 0).unwrap();
+        let part = self.lying(kind);
         self.grasp(part.truncate(), 0);
         self.insert(name);
     }
 
     fn hands_over(&mut self, kind: &str, for_subgoal: &str) {
-        let (near, handover) = (self.rest(), self.handover());
-        let part = self.part(kind, near, 0).unwrap();
+        let (handover, part) = (self.handover(), self.lying(kind));
         self.grasp(part.truncate(), 1);
         self.go(handover);
         let taken = Instant::now();
@@ -241,6 +248,36 @@ impl Player {
         self.wait_for("now", "coact.state().live && coact.state().at_ms > 20000");
     }
 
+    /// The report says for how long each waited, and shows as many waits as there were; the robot came to hold the base meanwhile.
+    fn sees_who_waited(&mut self) {
+        let waits = self
+            .browser
+            .value("coact.state().events.filter(({sort}) => sort === 'wait').map(({who}) => who)");
+        let waits: Vec<String> = serde_json::from_value(waits).unwrap();
+        for who in ["person", "robot"] {
+            let shown = format!("document.querySelectorAll('#waits .wait-{who} span').length");
+            let count = waits.iter().filter(|own| *own == who).count();
+            assert_eq!(self.browser.value(&shown).as_u64(), Some(count as u64), "{who}");
+            assert!(count > 0, "{who} has waited for nobody: {waits:?}");
+        }
+        let told = self.browser.value("document.getElementById('waits').textContent");
+        assert!(told.as_str().unwrap().contains("longest: "), "{told}");
+    }
+
+    /// Each part is seen where this seed has it, and the page says by which it is.
+    fn sees_parts_laid_out_by(&mut self, seed: u64) {
+        let file = checkout().join("rt-config/tasks/electronics-box.toml");
+        let laid = laid_out(&Task::load(&file).unwrap(), Layout::Random(seed)).unwrap();
+        assert_eq!(self.browser.value("coact.hello().run.layout"), format!("random:{seed}"));
+        let told = self.browser.value("document.getElementById('layout').textContent");
+        assert!(told.as_str().unwrap().contains(&seed.to_string()), "{told}");
+        for part in &laid.parts {
+            let (kind, at) = (laid.kinds[part.kind].name.clone(), DVec2::from(part.at));
+            let seen = self.part(&kind, at, 0).unwrap_or_else(|| panic!("no {kind} is seen"));
+            assert!(seen.truncate().distance(at) < 0.02, "{kind}: seen at {seen}, laid out at {at}");
+        }
+    }
+
     fn comes_back(&mut self) {
         let known = self.browser.value("coact.state().events.length").as_u64().unwrap();
         self.browser.call("Page.reload", serde_json::json!({}));
@@ -304,6 +341,7 @@ fn somebody_at_the_page_builds_the_vehicle_breaks_a_process_and_looks_back() {
     assert_eq!(player.browser.complaints(), [""; 0]);
     player.browser.value("coact.end()");
     player.wait_for("the report", "coact.state().ended && !document.getElementById('report').hidden");
+    player.sees_who_waited();
     let report = launched.report();
     let finished = launched.finish();
     let told = &finished.summary().anticipation;
@@ -316,6 +354,8 @@ fn somebody_at_the_page_builds_the_vehicle_breaks_a_process_and_looks_back() {
     let mut player = Player::new(Browser::open(&address, WINDOW).unwrap(), 2);
     player.wait_for("a picture of the past", "coact.state().pictures > 0 && !coact.state().live");
     player.wait_for("its events", "coact.state().events.filter(({sort}) => sort === 'action').length >= 7");
+    player.browser.click("after");
+    player.wait_for("the person as she really was", "Number.isFinite(coact.picture().truth[0])");
     assert_eq!(player.browser.complaints(), [""; 0]);
     drop((player, console));
     the_recorded_hand_comes_again(&report.join("run.mcap"));
@@ -341,9 +381,13 @@ fn another_round_with_another_task_begins_at_the_same_address() {
     player.wait_for("pictures", "coact.state().pictures > 10");
     player.browser.click("tab-plan");
     player.browser.value("document.getElementById('again-task').value = 'electronics-box'");
+    player.browser.value("document.getElementById('again-layout').value = 'random'");
+    player.browser.value("document.getElementById('again-layout').dispatchEvent(new Event('change'))");
+    player.browser.value("document.getElementById('again-seed').value = '4711'");
     player.browser.value("document.getElementById('again').requestSubmit()");
     let begun = "coact.state().pictures > 10 && coact.hello().run.task === 'electronics box'";
     player.wait_for("the next round", begun);
+    player.sees_parts_laid_out_by(4711);
     let next: Vec<_> = std::fs::read_dir(launched.report().parent().unwrap()).unwrap().collect();
     assert!(next.len() > 3, "a report of its own: {next:?}");
     launched.signal(Signal::INT);

@@ -139,6 +139,14 @@ export class Forms {
     }
   }
 
+  /** A form of the robot's, in its own frame, turned by a quaternion: boxes and cylinders are centred on the place. */
+  centred(form, place, turn, colour) {
+    const [x, y, z] = axes(turn);
+    const at = ([u, v, w]) => place.map((value, axis) => value + u * x[axis] + v * y[axis] + w * z[axis]);
+    if (form.capsule) return this.capsule(at(form.capsule.from), at(form.capsule.to), form.capsule.radius, colour);
+    this.shape(form, at([0, 0, -(form.cylinder?.height ?? form.box[2]) / 2]), turn, colour);
+  }
+
   /** Draws what was put since the last time: what can be seen through comes last. */
   draw(view) {
     const gl = this.#gl;

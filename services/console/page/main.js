@@ -7,7 +7,7 @@ import { Machine } from "./machine.js";
 import { Mind } from "./mind.js";
 import { Partner } from "./partner.js";
 import { readPicture } from "./picture.js";
-import { Plan, showReport } from "./plan.js";
+import { Plan, layoutInWords, showReport } from "./plan.js";
 import { Playback } from "./playback.js";
 import { Scene } from "./scene.js";
 import { Timeline, told } from "./timeline.js";
@@ -34,7 +34,7 @@ const shown = {
 
 connection.addEventListener("hello", ({ detail }) => {
   // Another run has another task and other views.
-  if (hello && hello.run.id !== detail.run.id) return location.reload();
+  if (hello && (hello.run.id !== detail.run.id || hello.run.report !== detail.run.report)) return location.reload();
   const again = hello !== null;
   hello = detail;
   shown.lost = false;
@@ -132,6 +132,8 @@ function begin() {
   $("play").hidden = !mayPlay;
   for (const id of ["stop", "resume", "inject", "say", "end", "live"]) $(id).hidden = recorded;
   $("again").hidden = !mayPlay;
+  text($("layout"), `the parts lie ${layoutInWords(hello.run.layout)}`);
+  offerSeed();
   options($("again-task"), hello.tasks.map((name) => [name, ""]));
   options($("inject-fault"), hello.faults.map(({ name, description }) => [name, description]));
   options($("inject-process"), hello.processes.map(({ name }) => [name, ""]));
@@ -140,6 +142,16 @@ function begin() {
   if (mayPlay) guide = new Guide((name) => narrow.matches || show(name));
   scene.clear();
   cover("Nothing has been seen yet.");
+}
+
+/** Other places each time, unless somebody wants those of a number again. */
+function offerSeed() {
+  $("again-seed-label").hidden = $("again-layout").value !== "random";
+  $("again-seed").value = String(Math.floor(Math.random() * 1_000_000));
+}
+
+function chosenLayout() {
+  return $("again-layout").value === "random" ? `random:${$("again-seed").valueAsNumber}` : "task";
 }
 
 function options(list, entries) {
@@ -332,8 +344,9 @@ for (const [id, change] of [["nearer", () => timeline.zoom(0.6)], ["farther", ()
 $("again").addEventListener("submit", (event) => {
   event.preventDefault();
   shown.again = true;
-  connection.send({ again: $("again-task").value });
+  connection.send({ again: { task: $("again-task").value, layout: chosenLayout() } });
 });
+$("again-layout").addEventListener("change", offerSeed);
 $("inject").addEventListener("submit", (event) => {
   event.preventDefault();
   connection.send({ inject: { process: $("inject-process").value, fault: $("inject-fault").value } });

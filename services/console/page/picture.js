@@ -3,9 +3,9 @@
 const HEAD = 16;
 
 /** Numbers of each section for these sizes, in the order in which they are sent. */
-function sections({ capsules, parts, path, populations }) {
+function sections({ forms, parts, path, populations }) {
   return {
-    links: capsules * 7,
+    links: forms * 7,
     parts: parts * 9,
     keypoints: 9 * 4,
     arm: 4 * 5,
@@ -20,7 +20,7 @@ function sections({ capsules, parts, path, populations }) {
 
 /**
  * @param {ArrayBuffer} bytes
- * @param {{capsules: number, parts: number, path: number, populations: number}} sizes
+ * @param {{forms: number, parts: number, path: number, populations: number}} sizes
  * @returns {null | {past: boolean, at: number, links: Float32Array, parts: Float32Array, keypoints: Float32Array,
  *   arm: Float32Array, truth: Float32Array, path: Float32Array, nearest: Float32Array, expected: Float32Array,
  *   state: object, populations: Float32Array, sites: Float32Array}} null when it is none of this run

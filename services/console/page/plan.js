@@ -1,5 +1,8 @@
 // The plan with what is done of it, what the partner's hand says, and at the end how this very person was understood.
 
+import { element } from "./elements.js";
+import { waitsShown } from "./waits.js";
+
 /** Above this, a population stands for something that is so. */
 const SURE = 0.5;
 
@@ -43,8 +46,14 @@ export class Plan {
   }
 }
 
+/** @param {string} layout "task", or "random:" and the number that gives the same places again */
+export function layoutInWords(layout) {
+  const seed = layout.split(":")[1];
+  return seed === undefined ? "as in the task" : `shuffled, by the number ${seed}`;
+}
+
 /** The report of the person who has played. */
-export function showReport(place, { verdict, person }) {
+export function showReport(place, { at_ms, verdict, person, waits }) {
   if (!person) {
     place.replaceChildren(element("h2", "the run is over"), element("p", "It has left no report."));
     place.hidden = false;
@@ -55,22 +64,16 @@ export function showReport(place, { verdict, person }) {
   const lines = [
     `things done: ${person.actions}${answered}`,
     `${person.understood_before_grasp} understood before your grasp, ${person.rightly} rightly${lead}`,
-    known(person.errors) && `errors made: ${person.errors}`,
     known(person.errors_noticed) && `errors noticed: ${person.errors_noticed}`,
-    known(person.person_waited_s) && `you waited ${person.person_waited_s.toFixed(1)} s for the robot`,
-    known(person.robot_waited_s) && `the robot waited ${person.robot_waited_s.toFixed(1)} s for you`,
     known(person.subgoals) && `${person.achieved} of ${person.subgoals} subgoals achieved`,
     known(person.assemblies) && `vehicles complete: ${person.assemblies}`,
     verdict?.work === "pass" ? "the work: as it should be" : `the work: ${verdict?.reasons?.join("; ") ?? "not judged"}`,
   ].filter(Boolean);
   const list = document.createElement("ul");
   list.append(...lines.map((line) => element("li", line)));
-  place.replaceChildren(element("h2", "how you were understood"), list);
+  place.replaceChildren(element("h2", "how you were understood"), list, ...(waits ? [waitsShown(waits, at_ms)] : []));
   place.hidden = false;
 }
 
 const known = (number) => Number.isFinite(number);
 
-function element(name, text) {
-  return Object.assign(document.createElement(name), { textContent: text });
-}

@@ -112,10 +112,10 @@ export class Scene {
 
   #putRobot({ links, state }) {
     const colour = rgb(state.stopped ? VERMILION : "#7b8796");
-    for (let index = 0; index < links.length; index += 7) {
-      const [from, to] = [placeAt(links, index), placeAt(links, index + 3)];
-      if (from && to) this.forms.capsule(from, to, links[index + 6], colour);
-    }
+    this.hello.robot.forEach((form, index) => {
+      const place = placeAt(links, 7 * index);
+      if (place) this.forms.centred(form, place, links.subarray(7 * index + 3, 7 * index + 7), colour);
+    });
   }
 
   #putParts({ parts }, words) {

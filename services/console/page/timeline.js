@@ -9,6 +9,7 @@ const LANES = [
   ["inferred", ["inferred", "error"]],
   ["decided", ["decision"]],
   ["words", ["said", "heard"]],
+  ["waits", ["wait"]],
   ["done", ["achieved", "assembly", "forgotten"]],
   ["machine", ["fault", "restart", "alarm", "stopped", "resumed", "blind"]],
 ];
@@ -16,6 +17,8 @@ const COLOURS = {
   action: ORANGE, inferred: PURPLE, error: VERMILION, decision: BLUE, said: BLUE, heard: ORANGE, achieved: GREEN,
   assembly: GREEN, forgotten: GREY, fault: VERMILION, alarm: VERMILION, stopped: VERMILION, restart: GREEN, resumed: GREEN, blind: GREY,
 };
+/** Who waits has the colour of whoever that is on this line. */
+const WAITS = { person: ORANGE, robot: BLUE };
 const NAMES = 84, AXIS = 22;
 
 export class Timeline {
@@ -177,7 +180,7 @@ export class Timeline {
       context.beginPath();
       context.rect(NAMES, y, this.canvas.clientWidth - NAMES, lane);
       context.clip();
-      context.fillStyle = COLOURS[event.sort] ?? GREY;
+      context.fillStyle = WAITS[event.who] ?? COLOURS[event.sort] ?? GREY;
       context.fillRect(x, y + 3, wide, lane - 7);
       if (event.sort === "action") this.#understood(context, event, y, lane);
       const room = next - x - wide - 6;

@@ -1,5 +1,7 @@
 // Why a population stands or does not: a sentence, and what it gets from where, in numbers.
 
+import { element } from "./elements.js";
+
 /** @param {HTMLElement} place where it is told; `told` is the server's explanation, or null */
 export function showWhy(place, told) {
   if (!told) {
@@ -29,10 +31,4 @@ export function showWhy(place, told) {
   head.append(...["gets", "", "from", "because"].map((text) => element("th", text)));
   table.append(head, ...rows);
   place.replaceChildren(element("p", told.sentence), table);
-}
-
-function element(name, text) {
-  const made = document.createElement(name);
-  made.textContent = text;
-  return made;
 }

@@ -2,6 +2,7 @@ use crate::PictureMaker;
 use crate::supervisor_link::tasks;
 use coact_joint_task::{Act, Agent, Chain, NetworkPlan, Shape, Subgoal, Task};
 use coact_messages::{LayerKind, MotionPhase};
+use coact_motion::{Capsule, Solid};
 use coact_pipeline::{Pipeline, RunSettings, Trigger};
 use coact_supervisor::Fault;
 use serde_json::{Value, json};
@@ -54,18 +55,22 @@ impl Greeting<'_> {
             "version": VERSION,
             "run": {
                 "id": run,
+                // Names of runs come again; each has a folder of its own.
+                "report": settings.report.file_name().map(|name| name.to_string_lossy()),
                 "task": task.name,
                 "partner": settings.partner,
                 "world": settings.world,
+                "layout": settings.layout,
                 "seed": settings.seed,
                 "recorded": recorded,
             },
             "task": of_task(task),
+            "robot": maker.forms().map(of_form).collect::<Vec<_>>(),
             "layers": LayerKind::ALL.map(|kind| of_layer(plan, kind)),
             "sites_per_population": plan.sites_per_population,
             "phases": MotionPhase::ALL.map(|phase| format!("{phase:?}").to_lowercase()),
             "sizes": {
-                "capsules": maker.links(),
+                "forms": maker.forms().len(),
                 "parts": task.parts.len(),
                 "path": PictureMaker::WAY,
                 "populations": plan.populations.len(),
@@ -112,6 +117,19 @@ fn of_task(task: &Task) -> Value {
             "workspaces": { "robot": scene.workspace[0], "person": scene.workspace[1] },
         },
     })
+}
+
+/// A form of the robot, in its own frame: boxes and cylinders are centred on it, cylinders stand along z.
+fn of_form(form: &Solid) -> Value {
+    match form {
+        Solid::Box(size) => json!({ "box": [size.x, size.y, size.z] }),
+        Solid::Cylinder { radius, height } => {
+            json!({ "cylinder": { "radius": radius, "height": height } })
+        }
+        Solid::Capsule(Capsule { start, end, radius }) => {
+            json!({ "capsule": { "from": [start.x, start.y, start.z], "to": [end.x, end.y, end.z], "radius": radius } })
+        }
+    }
 }
 
 fn agent(side: Agent) -> &'static str {

@@ -41,7 +41,7 @@ impl LiveConsole {
             let seen = self.topics.seen();
             self.timeline.watch(&seen);
             let cycle = self.schedule.tick_at(now());
-            match wishes.recv_timeout(LOOK_EVERY.min(self.partner.frame_due_in())) {
+            match wishes.recv_timeout(LOOK_EVERY.min(self.partner.hand_due_in())) {
                 Ok(wish) => self.partner.take(wish, cycle)?,
                 Err(RecvTimeoutError::Timeout) => (),
                 // Nobody is served any more.

@@ -1,12 +1,17 @@
-use coact_console::{Cadence, Pointer, PointerHand, Seen, Surroundings, Wish};
+use coact_console::{Pointer, PointerHand, Seen, Surroundings, Wish};
 use coact_joint_task::Task;
 use coact_messages::{HandPoints, Speech, topic};
 use coact_pipeline::RunSettings;
 use coact_realtime::{Output, PortError, Process, now};
 use std::time::{Duration, Instant};
 
-/// From one frame of the partner's hand to the next: a camera's 60 Hz.
-const FRAME: Duration = Duration::from_nanos(16_666_667);
+/// A page tells of its pointer 60 times a second, and the hand is shown at once; but no sooner than so long after the last time, for
+/// whoever tells more often.
+const SOONEST: Duration = Duration::from_millis(8);
+/// When nothing was told for so long, the hand goes on to where the pointer was: half a frame more than a page takes.
+const LATEST: Duration = Duration::from_millis(25);
+/// A hand that was not shown for longer has stood meanwhile.
+const MOVES: Duration = Duration::from_millis(33);
 /// A page that has not told of its pointer for so long is gone, and nobody sees the hand any more.
 const POINTED_WITHIN: Duration = Duration::from_millis(250);
 
@@ -15,7 +20,8 @@ pub struct PagePartner {
     hand: PointerHand,
     around: Surroundings,
     pointed: Option<(Pointer, Instant)>,
-    frame: Cadence,
+    /// The page has told of its pointer since the hand was shown.
+    is_news: bool,
     /// When the hand was shown last.
     shown: Instant,
     hands: Option<Output<HandPoints>>,
@@ -28,20 +34,12 @@ impl PagePartner {
         let hands = (settings.partner == RunSettings::HAND).then(|| bus.output(topic::HAND)).transpose()?;
         let speech = bus.output(topic::HEARD)?;
         let (hand, around) = (PointerHand::new(task), Surroundings::default());
-        Ok(Self {
-            hand,
-            around,
-            pointed: None,
-            frame: Cadence::new(FRAME),
-            shown: Instant::now(),
-            hands,
-            speech,
-        })
+        Ok(Self { hand, around, pointed: None, is_news: false, shown: Instant::now(), hands, speech })
     }
 
     pub fn take(&mut self, wish: Wish, cycle: u64) -> Result<(), PortError> {
         match wish {
-            Wish::Point(pointer) => self.pointed = Some((pointer, Instant::now())),
+            Wish::Point(pointer) => (self.pointed, self.is_news) = (Some((pointer, Instant::now())), true),
             Wish::Hide => self.pointed = None,
             Wish::Say(sentence) => {
                 let mut message = self.speech.loan()?;
@@ -52,23 +50,23 @@ impl PagePartner {
         Ok(())
     }
 
-    /// How long until the next frame of the hand is due; long, while there is none.
-    pub fn frame_due_in(&self) -> Duration {
-        if self.pointed.is_some() { self.frame.due_in() } else { POINTED_WITHIN }
+    /// How long until the hand is to be shown; long, while nobody points.
+    pub fn hand_due_in(&self) -> Duration {
+        let after = if self.is_news { SOONEST } else { LATEST };
+        self.pointer().map_or(POINTED_WITHIN, |_| after.saturating_sub(self.shown.elapsed()))
     }
 
-    /// Shows the hand to the tracker, when a frame is due and somebody points.
+    /// Where the page points, unless it is gone.
+    fn pointer(&self) -> Option<Pointer> {
+        self.pointed.filter(|(_, when)| when.elapsed() < POINTED_WITHIN).map(|(pointer, _)| pointer)
+    }
+
+    /// Shows the hand to the tracker, when that is due and somebody points.
     pub fn show_hand(&mut self, task: &Task, seen: &Seen, cycle: u64) -> Result<(), PortError> {
-        let Some(hands) = &mut self.hands else { return Ok(()) };
-        let Some((pointer, _)) = self.pointed.filter(|(_, when)| when.elapsed() < POINTED_WITHIN) else {
-            return Ok(());
-        };
-        if !self.frame.is_due() {
-            return Ok(());
-        }
-        // A hand that was not shown for a while stood.
-        let step = self.shown.elapsed().min(2 * FRAME).as_secs_f64();
-        self.shown = Instant::now();
+        let pointer = self.pointer().filter(|_| self.hand_due_in().is_zero());
+        let (Some(hands), Some(pointer)) = (&mut self.hands, pointer) else { return Ok(()) };
+        let step = self.shown.elapsed().min(MOVES).as_secs_f64();
+        (self.shown, self.is_news) = (Instant::now(), false);
         self.around.look(task, seen);
         let points = self.hand.step(&pointer, &self.around, step);
         let mut message = hands.loan()?;

@@ -5,7 +5,7 @@ use coact_messages::{
     ARM_JOINTS, Command, DriveReport, FieldFrame, HoldReason, LayerKind, NONE, Percept, PersonArm,
     SensorSample, Sighting,
 };
-use coact_motion::{Capsule, CollisionModel, Mechanism};
+use coact_motion::{Capsule, CollisionModel, Mechanism, Solid};
 use coact_period::seconds;
 use coact_robot::{HAND_JOINTS, Knot, Robot, RobotError, state_at};
 use coact_safety::PersonLimits;
@@ -13,7 +13,7 @@ use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 
 /// Makes pictures of the newest messages. Their numbers, section after section (m, rad, ms; world frame):
 ///
-/// 1. each link of the robot: both ends and the radius of the capsule around it;
+/// 1. each form of the robot, as [`forms`](PictureMaker::forms) has them: place, quaternion x y z w;
 /// 2. each part that is seen: kind, place, quaternion x y z w, who holds it (0 nobody, 1 the robot, 2 the person); -1 for none;
 /// 3. the nine keypoints as measured: place, confidence;
 /// 4. shoulder, elbow, wrist and finger tip as perceived: place, radius within which it may be, age;
@@ -83,17 +83,23 @@ impl PictureMaker {
         &self.plan
     }
 
-    /// How many links are drawn.
-    pub fn links(&self) -> usize {
-        self.hand.model.links().len()
+    /// The forms that the robot is made of, as its file has them.
+    pub fn forms(&self) -> impl ExactSizeIterator<Item = &Solid> {
+        self.hand.model.links().iter().map(|link| &link.solid)
+    }
+
+    /// How many numbers of a picture come before those of the truth.
+    #[cfg(test)]
+    pub(crate) fn numbers_before_truth(&self) -> usize {
+        self.forms().len() * 7 + self.task.parts.len() * 9 + 9 * 4 + 4 * 5
     }
 
     /// What these messages show; none while there are none.
     pub fn glimpse(&mut self, seen: &Seen) -> Option<Glimpse> {
         let cycle = seen.cycle()?;
         let mut numbers = Numbers::default();
-        let links = seen.sample.map(|sample| self.capsules(sample)).unwrap_or_default();
-        self.draw_robot(&links, &mut numbers);
+        let links = seen.sample.map(|sample| self.draw_robot(sample, &mut numbers)).unwrap_or_default();
+        numbers.unknown((self.forms().len() - links.len()) * 7);
         self.draw_parts(seen, &mut numbers);
         self.draw_person(seen, &mut numbers);
         self.draw_way(seen.command, &mut numbers);
@@ -106,8 +112,8 @@ impl PictureMaker {
         Some(Glimpse { picture: Picture::new(cycle, &numbers.0, &sites), signals, since })
     }
 
-    /// The capsules around all links, the fingers as they stand.
-    fn capsules(&mut self, sample: &SensorSample) -> Vec<Capsule> {
+    /// Draws the robot, the fingers as they stand, and gives the capsules around its forms.
+    fn draw_robot(&mut self, sample: &SensorSample, numbers: &mut Numbers) -> Vec<Capsule> {
         let (arm, hand) = sample.joints.position.split_at(ARM_JOINTS);
         let fingers: [f64; HAND_JOINTS] = std::array::from_fn(|joint| hand[joint]);
         let moved =
@@ -116,15 +122,11 @@ impl PictureMaker {
         if moved && let Ok(model) = self.mechanism.with_fingers(&self.robot.hand, &fingers) {
             self.hand = ShapedHand { fingers, model };
         }
-        self.hand.model.bounding_capsules(&self.mechanism, &std::array::from_fn(|joint| arm[joint]))
-    }
-
-    fn draw_robot(&self, links: &[Capsule], numbers: &mut Numbers) {
-        for link in links {
-            numbers.extend(link.start.iter().chain(link.end.iter()));
-            numbers.push(link.radius);
+        let (model, posture) = (&self.hand.model, std::array::from_fn(|joint| arm[joint]));
+        for place in model.places(&self.mechanism, &posture) {
+            numbers.extend(place.translation.vector.iter().chain(place.rotation.coords.iter()));
         }
-        numbers.unknown((self.links() - links.len()) * 7);
+        model.bounding_capsules(&self.mechanism, &posture)
     }
 
     fn draw_parts(&self, seen: &Seen, numbers: &mut Numbers) {
@@ -319,7 +321,7 @@ mod tests {
     fn what_is_not_known_has_its_place_as_well() {
         let mut maker = maker();
         assert!(maker.glimpse(&Seen::default()).is_none());
-        let (links, parts) = (maker.links() * 7, maker.task.parts.len() * 9);
+        let (links, parts) = (maker.forms().len() * 7, maker.task.parts.len() * 9);
         let populations = maker.plan.populations.len();
         let person = 9 * 4 + 4 * 5 + 4 * 3;
         let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
@@ -351,15 +353,19 @@ mod tests {
         };
         let drawn =
             numbers(&maker.glimpse(&Seen { sample: Some(&sample), ..Seen::default() }).unwrap().picture);
-        let links = maker.links();
-        let hand = Point3::from(maker.robot.palm(&sample.joints.position).translation.vector);
-        let to_hand = |link: usize| {
-            let at = |index: usize| f64::from(drawn[link * 7 + index]);
-            let end = |first: usize| (Point3::new(at(first), at(first + 1), at(first + 2)) - hand).norm();
-            end(0).min(end(3))
-        };
-        let nearest = (0..links).map(to_hand).fold(f64::INFINITY, f64::min);
-        assert!(nearest < 0.06, "no link ends near the palm: {nearest}");
+        let links = maker.forms().len();
+        let palm = maker.robot.palm(&sample.joints.position);
+        // The URDF's palm: a box of 10, 9 and 8 cm, its middle 1 cm out of the palm.
+        let is_palm = |form: &Solid| *form == Solid::Box(Vector3::new(0.10, 0.09, 0.08));
+        let index = maker.forms().position(is_palm).unwrap();
+        let at = |index: usize| f64::from(drawn[index]);
+        let place = Point3::new(at(index * 7), at(index * 7 + 1), at(index * 7 + 2));
+        let middle = palm * Point3::new(0.0, 0.0, 0.01);
+        assert!((place - middle).norm() < 1e-6, "{place} is not {middle}");
+        let turn = palm.rotation.coords.map(|value| value as f32);
+        let drawn_turn = &drawn[index * 7 + 3..][..4];
+        let same = drawn_turn.iter().zip(turn.iter()).map(|(one, other)| one * other).sum::<f32>().abs();
+        assert!((same - 1.0).abs() < 1e-5, "{drawn_turn:?} is not {turn}");
         let part = &drawn[links * 7..][..9];
         assert_eq!(part, [1.0, -0.4, 0.5, 0.8, 0.0, 0.0, 0.0, 1.0, 0.0]);
         assert_eq!(drawn[links * 7 + 9], -1.0);

@@ -1,6 +1,6 @@
 use crate::{Board, ConsoleSettings, Greeting, Machine, PictureMaker, Seen, Timeline, report};
 use coact_joint_task::NetworkPlan;
-use coact_messages::{Command, FieldFrame, Percept, SensorSample};
+use coact_messages::{Command, FieldFrame, Percept, SensorSample, Truth};
 use coact_pipeline::Pipeline;
 use coact_robot::Robot;
 use coact_run_recording::{Recorded, Recording, RecordingError};
@@ -26,6 +26,7 @@ struct Newest {
     percept: Option<Box<Percept>>,
     frame: Option<Box<FieldFrame>>,
     command: Option<Box<Command>>,
+    truth: Option<Box<Truth>>,
 }
 
 /// From one glimpse that is shown to the next, cycles: the recorder keeps frames twice as often.
@@ -99,6 +100,7 @@ impl RecordedRun {
             Recorded::Frame(frame) => newest.frame = Some(frame),
             Recorded::Command(command) => newest.command = Some(command),
             Recorded::Pulse { process, pulse } => self.machine.pulse(&process, &pulse),
+            Recorded::Truth(truth) => newest.truth = Some(truth),
             Recorded::Speech(_) => (),
         }
     }
@@ -111,7 +113,7 @@ impl RecordedRun {
             percept: newest.percept.as_deref(),
             frame: newest.frame.as_deref(),
             command: newest.command.as_deref(),
-            truth: None,
+            truth: newest.truth.as_deref(),
         };
         timeline.watch(&seen);
         let Some(glimpse) = maker.glimpse(&seen) else { return false };
@@ -121,5 +123,59 @@ impl RecordedRun {
             board.put_machine(&machine.to_json(cycle));
         }
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use bytemuck::zeroed_box;
+    use coact_input_file::Files;
+    use coact_messages::LAYOUT;
+    use coact_pipeline::RunSettings;
+    use coact_run_recording::{Origin, RecordingWriter};
+    use std::collections::BTreeMap;
+
+    const SETTINGS: ConsoleSettings =
+        ConsoleSettings { port: 0, pictures_per_second: 30, pictures_kept: 100 };
+
+    fn origin() -> Origin {
+        let settings = RunSettings::shipped(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config"));
+        let (_, files) = Files::noted(|| {
+            NetworkPlan::load(&settings.task).unwrap();
+            Robot::load(&settings.robot).unwrap();
+            SafetyLimits::load(&settings.safety).unwrap();
+            Pipeline::of_run(&settings).unwrap();
+        });
+        Origin { settings, files, ..Origin::default() }
+    }
+
+    /// Where the person's wrist truly is in the first glimpse of a recording of these messages.
+    fn true_wrist(messages: &[Recorded]) -> [f32; 3] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.mcap");
+        let mut writer = RecordingWriter::create(&path, &origin()).unwrap();
+        messages.iter().for_each(|message| writer.message(message).unwrap());
+        writer.finish(&BTreeMap::new()).unwrap();
+        let run = RecordedRun::open(&path, &SETTINGS).unwrap();
+        let (board, before) = (run.board(), run.maker.numbers_before_truth());
+        assert_eq!(run.read().unwrap(), 1);
+        let glimpse = board.at(0).unwrap();
+        let number = |index: usize| {
+            let bytes = &glimpse.picture.bytes[16 + 4 * index..][..4];
+            f32::from_le_bytes(bytes.try_into().unwrap())
+        };
+        std::array::from_fn(|axis| number(before + 2 * 3 + axis))
+    }
+
+    #[test]
+    fn the_truth_is_shown_where_it_was_recorded_and_an_older_recording_opens_without_it() {
+        let (mut sample, mut truth) = (zeroed_box::<SensorSample>(), zeroed_box::<Truth>());
+        (sample.header.layout, truth.header.layout) = (LAYOUT, LAYOUT);
+        truth.arm[2] = [-0.75, 0.25, 1.0];
+        let [sample, truth] = [Recorded::Sample(sample), Recorded::Truth(truth)];
+        assert_eq!(true_wrist(&[truth, sample.clone()]), [-0.75, 0.25, 1.0]);
+        assert!(true_wrist(&[sample]).iter().all(|number| number.is_nan()));
     }
 }

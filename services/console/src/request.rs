@@ -1,4 +1,5 @@
 use crate::Pointer;
+use coact_pipeline::Layout;
 use serde::Deserialize;
 
 /// What a page asks for: one thing in each message. What is not one of these, or has numbers that cannot be meant, is refused.
@@ -26,8 +27,13 @@ pub enum Request {
     Resume(bool),
     /// Ends the run, as Ctrl-C at its terminal does.
     End(bool),
-    /// Ends the run, and begins another one with the task of this name.
-    Again(String),
+    /// Ends the run, and begins another one.
+    Again {
+        /// With the task of this name.
+        task: String,
+        /// With its parts there.
+        layout: Layout,
+    },
     /// To be told why this population stands or does not; of none any more.
     Why(Option<usize>),
     /// The picture of the past that is nearest to this cycle.
@@ -79,6 +85,8 @@ mod tests {
         assert_eq!(Request::read(r#"{"why":null}"#).unwrap(), Request::Why(None));
         assert_eq!(Request::read(r#"{"at":1234}"#).unwrap(), Request::At(1234));
         assert_eq!(Request::read(r#"{"stop":true}"#).unwrap(), Request::Stop(true));
+        let again = Request::Again { task: "toy-vehicle".into(), layout: Layout::Random(17) };
+        assert_eq!(Request::read(r#"{"again":{"task":"toy-vehicle","layout":"random:17"}}"#).unwrap(), again);
     }
 
     #[test]
@@ -96,6 +104,10 @@ mod tests {
             r#"{"say":"  "}"#,
             r#"{"at":-1}"#,
             r#"{"why":"IL"}"#,
+            r#"{"again":"toy-vehicle"}"#,
+            r#"{"again":{"task":"toy-vehicle","layout":"random"}}"#,
+            r#"{"again":{"task":"toy-vehicle","layout":"random:-1"}}"#,
+            r#"{"again":{"task":"toy-vehicle","layout":"task","at":[0,0]}}"#,
             &long,
         ] {
             assert!(Request::read(text).is_err(), "{text}");

@@ -200,7 +200,7 @@ impl Session {
             | Request::Stop(_)
             | Request::Resume(_)
             | Request::End(_)
-            | Request::Again(_) => {
+            | Request::Again { .. } => {
                 return Ok(self.operate(request).await);
             }
         }
@@ -251,7 +251,7 @@ impl Session {
             Request::Inject { .. } => "inject",
             Request::Resume(_) => "resume",
             Request::End(_) => "end",
-            Request::Again(_) => "again",
+            Request::Again { .. } => "again",
             _ => "stop",
         };
         let done = tokio::task::spawn_blocking(move || supervisor.carry_out(&request)).await;

@@ -1,6 +1,6 @@
 use crate::{Request, Ticket};
 use coact_joint_task::Task;
-use coact_pipeline::Run;
+use coact_pipeline::{Layout, Run};
 use coact_run_records::NextRound;
 use coact_supervisor::{StopRequest, request_fault, request_stop};
 use rustix::process::{Pid, Signal, kill_process};
@@ -33,17 +33,17 @@ impl SupervisorLink {
             Request::Stop(_) => request_stop(&self.run, StopRequest::Stop).map(drop).map_err(refused),
             Request::Resume(_) => request_stop(&self.run, StopRequest::Resume).map(drop).map_err(refused),
             Request::End(_) => self.end(),
-            Request::Again(task) => self.begin_again(task),
+            Request::Again { task, layout } => self.begin_again(task, *layout),
             _ => Ok(()),
         }
     }
 
-    /// Has another run follow this one, with the task of that name.
-    fn begin_again(&self, task: &str) -> Result<(), String> {
+    /// Has another run follow this one, with the task of that name, its parts laid out so.
+    fn begin_again(&self, task: &str, layout: Layout) -> Result<(), String> {
         let settings = self.run.settings();
         let found = tasks(&settings.task).into_iter().find(|(name, _)| name == task);
         let (_, task) = found.ok_or_else(|| format!("there is no task {task}"))?;
-        let next = NextRound { task, port: self.ticket.port, token: self.ticket.token.clone() };
+        let next = NextRound { task, layout, port: self.ticket.port, token: self.ticket.token.clone() };
         next.leave(&settings.report).map_err(|error| error.to_string())?;
         self.end()
     }

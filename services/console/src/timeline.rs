@@ -4,6 +4,7 @@ use coact_messages::LayerKind;
 use coact_period::PERIOD_NS;
 use coact_run_records::{
     ActionEvent, Event, FaultEvent, LogFollower, RecordError, SupervisorEvent, SupervisorEventKind,
+    WaitEvent, Waiting,
 };
 use coact_supervisor::{NoteKind, RunProgress};
 use serde_json::{Value, json};
@@ -97,6 +98,7 @@ impl Timeline {
     fn of_event(&self, event: Event) -> Option<Value> {
         let (sort, at_ms, text) = match event {
             Event::Action(action) => return Some(self.of_action(&action)),
+            Event::Wait(wait) => return Some(of_wait(&wait)),
             Event::Fault(fault) => return Some(self.of_fault(&fault)),
             Event::Blind { from_ms, until_ms } => {
                 let text = "the monitor saw nothing";
@@ -166,6 +168,16 @@ impl Timeline {
     fn cycle(&self, ns: u64) -> u64 {
         ns.saturating_sub(self.start_ns) / PERIOD_NS
     }
+}
+
+fn of_wait(wait: &WaitEvent) -> Value {
+    let who = match wait.who {
+        Waiting::Robot => "the robot waits for you",
+        Waiting::Person => "you wait for the robot",
+    };
+    let of = if wait.subgoal.is_empty() { "" } else { ": " };
+    let text = format!("{who}{of}{} ({:.1} s)", wait.subgoal, wait.seconds());
+    json!({ "sort": "wait", "who": wait.who, "at_ms": wait.from_ms, "until_ms": wait.until_ms, "text": text })
 }
 
 #[cfg(test)]

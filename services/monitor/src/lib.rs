@@ -1,7 +1,7 @@
 //! Latency histograms, deadline misses, and the proof that decisions came in time.
 //!
 //! Pure parts read messages and give [`Event`](coact_run_records::Event)s: [`Anticipation`] (did the right decision
-//! stand before the grasp was complete?), [`TaskWatch`] (subgoals, decisions, utterances), [`Faults`] (detection,
+//! stand before the grasp was complete?), [`TaskWatch`] (subgoals, decisions, utterances), [`Waits`] (who waited for whom), [`Faults`] (detection,
 //! recovery, survivors' misses). [`Latencies`] writes histograms and counters, [`SnapshotLog`] what the scene looked like
 //! when a part changed hands. All are on disk within a second, and a restarted monitor goes on from there. [`Findings`]
 //! draw the conclusions; [`plots`] show them.
@@ -10,6 +10,7 @@
 //! `latency/*.hlog` with `latency/counters.json`, and `plots/*.svg`. What a run must reach is in
 //! `rt-config/verdict.toml` ([`Rules`]).
 
+mod active_agents;
 mod anticipation;
 mod blindness;
 mod duration_recorder;
@@ -36,8 +37,10 @@ mod snapshot_log;
 mod task_watch;
 mod tracking;
 mod verdict;
+mod waits;
 mod watched;
 
+pub use active_agents::ActiveAgents;
 pub use anticipation::Anticipation;
 pub use duration_recorder::{DurationRecorder, INTERVAL_NS, histogram, percentiles};
 pub use faults::Faults;
@@ -57,4 +60,5 @@ pub use rules::{Rules, RulesError};
 pub use snapshot_log::SnapshotLog;
 pub use task_watch::TaskWatch;
 pub use tracking::Tracking;
+pub use waits::Waits;
 pub use watched::Watched;

@@ -3,7 +3,7 @@ use crate::latencies::replace;
 use crate::plots::{anticipation_timeline, percentile_curve};
 use crate::{
     Anticipation, Faults, Findings, JointMotion, Latencies, MonitorError, Reaction, Rules, SnapshotLog,
-    TaskWatch, Tracking, Watched,
+    TaskWatch, Tracking, Waits, Watched,
 };
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, NONE, Pulse, Refusal, SensorSample, Speech, Truth, topic};
@@ -39,6 +39,7 @@ pub struct Monitor {
     events: RunLog<Event>,
     anticipation: Anticipation,
     watch: TaskWatch,
+    waits: Waits,
     faults: Faults,
     blindness: Blindness,
     motion: JointMotion,
@@ -90,6 +91,7 @@ impl Monitor {
         let actions = events.records().iter().filter_map(Event::as_action);
         anticipation.resume(actions.map(|action| action.action).max().unwrap_or(0));
         watch.resume(events.records());
+        let waits = Waits::new(&task);
         faults.resume(events.records());
         let (supervisor, snapshots) = (LogFollower::new(&report), SnapshotLog::open(&report, &task)?);
         let mut motion = JointMotion::new(limits, fresh);
@@ -118,6 +120,7 @@ impl Monitor {
             events,
             anticipation,
             watch,
+            waits,
             faults,
             blindness: Blindness::default(),
             motion,
@@ -177,6 +180,7 @@ impl Monitor {
         self.snapshots.truth(truth);
         if let Some(command) = &self.newest_command {
             self.separation.tick(truth, command);
+            self.waits.tick(truth, command, events);
         }
         self.waiting.push_back(*truth);
         self.catch_up(truth.header.cycle.saturating_sub(OVERDUE), events);
@@ -272,6 +276,7 @@ impl Monitor {
         let mut events = Vec::new();
         self.catch_up(u64::MAX, &mut events);
         self.anticipation.finish(&mut events);
+        self.waits.finish(&mut events);
         self.record(now_ns, events)?;
         let mut open_faults = Vec::new();
         self.faults.finish(&mut open_faults);

@@ -10,6 +10,8 @@ pub struct RecorderSettings {
     pub frames_every: u64,
     /// From one recorded command to the next.
     pub commands_every: u64,
+    /// From one recorded truth to the next.
+    pub truth_every: u64,
     /// From one recorded scene to the next.
     pub scene_every: u64,
 }
@@ -55,6 +57,7 @@ impl RecorderSettings {
         };
         within("frames_every", settings.frames_every, 1..=1000)?;
         within("commands_every", settings.commands_every, 1..=1000)?;
+        within("truth_every", settings.truth_every, 1..=1000)?;
         within("scene_every", settings.scene_every, 10..=1000)?;
         Ok(settings)
     }

@@ -1,5 +1,5 @@
 use crate::{Gaps, RecorderSettings};
-use coact_messages::{Command, FieldFrame, Percept, Pulse, SensorSample, Speech, topic};
+use coact_messages::{Command, FieldFrame, Percept, Pulse, SensorSample, Speech, Truth, topic};
 use coact_pipeline::{Pipeline, ProcessEntry, Trigger};
 use coact_realtime::{Bus, Input, Message, PortError};
 use coact_run_recording::Recorded;
@@ -11,9 +11,11 @@ pub struct Topics {
     frames: Input<FieldFrame>,
     commands: Input<Command>,
     speech: Input<Speech>,
+    truth: Input<Truth>,
     pulses: Vec<Pulses>,
     frames_due: Due,
     commands_due: Due,
+    truth_due: Due,
 }
 
 /// The pulses of one process.
@@ -59,9 +61,11 @@ impl Topics {
             frames: bus.input(topic::FIELDS)?,
             commands: bus.input(topic::COMMAND)?,
             speech: bus.input(topic::SPEECH)?,
+            truth: bus.input(topic::TRUTH)?,
             pulses,
             frames_due: Due { every: settings.frames_every, next: 0 },
             commands_due: Due { every: settings.commands_every, next: 0 },
+            truth_due: Due { every: settings.truth_every, next: 0 },
         })
     }
 
@@ -75,7 +79,18 @@ impl Topics {
         gaps: &mut Gaps,
         keep: &mut impl FnMut(Recorded) -> bool,
     ) -> Result<(), PortError> {
-        let Self { samples, percepts, frames, commands, speech, pulses, frames_due, commands_due } = self;
+        let Self {
+            samples,
+            percepts,
+            frames,
+            commands,
+            speech,
+            truth,
+            pulses,
+            frames_due,
+            commands_due,
+            truth_due,
+        } = self;
         each(samples, gaps, keep, |sample| Recorded::Sample(Box::new(*sample)))?;
         each(percepts, gaps, keep, |percept| Recorded::Percept(Box::new(*percept)))?;
         for Pulses { process, input, is_alone } in pulses {
@@ -99,7 +114,8 @@ impl Topics {
             gaps,
             keep,
             |command| Recorded::Command(Box::new(*command)),
-        )
+        )?;
+        some(truth, |cycle| truth_due.is_due(cycle), gaps, keep, |truth| Recorded::Truth(Box::new(*truth)))
     }
 }
 

@@ -35,6 +35,7 @@
 mod dynamics;
 mod error;
 mod hand_recording;
+mod laid_out;
 mod palm;
 mod parts;
 mod replay;
@@ -49,6 +50,7 @@ mod world;
 
 pub use error::WorldError;
 pub use hand_recording::HandRecording;
+pub use laid_out::laid_out;
 pub use replay::{METRES_PER_PIXEL, Replay, Span, has_part_for};
 pub use resume_error::ResumeError;
 pub use scenario::Scenario;

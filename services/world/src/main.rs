@@ -13,7 +13,7 @@ use coact_realtime::{Candidate, Cycle, DropOuts, Input, Output, PortError, Tick,
 use coact_recordings::{Order, read_folder};
 use coact_robot::Robot;
 use coact_safety::{DriveLimits, SafetyLimits};
-use coact_world::{Partner, Replay, Settings, World, has_part_for};
+use coact_world::{Partner, Replay, Settings, World, has_part_for, laid_out};
 use outside_input::OutsideInput;
 use std::path::Path;
 use stop_input::StopInput;
@@ -180,5 +180,5 @@ fn world(run: &RunSettings, drive: DriveLimits) -> anyhow::Result<World> {
     let robot = Robot::load(&run.robot)?;
     let partner = Partner::load(&run.partner, &task, run.seed)?;
     let settings = Settings { seed: run.seed, partner, mode: run.world, drive };
-    Ok(World::new(&task, &robot, settings)?)
+    Ok(World::new(&laid_out(&task, run.layout)?, &robot, settings)?)
 }

@@ -3,7 +3,7 @@
 use crate::{
     ArmPath, Command, Decision, DriveReport, FieldFrame, HandPercept, HandView, Header, Heard, JointReading,
     Keypoint, LayerTable, PathKnot, Percept, PersonArm, Pulse, SceneView, SensorSample, Sighting, Speech,
-    TrackedPoint, WorkspacePercept,
+    TrackedPoint, Truth, WorkspacePercept,
 };
 use std::fmt;
 
@@ -172,4 +172,8 @@ described! {
         refused, refused_topic, reserved
     }
     Speech { header, length, text }
+    Truth {
+        header, actions, phase, chain, subgoal, onset_cycle, grasp_cycle, achieved, assemblies, error, waiting, hidden, reserved,
+        joints, arm, held
+    }
 }

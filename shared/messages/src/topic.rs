@@ -173,8 +173,8 @@ pub const ALL: [TopicEntry; 12] = [
         name: TRUTH,
         message: "Truth",
         writers: &["world"],
-        // Who measures, and who shows. Nobody who decides.
-        readers: &["monitor", "console"],
+        // Who measures, who records, and who shows. Nobody who decides.
+        readers: &["monitor", "recorder", "console"],
         closed: true,
         depth: EVERY_CYCLE,
         ..PLAIN

@@ -3,7 +3,7 @@ use crate::{Flaw, Header, JOINTS, MAX_POPULATIONS, Plausible, WORKSPACES};
 use bytemuck::{CheckedBitPattern, NoUninit, Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
-/// What really happens, for the monitor alone: no other service may subscribe to this topic (1 kHz).
+/// What really happens, for who measures, records and shows: nobody who decides may subscribe to this topic (1 kHz).
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
 #[type_name("coact::Truth")]

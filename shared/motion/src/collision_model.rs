@@ -84,6 +84,12 @@ impl CollisionModel {
         out.extend(moving.map(|link| link.bounding_capsule.within(&frames.carrier(link))));
     }
 
+    /// Where the forms of all links stand in the world, for a posture of the arm.
+    pub fn places(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Isometry3<f64>> {
+        let frames = Frames::of(mechanism, posture);
+        self.links.iter().map(|link| frames.carrier(link) * link.place).collect()
+    }
+
     /// Bounding capsules of all links in the world, for a posture of the arm.
     pub fn bounding_capsules(&self, mechanism: &Mechanism, posture: &Posture) -> Vec<Capsule> {
         let frames = Frames::of(mechanism, posture);

@@ -30,6 +30,7 @@
 //! # Ok::<(), coact_pipeline::PipelineError>(())
 //! ```
 
+mod layout;
 mod membership;
 mod memory_reserve;
 mod owner;
@@ -47,6 +48,7 @@ mod run_settings;
 mod shared_memory;
 mod trust;
 
+pub use layout::Layout;
 pub use membership::Membership;
 pub use memory_reserve::MemoryReserve;
 pub use owner::Owner;

@@ -1,3 +1,4 @@
+use crate::Layout;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -25,6 +26,9 @@ pub struct RunSettings {
     /// The partner: `synthetic`, `script:FILE`, `recorded:DIR`, `recorded:FILE.mcap`, `left-arm:FILE`, `right-arm:FILE` or `hand`; or `replay:PARTICIPANT:DIR`, a person's recorded
     /// reaches, played to the sensors in place of a world.
     pub partner: String,
+    /// Where the parts lie when an assembly begins.
+    #[serde(default)]
+    pub layout: Layout,
     /// How the world computes.
     pub world: WorldMode,
     /// How long the run lasts; without it, until all subgoals are achieved, or the supervisor has waited long enough.
@@ -51,6 +55,7 @@ impl RunSettings {
             report: PathBuf::new(),
             seed: 1,
             partner: "synthetic".into(),
+            layout: Layout::Task,
             world: WorldMode::Physics,
             duration: None,
             requested: Vec::new(),

@@ -38,6 +38,8 @@ pub enum Stream {
     Handover = 8,
     /// Where a recorded arm is put.
     Placement = 9,
+    /// Where parts lie when an assembly begins.
+    Layout = 10,
 }
 
 /// The random generators of one run.

@@ -1,5 +1,5 @@
 use coact_messages::{
-    Command, Described, Description, FieldFrame, Percept, Pulse, SensorSample, Speech, topic,
+    Command, Described, Description, FieldFrame, Percept, Pulse, SensorSample, Speech, Truth, topic,
 };
 
 /// The messages that a recording holds as they are.
@@ -20,6 +20,7 @@ impl MessageKind {
             "Command" => Command::description(),
             "Pulse" => Pulse::description(),
             "Speech" => Speech::description(),
+            "Truth" => Truth::description(),
             _ => return None,
         };
         Some(Self { name, description })

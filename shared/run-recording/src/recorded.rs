@@ -1,5 +1,5 @@
 use bytemuck::{Pod, bytes_of, bytes_of_mut, zeroed_box};
-use coact_messages::{Command, FieldFrame, Header, Percept, Pulse, SensorSample, Speech, topic};
+use coact_messages::{Command, FieldFrame, Header, Percept, Pulse, SensorSample, Speech, Truth, topic};
 
 /// One message of a run, with the bits that it had.
 #[derive(Debug, Clone)]
@@ -21,6 +21,8 @@ pub enum Recorded {
     },
     /// What the robot said.
     Speech(Box<Speech>),
+    /// What the simulation knew and no sensor told; recordings of before it was recorded have none.
+    Truth(Box<Truth>),
 }
 
 impl Recorded {
@@ -33,6 +35,7 @@ impl Recorded {
             Self::Command(_) => topic::COMMAND.to_owned(),
             Self::Pulse { process, .. } => topic::pulse(process),
             Self::Speech(_) => topic::SPEECH.to_owned(),
+            Self::Truth(_) => topic::TRUTH.to_owned(),
         }
     }
 
@@ -45,6 +48,7 @@ impl Recorded {
             Self::Command(command) => bytes_of(&**command),
             Self::Pulse { pulse, .. } => bytes_of(&**pulse),
             Self::Speech(speech) => bytes_of(&**speech),
+            Self::Truth(truth) => bytes_of(&**truth),
         }
     }
 
@@ -57,6 +61,7 @@ impl Recorded {
             Self::Command(command) => &command.header,
             Self::Pulse { pulse, .. } => &pulse.header,
             Self::Speech(speech) => &speech.header,
+            Self::Truth(truth) => &truth.header,
         }
     }
 
@@ -68,6 +73,7 @@ impl Recorded {
             topic::FIELDS => boxed(bytes).map(Self::Frame),
             topic::COMMAND => boxed(bytes).map(Self::Command),
             topic::SPEECH => boxed(bytes).map(Self::Speech),
+            topic::TRUTH => boxed(bytes).map(Self::Truth),
             _ => {
                 let process = name.strip_prefix(&topic::pulse(""))?.to_owned();
                 boxed(bytes).map(|pulse| Self::Pulse { process, pulse })

@@ -1,4 +1,4 @@
-use crate::{ActionEvent, FaultEvent, Record};
+use crate::{ActionEvent, FaultEvent, Record, WaitEvent};
 use serde::{Deserialize, Serialize};
 
 /// One line of the event log, `events.jsonl`: what happened in a run. Times are ms from its start.
@@ -47,6 +47,8 @@ pub enum Event {
     },
     /// One of the partner's actions was answered, or not.
     Action(ActionEvent),
+    /// One of the two waited for the other (truth).
+    Wait(WaitEvent),
     /// A fault, and how the set came over it.
     Fault(FaultEvent),
     /// The monitor did not see what happened: it stood still for so long, or was restarted, that messages were lost.
@@ -67,6 +69,14 @@ impl Event {
     pub fn as_action(&self) -> Option<&ActionEvent> {
         match self {
             Self::Action(action) => Some(action),
+            _ => None,
+        }
+    }
+
+    /// The wait that the event is about, if it is about one.
+    pub fn as_wait(&self) -> Option<&WaitEvent> {
+        match self {
+            Self::Wait(wait) => Some(wait),
             _ => None,
         }
     }

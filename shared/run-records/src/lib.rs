@@ -56,6 +56,7 @@ mod summary;
 mod supervisor_event;
 mod task_report;
 mod tracking_report;
+mod wait_event;
 
 pub use action_event::ActionEvent;
 pub use anticipation_report::{AnticipationReport, LeadPercentiles};
@@ -81,3 +82,4 @@ pub use summary::Summary;
 pub use supervisor_event::{SupervisorEvent, SupervisorEventKind};
 pub use task_report::{Decided, Said, TaskReport};
 pub use tracking_report::TrackingReport;
+pub use wait_event::{WaitEvent, Waiting};

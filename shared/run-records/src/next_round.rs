@@ -1,15 +1,18 @@
+use coact_pipeline::Layout;
 use serde::{Deserialize, Serialize};
 use std::io::{ErrorKind, Write};
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 
-/// Another run that somebody at a page wants after this one: of which task, and at which address its console is to be found.
+/// Another run that somebody at a page wants after this one: of which task, how it is laid out, and at which address its console is to be found.
 ///
 /// Whoever ends the run leaves it in the report's folder; `coact launch` takes it from there.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NextRound {
     /// The task's file.
     pub task: PathBuf,
+    /// Where its parts lie.
+    pub layout: Layout,
     /// Port and token of its console: the page that asked for it looks for it there.
     pub port: u16,
     /// See `port`.
@@ -59,7 +62,12 @@ mod tests {
     fn what_is_left_is_taken_once_and_nobody_else_can_read_it() {
         let report = tempfile::tempdir().unwrap();
         assert_eq!(NextRound::take(report.path()).unwrap(), None);
-        let next = NextRound { task: "a.toml".into(), port: 7411, token: "secret".into() };
+        let next = NextRound {
+            task: "a.toml".into(),
+            layout: Layout::Random(5),
+            port: 7411,
+            token: "secret".into(),
+        };
         next.leave(report.path()).unwrap();
         next.leave(report.path()).unwrap();
         let mode = report.path().join(NextRound::FILE).metadata().unwrap().permissions().mode();

@@ -73,7 +73,11 @@ impl TaskReport {
                 Event::Utterance { at_ms, text } => {
                     report.utterances.push(Said { at_s: seconds(at_ms), text: text.clone() });
                 }
-                Event::Forgotten { .. } | Event::Action(_) | Event::Fault(_) | Event::Blind { .. } => {}
+                Event::Forgotten { .. }
+                | Event::Action(_)
+                | Event::Wait(_)
+                | Event::Fault(_)
+                | Event::Blind { .. } => {}
             }
         }
         let furthest = assemblies.into_values().rev().max_by_key(Vec::len);

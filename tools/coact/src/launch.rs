@@ -4,12 +4,12 @@ use crate::{closed_pipe, console, lockstep, partner, run_report, snapshots};
 use anyhow::{Result, ensure};
 use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
-use coact_pipeline::{Pipeline, RunSettings, WorldMode};
+use coact_pipeline::{Layout, Pipeline, RunSettings, WorldMode};
 use coact_robot::Robot;
 use coact_run_records::{NextRound, Record, Snapshot};
 use coact_safety::SafetyLimits;
 use coact_supervisor::{Ending, Injection, Launch, LaunchError};
-use coact_world::Partner;
+use coact_world::{Partner, laid_out};
 use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -33,6 +33,7 @@ const SITTING: Duration = Duration::from_secs(3600);
   coact launch --partner hand                         a hand from outside; see coact hand --help
   coact launch --console                              build with the robot yourself, in a browser
   coact launch --console --partner random             watch there how a simulated person does
+  coact launch --layout random:7                      parts elsewhere; the same places each time
   coact launch --lockstep --world kinematic --json    as fast as the machine can
 
 Exit status: 0 the work was done (with --strict: in time, too), 1 it was not, 2 bad usage or configuration.")]
@@ -60,6 +61,10 @@ pub struct Args {
     /// How the world computes: physics, or kinematic (same sensors and truth, no contact forces)
     #[arg(long, default_value = "physics")]
     world: WorldMode,
+    /// Where the parts lie at the start: task (as it has them), random:SEED (anywhere in the workspace in which the task has
+    /// them, 6 cm apart), or random, which takes the seed of --seed
+    #[arg(long, value_name = "task|random[:SEED]", default_value = "task")]
+    layout: String,
     /// A fault, as in fields:kill@20s; may be repeated (coact inject --help lists them)
     #[arg(long, value_name = "PROCESS:FAULT@TIME")]
     inject: Vec<Injection>,
@@ -111,14 +116,15 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
 }
 
-/// The run that somebody at the console wants after this one, if anybody does: of the task that was chosen, with all else as before.
+/// The run that somebody at the console wants after this one, if anybody does: of the task and the layout that were chosen, with all else as before.
 fn next_round(before: RunSettings) -> Result<Option<Launch>> {
     let Some(next) = NextRound::take(&before.report)? else { return Ok(None) };
     let report = unused_report_folder(before.report.parent().unwrap_or(Path::new("reports")));
-    let settings = RunSettings { task: next.task.clone(), report, ..before };
+    let settings = RunSettings { task: next.task.clone(), layout: next.layout, report, ..before };
     std::fs::create_dir_all(&settings.report)?;
     next.leave(&settings.report)?;
     let (task, _) = NetworkPlan::load(&settings.task)?;
+    laid_out(&task, settings.layout)?;
     let (pipeline, programs) = (Pipeline::of_run(&settings)?, Installation::programs()?);
     Ok(Some(Launch { pipeline, settings, task, programs, injections: Vec::new() }))
 }
@@ -161,6 +167,11 @@ fn prepare(args: Args) -> Result<Launch> {
     if args.console {
         console::program()?;
     }
+    let layout = Layout::parse(&args.layout, args.seed).map_err(anyhow::Error::msg)?;
+    ensure!(
+        layout == Layout::Task || !partner.starts_with("script:"),
+        "--layout {layout} with --partner {partner}: a script arranges its scene itself; expected one of the two"
+    );
     let settings = RunSettings {
         task: absolute(args.task.unwrap_or(shipped.task))?,
         pipeline: absolute(args.pipeline.unwrap_or(shipped.pipeline))?,
@@ -168,12 +179,14 @@ fn prepare(args: Args) -> Result<Launch> {
         report: absolute(args.report.unwrap_or_else(|| unused_report_folder(Path::new("reports"))))?,
         seed: args.seed,
         partner: partner::setting(&partner, &reaches),
+        layout,
         world: args.world,
         duration: args.duration.or(sits.then_some(SITTING)),
         requested: requested.collect(),
         ..shipped
     };
     let (task, _) = NetworkPlan::load(&settings.task)?;
+    laid_out(&task, settings.layout)?;
     Robot::load(&settings.robot)?;
     SafetyLimits::load(&settings.safety)?;
     PreshapeModel::load(&settings.model)?;

@@ -1,4 +1,4 @@
-use crate::active_agents::ActiveAgents;
+use coact_monitor::ActiveAgents;
 use serde::Serialize;
 
 /// How fluently two agents work together, after Hoffman (2019), "Evaluating fluency in human-robot collaboration", IEEE
@@ -37,7 +37,7 @@ pub(crate) struct FluencyCounter {
 
 impl FluencyCounter {
     pub fn tick(&mut self, agents: ActiveAgents) {
-        let ActiveAgents { active, person_waits } = agents;
+        let ActiveAgents { active, waits: [_, person_waits] } = agents;
         let now = self.ticks;
         self.ticks += 1;
         self.robot_idle += u64::from(!active[0]);
@@ -90,7 +90,7 @@ mod tests {
     fn fluency(robot: &str, person: &str) -> Fluency {
         let mut counter = FluencyCounter::default();
         for (robot, person) in robot.chars().zip(person.chars()) {
-            counter.tick(ActiveAgents { active: [robot == '#', person == '#'], person_waits: false });
+            counter.tick(ActiveAgents { active: [robot == '#', person == '#'], waits: [false; 2] });
         }
         counter.fluency()
     }

@@ -6,7 +6,6 @@
 //!
 //! An [`Encounter`] is the working robot beside a recorded person's arm, to measure how near they come.
 
-mod active_agents;
 mod campaign;
 mod comparison;
 mod encounter;

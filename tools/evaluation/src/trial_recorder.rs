@@ -1,10 +1,9 @@
-use crate::active_agents::ActiveAgents;
 use crate::fluency::FluencyCounter;
 use crate::trial::{Alarm, Detection, DoublePeak, ErrorKind, Inference, PartnerAction, Trial};
 use coact_joint_task::{Act, NetworkPlan, Population, Role, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
-use coact_monitor::{Anticipation, Intentions};
+use coact_monitor::{ActiveAgents, Anticipation, Intentions};
 use coact_run_records::{Event, SeparationReport};
 use coact_separation::SeparationMeter;
 

@@ -61,9 +61,9 @@ pub fn run(
     let mut voice = Voice::new(stages.task(), Meanings::from(stages.plan()));
     let most = (duration.unwrap_or(LONGEST).as_nanos() / u128::from(PERIOD_NS)) as u64;
     let (started, mut end) = (Instant::now(), most);
+    let mut events = Vec::new();
     while stages.ticks() < end {
         stages.step();
-        let mut events = Vec::new();
         monitor.truth(&stages.truth, &mut events);
         monitor.joints(&stages.sample);
         if stages.ticks() % LOOK_EVERY != 0 {
@@ -76,7 +76,7 @@ pub fn run(
         if let Some(sentence) = &sentence {
             monitor.speech(&speech(sentence), &mut events);
         }
-        monitor.record(0, events)?;
+        monitor.record(0, std::mem::take(&mut events))?;
         progress(&stages, sentence.as_ref());
         if duration.is_none() && end == most && stages.complete() {
             end = most.min(stages.ticks() + AFTER_COMPLETION);

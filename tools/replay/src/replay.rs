@@ -72,7 +72,7 @@ impl Replay {
             },
             Recorded::Percept(percept) => self.percept(&percept),
             Recorded::Frame(frame) => self.frame(&frame),
-            Recorded::Command(_) | Recorded::Speech(_) => {}
+            Recorded::Command(_) | Recorded::Speech(_) | Recorded::Truth(_) => {}
         }
     }
 
