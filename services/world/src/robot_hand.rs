@@ -37,6 +37,9 @@ const GRIP_FORCE: (f64, f64) = (2.0, 40.0);
 const GRASPED_FORCE: f64 = 0.5;
 /// Measured force below which the held part counts as lost, N: less than the above, or it would come and go.
 const LOST_FORCE: f64 = 0.1;
+/// The same while the fingers are told to open, N. Chosen by hand: friction still carries each part with it, so that none falls before
+/// it is let go; with ten times as much it would stand fast between fingers that squeeze it.
+const RELEASED_FORCE: f64 = 2.0;
 /// For how long the force must say that a part is grasped before it is, cycles.
 const GRASPED_TIME: u64 = cycles(Duration::from_millis(10));
 /// For how long the force must say that the held part is lost before it is, cycles: as long as the force sensor averages.
@@ -120,15 +123,14 @@ impl RobotHand {
         task: &Task,
     ) {
         let held = state.held.get();
+        let opens = grip.is_none() || state.commanded_closure < state.tightest - OPENED;
+        let least = if opens { RELEASED_FORCE } else { LOST_FORCE };
         let lost = held.filter(|&part| match grip {
-            Some(grip) => lasts(state, grip.force_on(part) < LOST_FORCE, LOST_TIME),
+            Some(grip) => lasts(state, grip.force_on(part) < least, LOST_TIME),
             None => palm.finger_closure < self.angles[parts.kind(part)].release,
         });
         match (lost, grip) {
-            (Some(part), _) => {
-                let opened = grip.is_none() || state.commanded_closure < state.tightest - OPENED;
-                let_go(part, opened, state, person_holds, parts, task);
-            }
+            (Some(part), _) => let_go(part, opens, state, person_holds, parts, task),
             (None, Some(grip)) if held.is_none() => {
                 let grasped = grip.part.filter(|part| !parts.is(*part, Holder::Socket));
                 let grasped = grasped.filter(|_| lasts(state, grip.force > GRASPED_FORCE, GRASPED_TIME));
