@@ -195,6 +195,11 @@ impl RunningChild {
         waitid(WaitId::PidFd(self.pidfd.as_fd()), stopped).is_ok_and(|status| status.is_some())
     }
 
+    /// Whether its main thread runs, or would if it had a core.
+    pub(crate) fn is_runnable(&self) -> bool {
+        ProcessStat::of(self.pid()).is_ok_and(|stat| stat.is_runnable)
+    }
+
     /// The time that it has computed for; `None` when it is dead.
     pub fn computed(&self) -> Option<Duration> {
         let mut clock = 0;

@@ -6,6 +6,9 @@ use std::time::{Duration, SystemTime};
 
 /// Who computes for this fraction of the time has its core for itself. Chosen by hand: interrupts take the rest.
 const BUSY: f64 = 0.8;
+/// Who would compute, and does for less than this fraction of the time, has no core. Chosen by hand: what hangs in a loop on a core that
+/// several share computes for longer.
+const STARVED: f64 = 0.1;
 
 /// What is known of a running process. Times are of `CLOCK_MONOTONIC`.
 #[derive(Debug)]
@@ -23,6 +26,8 @@ pub(crate) struct Running {
     pub(crate) is_realtime: bool,
     /// Its newest heartbeat, if it has any.
     pub(crate) heartbeat: Option<SystemTime>,
+    /// The time that it had computed for by then.
+    computed_by_heartbeat: Option<Duration>,
     /// Why the watchdog killed it, if it did.
     pub(crate) kill_reason: Option<KillReason>,
     /// When a process that was stopped by a fault is continued.
@@ -43,6 +48,7 @@ impl Running {
             watched_closely: None,
             is_realtime: false,
             heartbeat: None,
+            computed_by_heartbeat: None,
             kill_reason: None,
             continue_at: None,
             at_start,
@@ -54,6 +60,20 @@ impl Running {
         self.last_sign = watched;
         self.has_pulsed = true;
         self.watched_closely = None;
+    }
+
+    /// Its heartbeat is a new one.
+    pub(crate) fn beats(&mut self, beat: SystemTime, watched: Duration) {
+        self.heartbeat = Some(beat);
+        self.computed_by_heartbeat = self.child.computed();
+        self.last_sign = watched;
+    }
+
+    /// Whether others have had its core since its last heartbeat, `silence` ago.
+    pub(crate) fn starves(&self, silence: Duration) -> bool {
+        let computed = self.child.computed().zip(self.computed_by_heartbeat);
+        let computed = computed.map(|(now, then)| now.saturating_sub(then));
+        computed.is_some_and(|computed| computed < silence.mul_f64(STARVED)) && self.child.is_runnable()
     }
 
     /// How long it may be silent whose `limit` of silence is this, if it certainly hangs: it is stopped, or it computes without end.

@@ -66,6 +66,8 @@ impl Supervised {
     /// A process that follows the run at its own pace shows a sign of life ten times a second; one that has shown none for
     /// so long hangs. Chosen by hand.
     const HEARTBEAT_WITHIN: Duration = Duration::from_secs(1);
+    /// The same of one that would go on but has no core: to kill and replace it would take more of what it lacks. Chosen by hand.
+    const STARVED_WITHIN: Duration = Duration::from_secs(10);
 
     pub(crate) fn new(spec: ProcessSpec) -> Self {
         Self {
@@ -206,19 +208,21 @@ impl Supervised {
         let Lifecycle::Running(running) = &mut self.lifecycle else { return };
         let Ok(beat) = std::fs::metadata(file).and_then(|metadata| metadata.modified()) else { return };
         if running.heartbeat != Some(beat) {
-            running.heartbeat = Some(beat);
-            running.last_sign = watched;
+            running.beats(beat, watched);
         }
     }
 
-    /// Kills it when its heartbeat stopped.
+    /// Kills it when its heartbeat stopped; when it only has no core, later.
     pub(crate) fn watch_heartbeat(&mut self, watched: Duration) {
         let Some(running) = self.running_mut().filter(|running| running.ready && running.heartbeat.is_some())
         else {
             return;
         };
-        if watched.saturating_sub(running.last_sign) > Self::HEARTBEAT_WITHIN {
-            running.kill(KillReason::NoHeartbeat(Self::HEARTBEAT_WITHIN));
+        let silence = watched.saturating_sub(running.last_sign);
+        let starves = silence > Self::HEARTBEAT_WITHIN && running.starves(silence);
+        let limit = if starves { Self::STARVED_WITHIN } else { Self::HEARTBEAT_WITHIN };
+        if silence > limit {
+            running.kill(KillReason::NoHeartbeat(limit));
         }
     }
 

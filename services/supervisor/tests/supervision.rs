@@ -238,6 +238,35 @@ fn a_process_whose_heartbeat_stops_is_replaced_and_one_that_never_had_any_is_not
     assert_eq!(trial.count(SupervisorEventKind::Died, "b"), 0);
 }
 
+/// Ends a program with the test.
+struct Hog(std::process::Child);
+
+impl Drop for Hog {
+    fn drop(&mut self) {
+        self.0.kill().unwrap();
+        self.0.wait().unwrap();
+    }
+}
+
+#[test]
+fn a_process_whose_heartbeat_stops_because_others_have_its_core_is_waited_for() {
+    let begins = "touch \"$READY\"; for beat in 1 2 3; do touch \"$DIR/a.heartbeat\"; sleep 0.1; done;";
+    let forever = "while :; do :; done";
+    // Beside anything else on its core, it gets a three hundredth of it.
+    let starves = format!("{begins} exec taskset -c 0 chrt -i 0 sh -c '{forever}'");
+    let hog = std::process::Command::new("taskset").args(["-c", "0", "sh", "-c", forever]).spawn().unwrap();
+    let hog = Hog(hog);
+    let mut trial = Trial::of(&[("a", &starves)]);
+    trial.run_until_ready();
+    let begin = Instant::now();
+    trial.until(&mut (), |_| begin.elapsed() > Duration::from_secs(4)).unwrap();
+    assert_eq!(trial.count(SupervisorEventKind::Died, "a"), 0, "{:?}", trial.events);
+    drop(hog);
+    trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Died, "a") == 1).unwrap();
+    let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
+    assert_eq!(died.reason.as_deref(), Some("hung: no heartbeat for more than 1000 ms"));
+}
+
 #[test]
 fn a_replacement_that_is_stuck_in_its_start_is_replaced_after_ten_times_the_usual() {
     let stuck_once =

@@ -1,5 +1,6 @@
 use anyhow::Context;
 use coact_messages::{HandPoints, Refusal, Speech, topic};
+use coact_period::PERIOD;
 use coact_pipeline::Run;
 use coact_realtime::{Bus, Input, Message, Refusals};
 use std::sync::Arc;
@@ -52,7 +53,7 @@ impl OutsideInput<Speech> {
 impl OutsideInput<HandPoints> {
     /// Begins to listen to [`topic::HAND`] of `run`; what is not passed on is counted in `refusals`.
     ///
-    /// It looks twice as often as a camera of 120 Hz tells. What a pipe or a busy machine held up may come at once: as much as
+    /// It looks in every cycle: whoever moves the hand sees it follow. What a pipe or a busy machine held up may come at once: as much as
     /// is not too old to count.
     ///
     /// # Errors
@@ -61,7 +62,7 @@ impl OutsideInput<HandPoints> {
         let listening = Listening {
             topic: topic::HAND,
             names: ["world-hand-input", "hand input"],
-            look_every: Duration::from_millis(4),
+            look_every: PERIOD,
             spacing: Duration::from_nanos(1_000_000_000 / HandPoints::FASTEST),
             ahead: HandPoints::LIFETIME,
         };

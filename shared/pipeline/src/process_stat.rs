@@ -9,6 +9,8 @@ pub struct ProcessStat {
     pub started: u64,
     /// Whether a signal has stopped it (SIGSTOP), or a debugger.
     pub is_stopped: bool,
+    /// Whether its main thread runs, or would if it had a core.
+    pub is_runnable: bool,
     /// How it ends, once it does, as wait(2) encodes it; 0 before, and to those who may not know.
     pub exit_code: i32,
 }
@@ -35,7 +37,8 @@ impl ProcessStat {
         let started = fields.nth(18)?.parse().ok()?;
         // Field 52.
         let exit_code = fields.nth(29).and_then(|code| code.parse().ok()).unwrap_or(0);
-        Some(Self { started, is_stopped: matches!(state, "T" | "t"), exit_code })
+        let (is_stopped, is_runnable) = (matches!(state, "T" | "t"), state == "R");
+        Some(Self { started, is_stopped, is_runnable, exit_code })
     }
 }
 
@@ -47,8 +50,10 @@ mod tests {
     #[test]
     fn it_is_read_behind_a_name_that_contains_anything() {
         let text = "7 (a) T (b 1) T 1 7 7 0 -1 4194560 1 0 0 0 0 0 0 0 20 0 1 0 98765 1 2 3";
-        let mut expected = ProcessStat { started: 98765, is_stopped: true, exit_code: 0 };
+        let mut expected = ProcessStat { started: 98765, is_stopped: true, is_runnable: false, exit_code: 0 };
         assert_eq!(ProcessStat::parse(text), Some(expected));
+        let running = ProcessStat { is_stopped: false, is_runnable: true, ..expected };
+        assert_eq!(ProcessStat::parse(&text.replacen(") T 1", ") R 1", 1)), Some(running));
         expected.exit_code = 9;
         assert_eq!(ProcessStat::parse(&format!("{text}{} 9\n", " 5".repeat(26))), Some(expected));
         for bad in ["", "7 (a", "7 (a) R 1 2", "7 (a) R 1 7 7 0 -1 4 1 0 0 0 0 0 0 0 20 0 1 0 soon 1"] {
@@ -59,7 +64,7 @@ mod tests {
     #[test]
     fn a_process_keeps_its_start_for_as_long_as_it_lives() {
         let own = ProcessStat::of(std::process::id()).unwrap();
-        assert_eq!(ProcessStat::of(std::process::id()).unwrap(), own);
+        assert_eq!(ProcessStat::of(std::process::id()).unwrap().started, own.started);
         assert!(own.started > 0 && !own.is_stopped);
         assert!(ProcessStat::of(u32::MAX).is_err());
     }

@@ -17,11 +17,12 @@ const ACCELERATION: f64 = 1.05;
 
 /// A wheel that met the end of its axle was pressed against it, until it gave way: 15 times the wrist's limit. Fingers that were
 /// planned to be as far closed as they were told, not as the part in them let them, struck the base; and a hand that steadied it was
-/// pushed aside by the part that the person mounted.
+/// pushed aside by the part that the person mounted. The person's part was drawn through a finger with whatever force that took; and a
+/// nut that two fingers still pinched was mounted, and stood fast between them, or fell beside its axle before it was let go.
 #[test]
 fn parts_are_put_into_their_places_within_the_joints_limits() {
     let config = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
-    for seed in [1, 4, 5, 9, 12, 106, 107, 211, 212, 321] {
+    for seed in [3, 5, 9, 12, 102, 106, 107, 211, 321, 324, 330, 532] {
         let settings = RunSettings { seed, world: WorldMode::Physics, ..RunSettings::shipped(&config) };
         let limits = Robot::load(&settings.robot).unwrap().limits()[..ARM_JOINTS].to_vec();
         let mut motion = JointMotion::new(limits, Duration::from_secs(1));
