@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn closed_topics_have_no_places_for_viewers() {
-        assert_eq!(readers(topic::TRUTH), 2 * (2 + SECOND_READER));
+        assert_eq!(readers(topic::TRUTH), 2 * (3 + SECOND_READER));
         assert_eq!(readers(topic::FIELDS), 2 * (7 + 2 + SECOND_READER) + VIEWERS);
     }
 }
