@@ -5,7 +5,7 @@ const HEAD = 16;
 /** Numbers of each section for these sizes, in the order in which they are sent. */
 function sections({ forms, parts, path, populations }) {
   return {
-    links: forms * 7,
+    robot: forms * 7,
     parts: parts * 9,
     keypoints: 9 * 4,
     arm: 4 * 5,
@@ -21,7 +21,7 @@ function sections({ forms, parts, path, populations }) {
 /**
  * @param {ArrayBuffer} bytes
  * @param {{forms: number, parts: number, path: number, populations: number}} sizes
- * @returns {null | {past: boolean, at: number, links: Float32Array, parts: Float32Array, keypoints: Float32Array,
+ * @returns {null | {past: boolean, at: number, robot: Float32Array, parts: Float32Array, keypoints: Float32Array,
  *   arm: Float32Array, truth: Float32Array, path: Float32Array, nearest: Float32Array, expected: Float32Array,
  *   state: object, populations: Float32Array, sites: Float32Array}} null when it is none of this run
  */

@@ -110,11 +110,11 @@ export class Scene {
     if (onTable) this.forms.shape({ cylinder: { radius, height: 0.001 } }, [x, y, table.height + 0.001], UPRIGHT, [0, 0, 0], 0.28);
   }
 
-  #putRobot({ links, state }) {
+  #putRobot({ robot, state }) {
     const colour = rgb(state.stopped ? VERMILION : "#7b8796");
     this.hello.robot.forEach((form, index) => {
-      const place = placeAt(links, 7 * index);
-      if (place) this.forms.centred(form, place, links.subarray(7 * index + 3, 7 * index + 7), colour);
+      const place = placeAt(robot, 7 * index);
+      if (place) this.forms.centred(form, place, robot.subarray(7 * index + 3, 7 * index + 7), colour);
     });
   }
 

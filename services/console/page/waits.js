@@ -13,8 +13,7 @@ export function waitsShown(waits, until) {
   place.id = "waits";
   for (const [who, words, name] of ROWS) {
     const { seconds, spans_ms, longest } = waits[who];
-    const bar = element("div", "");
-    bar.className = `bar ${name}`;
+    const bar = element("div", "", `bar ${name}`);
     bar.setAttribute("role", "img");
     bar.setAttribute("aria-label", `${words} ${spans_ms.length} times in ${(until / 1000).toFixed(0)} s`);
     bar.append(...spans_ms.map(([from, to]) => span(from, to, until)));

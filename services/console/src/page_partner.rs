@@ -20,8 +20,6 @@ pub struct PagePartner {
     hand: PointerHand,
     around: Surroundings,
     pointed: Option<(Pointer, Instant)>,
-    /// The page has told of its pointer since the hand was shown.
-    is_news: bool,
     /// When the hand was shown last.
     shown: Instant,
     hands: Option<Output<HandPoints>>,
@@ -34,12 +32,12 @@ impl PagePartner {
         let hands = (settings.partner == RunSettings::HAND).then(|| bus.output(topic::HAND)).transpose()?;
         let speech = bus.output(topic::HEARD)?;
         let (hand, around) = (PointerHand::new(task), Surroundings::default());
-        Ok(Self { hand, around, pointed: None, is_news: false, shown: Instant::now(), hands, speech })
+        Ok(Self { hand, around, pointed: None, shown: Instant::now(), hands, speech })
     }
 
     pub fn take(&mut self, wish: Wish, cycle: u64) -> Result<(), PortError> {
         match wish {
-            Wish::Point(pointer) => (self.pointed, self.is_news) = (Some((pointer, Instant::now())), true),
+            Wish::Point(pointer) => self.pointed = Some((pointer, Instant::now())),
             Wish::Hide => self.pointed = None,
             Wish::Say(sentence) => {
                 let mut message = self.speech.loan()?;
@@ -52,21 +50,22 @@ impl PagePartner {
 
     /// How long until the hand is to be shown; long, while nobody points.
     pub fn hand_due_in(&self) -> Duration {
-        let after = if self.is_news { SOONEST } else { LATEST };
-        self.pointer().map_or(POINTED_WITHIN, |_| after.saturating_sub(self.shown.elapsed()))
+        let Some((_, told)) = self.pointed() else { return POINTED_WITHIN };
+        let after = if told > self.shown { SOONEST } else { LATEST };
+        after.saturating_sub(self.shown.elapsed())
     }
 
-    /// Where the page points, unless it is gone.
-    fn pointer(&self) -> Option<Pointer> {
-        self.pointed.filter(|(_, when)| when.elapsed() < POINTED_WITHIN).map(|(pointer, _)| pointer)
+    /// Where the page points, and when it told so, unless it is gone.
+    fn pointed(&self) -> Option<(Pointer, Instant)> {
+        self.pointed.filter(|(_, told)| told.elapsed() < POINTED_WITHIN)
     }
 
     /// Shows the hand to the tracker, when that is due and somebody points.
     pub fn show_hand(&mut self, task: &Task, seen: &Seen, cycle: u64) -> Result<(), PortError> {
-        let pointer = self.pointer().filter(|_| self.hand_due_in().is_zero());
-        let (Some(hands), Some(pointer)) = (&mut self.hands, pointer) else { return Ok(()) };
+        let pointed = self.pointed().filter(|_| self.hand_due_in().is_zero());
+        let (Some(hands), Some((pointer, _))) = (&mut self.hands, pointed) else { return Ok(()) };
         let step = self.shown.elapsed().min(MOVES).as_secs_f64();
-        (self.shown, self.is_news) = (Instant::now(), false);
+        self.shown = Instant::now();
         self.around.look(task, seen);
         let points = self.hand.step(&pointer, &self.around, step);
         let mut message = hands.loan()?;

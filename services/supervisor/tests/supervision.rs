@@ -8,7 +8,7 @@ use coact_run_records::{RunLog, SupervisorEvent, SupervisorEventKind};
 use coact_supervisor::{Checkpoints, Fault, InjectionRefusal, RunningChild};
 use rustix::process::{Pid, Signal};
 use std::time::{Duration, Instant};
-use trial::{Crowd, READY_AND_RUN, RecordedCalls, Trial, exists};
+use trial::{Crowd, READY_AND_RUN, RecordedCalls, Trial, exists, script};
 
 #[test]
 fn each_process_starts_when_those_before_it_are_ready() {
@@ -111,7 +111,7 @@ fn a_crash_loop_gives_the_set_up_in_a_crowd_too() {
 }
 
 #[test]
-fn a_replacement_that_finds_no_place_is_tried_again_until_there_is_one() {
+fn a_replacement_that_finds_no_place_is_tried_again_more_often_than_one_that_crashes() {
     let refused = "[ \"$COACT_GENERATION\" -gt 0 ] && exit 1; touch \"$READY\"; exec sleep 600";
     let mut trial = Trial::of(&[("a", refused)]);
     trial.run_until_ready();
@@ -238,24 +238,15 @@ fn a_process_whose_heartbeat_stops_is_replaced_and_one_that_never_had_any_is_not
     assert_eq!(trial.count(SupervisorEventKind::Died, "b"), 0);
 }
 
-/// Ends a program with the test.
-struct Hog(std::process::Child);
-
-impl Drop for Hog {
-    fn drop(&mut self) {
-        self.0.kill().unwrap();
-        self.0.wait().unwrap();
-    }
-}
-
 #[test]
 fn a_process_whose_heartbeat_stops_because_others_have_its_core_is_waited_for() {
     let begins = "touch \"$READY\"; for beat in 1 2 3; do touch \"$DIR/a.heartbeat\"; sleep 0.1; done;";
     let forever = "while :; do :; done";
     // Beside anything else on its core, it gets a three hundredth of it.
     let starves = format!("{begins} exec taskset -c 0 chrt -i 0 sh -c '{forever}'");
-    let hog = std::process::Command::new("taskset").args(["-c", "0", "sh", "-c", forever]).spawn().unwrap();
-    let hog = Hog(hog);
+    let folder = tempfile::tempdir().unwrap();
+    let hog = script(folder.path(), "hog", &format!("exec taskset -c 0 sh -c '{forever}'"));
+    let hog = RunningChild::spawn(&hog, 0, |_| ()).unwrap();
     let mut trial = Trial::of(&[("a", &starves)]);
     trial.run_until_ready();
     let begin = Instant::now();

@@ -76,9 +76,8 @@ fn a_column_is_carried_in_every_grip() {
     }
 }
 
-/// `cargo test -p coact-world --release nineteen_of_twenty -- --ignored --nocapture`
 #[test]
-#[ignore = "takes minutes, and tells figures"]
+#[ignore = "takes minutes: cargo test --release -p coact-world nineteen_of_twenty -- --ignored --nocapture"]
 fn nineteen_of_twenty_parts_of_each_kind_are_carried() {
     for kind in KINDS {
         let failures: Vec<_> = (0..20).filter_map(|seed| carry(kind, seed).err()).collect();
