@@ -32,6 +32,8 @@ pub(crate) struct BodyPart {
     speed: f64,
     acceleration: f64,
     most_speed: f64,
+    /// By how much its velocity is older than its position, s.
+    velocity_lag: f64,
     /// Where the arm's length binds it to, while the shoulder is seen and it is not.
     bound: Option<ArmBound>,
     /// Whether it may take or give a part in a handover.
@@ -131,6 +133,7 @@ impl BodyPart {
             speed,
             acceleration: limits.acceleration(rests, speed),
             most_speed: limits.hand_speed.max(speed),
+            velocity_lag: limits.velocity_lag.as_secs_f64(),
             bound: None,
             hands_over: false,
         }
@@ -148,10 +151,11 @@ impl BodyPart {
         self.growth(ahead) + self.speed * ahead
     }
 
-    /// How far it may be from there, m: by what it has accelerated since it was seen, at its greatest speed at most.
+    /// How far it may be from there, m: by what it has accelerated since it was seen, and what it had not yet been seen to be
+    /// faster by then, at its greatest speed at most.
     pub fn growth(&self, ahead: f64) -> f64 {
         let time = self.age + ahead;
-        (0.5 * self.acceleration * time * time).min(self.most_speed * time)
+        (self.acceleration * time * (0.5 * time + self.velocity_lag)).min(self.most_speed * time)
     }
 
     /// Whether it cannot come nearer than `within` m to this capsule at all, because the arm is no longer.
@@ -191,5 +195,38 @@ impl ArmBound {
         let time = self.age + ahead;
         let moved = (0.5 * self.acceleration * time * time).min(self.most_speed * time);
         self.shoulder.distance(capsule) - moved
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coact_safety::SafetyLimits;
+
+    /// A hand that was seen `age` cycles ago at this speed, m/s.
+    fn hand(speed: f64, age: u64) -> BodyPart {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/safety.toml");
+        let SafetyLimits { person, stale, .. } = SafetyLimits::load(file.as_ref()).unwrap();
+        let point = TrackedPoint { velocity: [speed, 0.0, 0.0], age, ..bytemuck::Zeroable::zeroed() };
+        BodyPart::between(&point, &point, &person, &stale)
+    }
+
+    #[test]
+    fn a_hand_has_gained_speed_since_its_velocity_was_measured_and_gains_more() {
+        let hand = hand(0.5, 30);
+        let (since, lag) = (0.03 + 0.1, hand.velocity_lag);
+        // Of what it was faster by when it was seen, and of what it may have become faster by since then.
+        let (before, after) = (15.0 * lag * since, 0.5 * 15.0 * since * since);
+        assert!(lag > 0.0 && (hand.growth(0.1) - before - after).abs() < 1e-12, "{}", hand.growth(0.1));
+    }
+
+    #[test]
+    fn nothing_grows_faster_than_hands_are_and_what_is_not_seen_does_so() {
+        for (speed, age) in [(0.0, 10), (0.3, 100), (1.5, 30), (3.0, 150)] {
+            let (hand, since) = (hand(speed, age), seconds(age) + 0.3);
+            assert!(hand.growth(0.3) <= hand.most_speed * since + 1e-12, "{speed} {age}");
+        }
+        let unseen = hand(0.5, 151);
+        assert!(!unseen.is_seen && (unseen.growth(0.3) - 2.0 * 0.451).abs() < 1e-9, "{}", unseen.growth(0.3));
     }
 }

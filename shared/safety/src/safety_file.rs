@@ -37,6 +37,7 @@ struct PersonTable {
     moving_acceleration_mps2: Spanned<f64>,
     fast_from_mps: Spanned<f64>,
     fast_acceleration_mps2: Spanned<f64>,
+    velocity_lag_ms: Spanned<u64>,
 }
 
 #[derive(Deserialize)]
@@ -119,6 +120,7 @@ impl PersonTable {
                 within("moving_from_mps", &self.moving_from_mps, 0.0..=10.0)?,
                 within("fast_from_mps", &self.fast_from_mps, 0.0..=10.0)?,
             ],
+            velocity_lag: milliseconds("velocity_lag_ms", &self.velocity_lag_ms, 0..=200)?,
         })
     }
 }

@@ -44,6 +44,8 @@ pub struct PersonLimits {
     pub accelerations: [f64; 4],
     /// See `accelerations`.
     pub speeds: [f64; 2],
+    /// By how much a velocity that is measured is older than the position.
+    pub velocity_lag: Duration,
 }
 
 impl PersonLimits {

@@ -125,14 +125,16 @@ impl PlanningScene {
         Some(coact_workplace::upright(AWAITED, *self.shapes.get(kind)?, &query.place))
     }
 
-    /// What the hand may touch where it leaves: what lies around it, and what it stands on.
+    /// What the hand may touch where it leaves: what lies around it, and what it stands on. A hand that is still coming does not stand
+    /// there yet: it would turn round within the base.
     fn allowed_leaving(&self, query: &PlanningQuery, obstacles: &[Obstacle]) -> Vec<String> {
         if query.leave.is_none() {
             return Vec::new();
         }
         let palm = self.mechanism.arm.palm(&query.start.map(|state| state.position));
         let lifts_from = query.held.map(|_| Fixture::TABLE);
-        let ground = [PERSON, Fixture::PLATFORM].into_iter().chain(lifts_from);
+        let stands_on = (!query.is_in_motion()).then_some(Fixture::PLATFORM);
+        let ground = [PERSON].into_iter().chain(stands_on).chain(lifts_from);
         ground.map(str::to_owned).chain(around(&(palm * self.mechanism.grasp_point()), obstacles)).collect()
     }
 }

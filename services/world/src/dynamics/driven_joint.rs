@@ -12,6 +12,9 @@ const ARM: (f64, f64) = (40_000.0, 400.0);
 /// A joint that something holds back is pushed as if to accelerate so many times as it may: less, and parts are not pressed into their
 /// places; more, and a light joint is thrown when what held it gives way. Chosen by hand.
 const PUSHED: f64 = 10.0;
+/// A joint that was held back returns to its setpoint by so much faster than that moves, at most, rad/s: at an arm's length not faster
+/// than may touch a hand (0.25 m/s). A joint that follows is never so far behind that this matters.
+const RETURN: f64 = 0.3;
 /// As [`ARM`], of the fingers' motors: soft enough that a part stops them before their effort is spent.
 const HAND: (f64, f64) = (10_000.0, 200.0);
 
@@ -101,16 +104,16 @@ impl DrivenJoint {
     /// The acceleration with which an arm's joint follows its setpoint, rad/s²: the setpoint's own, and what draws the joint to it,
     /// as it acts at the step's end (backward Euler), so that it is stable whatever the stiffness.
     ///
-    /// An error beyond that at which it is pushed as hard as it may be counts as that one. So a joint that was held back returns no
-    /// faster than such an error takes it, and not faster than it may move at all, however far it has to go.
+    /// An error beyond that at which it is pushed as hard as it may be counts as that one, however far the joint has to go; and
+    /// however hard it was pushed, it returns slowly ([`RETURN`]) once it is free.
     pub fn acceleration(&self, setpoint: &MotionState, position: f64, velocity: f64) -> f64 {
         let (stiffness, damping) = ARM;
         let most_error = self.most_acceleration / stiffness;
         let error = (setpoint.position - position - PERIOD_S * velocity).clamp(-most_error, most_error);
         let drawn = setpoint.acceleration + stiffness * error + damping * (setpoint.velocity - velocity);
         let wanted = drawn / (1.0 + PERIOD_S * damping + PERIOD_S * PERIOD_S * stiffness);
-        let to_speed = |speed: f64| (speed - velocity) / PERIOD_S;
-        let wanted = wanted.clamp(to_speed(-self.most_speed), to_speed(self.most_speed));
+        let to_speed = |speed: f64| (speed.clamp(-self.most_speed, self.most_speed) - velocity) / PERIOD_S;
+        let wanted = wanted.clamp(to_speed(setpoint.velocity - RETURN), to_speed(setpoint.velocity + RETURN));
         wanted.clamp(-self.most_acceleration, self.most_acceleration)
     }
 
