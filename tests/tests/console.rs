@@ -19,6 +19,9 @@ const WINDOW: [u32; 2] = [1440, 900];
 const FRAME: Duration = Duration::from_micros(16_667);
 /// How long anything is waited for.
 const PATIENCE: Duration = Duration::from_secs(60);
+/// How long somebody looks whether the hand has done what it was to do, and how often it tries.
+const LOOKS: Duration = Duration::from_secs(4);
+const TRIES: usize = 5;
 
 /// Somebody at the page, who moves the mouse as a recorded person reached.
 struct Player {
@@ -153,23 +156,63 @@ impl Player {
         self.wait_for(name, &so);
     }
 
-    fn insert(&mut self, name: &str) {
+    /// Where a part of the kind is that the person holds.
+    fn in_hand(&mut self, kind: &str) -> Option<DVec2> {
+        let near = self.at;
+        self.part(kind, near, 2).map(DVec3::truncate)
+    }
+
+    /// Takes a part from the table, looks whether the hand has it, and tries again if not: on a busy machine the fingers close late.
+    fn takes(&mut self, kind: &str, grip: u32) {
+        for _ in 0..TRIES {
+            let part = self.lying(kind);
+            self.grasp(part.truncate(), grip);
+            if self.sees(|player| player.in_hand(kind).is_some()) {
+                return;
+            }
+            self.pressed = false;
+            self.mouse("mouseReleased");
+            std::thread::sleep(Duration::from_millis(500));
+        }
+        panic!("the {kind} is not taken: {}", self.state());
+    }
+
+    /// Brings the part that the hand has there, and looks whether it has come there, too.
+    fn brings(&mut self, kind: &str, to: DVec2) {
+        self.go(to);
+        let is_there = |at: DVec2| at.distance(to) < 0.03;
+        let came = self.sees(|player| player.in_hand(kind).is_some_and(is_there));
+        assert!(came, "the {kind} is not where the hand is: {}", self.state());
+    }
+
+    /// Whether somebody who looks for a while sees this.
+    fn sees(&mut self, what: impl Fn(&mut Self) -> bool) -> bool {
+        let begun = Instant::now();
+        while begun.elapsed() < LOOKS {
+            if what(self) {
+                return true;
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        false
+    }
+
+    fn insert(&mut self, kind: &str, name: &str) {
         let (socket, _) = self.subgoal(name);
-        self.go(socket);
-        std::thread::sleep(Duration::from_millis(1500));
+        self.brings(kind, socket);
+        std::thread::sleep(Duration::from_millis(1000));
         self.let_go_and_rest();
         self.wait_for_achieved(name);
     }
 
     fn takes_and_inserts(&mut self, kind: &str, name: &str) {
-        let part = self.lying(kind);
-        self.grasp(part.truncate(), 0);
-        self.insert(name);
+        self.takes(kind, 0);
+        self.insert(kind, name);
     }
 
     fn hands_over(&mut self, kind: &str, for_subgoal: &str) {
-        let (handover, part) = (self.handover(), self.lying(kind));
-        self.grasp(part.truncate(), 1);
+        let handover = self.handover();
+        self.takes(kind, 1);
         self.go(handover);
         let taken = Instant::now();
         while self.part(kind, handover, 1).is_none() {
@@ -191,14 +234,14 @@ impl Player {
             std::thread::sleep(Duration::from_millis(50));
         }
         std::thread::sleep(Duration::from_millis(1000));
-        let given = self.part(kind, handover, 1).unwrap();
+        let given = wait_within(PATIENCE, "the part that is given", || self.part(kind, handover, 1));
         self.grasp(given.truncate(), 0);
         let waited = Instant::now();
         while self.part(kind, handover, 2).is_none() {
             assert!(waited.elapsed() < PATIENCE, "the robot does not let the {kind} go: {}", self.state());
             std::thread::sleep(Duration::from_millis(50));
         }
-        self.insert(name);
+        self.insert(kind, name);
     }
 
     /// Breaks a process by the page's own buttons, and sees that it is back.
