@@ -113,7 +113,7 @@ fn deaths(supervisor: &[SupervisorEvent]) -> Vec<&SupervisorEvent> {
 #[test]
 fn a_successor_goes_on_with_the_same_processes_and_the_arm_stands_until_an_operator_resumes() {
     let _alone = alone();
-    let Orphaned { _folder, mut launched, run, mut viewer, before, stood, .. } = Orphaned::of(PATIENT, "75");
+    let Orphaned { _folder, mut launched, run, mut viewer, before, stood, .. } = Orphaned::of(PATIENT, "50");
     assert!(run.is_orphaned() && before.iter().all(|&pid| lives(pid)));
     let (code, said, _) = operate(&["stop", "--run", run.id()]);
     assert_eq!(code, Some(2), "{said}");

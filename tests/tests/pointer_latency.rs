@@ -1,7 +1,7 @@
 //! From a pointer that a page tells of to the keypoints in a sensor sample: how long it takes in a running set.
 #![allow(clippy::unwrap_used)]
 
-use coact_messages::{HandView, KeypointName, SensorSample, topic};
+use coact_messages::{SensorSample, Truth, topic};
 use coact_period::PERIOD_NS;
 use coact_pipeline::Run;
 use coact_realtime::{Bus, Input, now};
@@ -10,7 +10,6 @@ use glam::DVec3;
 use rustix::process::Signal;
 use serde_json::json;
 use std::net::TcpStream;
-use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
@@ -25,44 +24,57 @@ const PLACE: [f64; 2] = [-0.80, 0.05];
 /// So often the hand is turned, and this many events apart at least: it has turned and stands by then.
 const TURNS: usize = 300;
 const APART: u32 = 26;
-/// The middle of a turn: there the hand turns evenly.
-const MIDDLE: Range<f64> = 0.15..0.85;
-/// Frames whose mean is a hand that stands.
-const STANDS: usize = 8;
+/// A hand that is turned by so much has begun to turn, rad: a fifth of a millisecond of it.
+const TURNED: f64 = 1e-3;
 /// What is aimed at: a frame of the camera, and what computes may take.
 const AIM_MS: f64 = 1000.0 / 60.0 + 5.0;
 
-/// A frame of the tracker, when it was captured and when the sample was published that brought it, ns of `CLOCK_MONOTONIC`.
+/// A frame of the tracker: when it was captured, and when the sample was published that brought it, ns of `CLOCK_MONOTONIC`.
 struct Frame {
+    number: u64,
     captured_ns: u64,
     published_ns: u64,
-    view: HandView,
 }
 
-/// Notes each frame of the tracker until it is told to end.
-fn watch(run: &Run, ends: Arc<AtomicBool>) -> JoinHandle<Vec<Frame>> {
+/// What the world has shown.
+#[derive(Default)]
+struct Seen {
+    frames: Vec<Frame>,
+    /// How far the hand is truly turned, rad above the table, and when, ns.
+    pitches: Vec<(u64, f64)>,
+}
+
+/// Notes each frame of the tracker, and how the hand is turned, until it is told to end.
+fn watch(run: &Run, ends: Arc<AtomicBool>) -> JoinHandle<Seen> {
     let (run, start_ns) = (run.clone(), run.start_ns().unwrap().unwrap());
+    let at_ns = move |cycle: u64| start_ns + cycle * PERIOD_NS;
     std::thread::spawn(move || {
-        let bus = Bus::open(&run, "viewer", 0).unwrap();
+        // In the place of a replacement that the monitor does not need: truth is closed to viewers.
+        let bus = Bus::open(&run, "monitor", 1).unwrap();
         let mut samples: Input<SensorSample> = bus.input(topic::SENSORS).unwrap();
-        let mut frames: Vec<Frame> = Vec::new();
+        let mut truths: Input<Truth> = bus.input(topic::TRUTH).unwrap();
+        let Seen { mut frames, mut pitches } = Seen::default();
         while !ends.load(Ordering::Relaxed) {
-            samples
-                .each(|sample| {
-                    if frames.last().is_none_or(|last| last.view.frame != sample.hand.frame) {
-                        let captured_ns = start_ns + sample.hand.captured_cycle * PERIOD_NS;
-                        frames.push(Frame {
-                            captured_ns,
-                            published_ns: sample.header.published_ns,
-                            view: sample.hand,
-                        });
-                    }
-                })
-                .unwrap();
-            std::thread::sleep(Duration::from_millis(2));
+            let note = |sample: &SensorSample| {
+                let number = sample.hand.frame;
+                if frames.last().is_none_or(|last: &Frame| last.number != number) {
+                    let captured_ns = at_ns(sample.hand.captured_cycle);
+                    frames.push(Frame { number, captured_ns, published_ns: sample.header.published_ns });
+                }
+            };
+            samples.each(note).unwrap();
+            truths.each(|truth| pitches.push((at_ns(truth.header.cycle), pitch(truth)))).unwrap();
+            std::thread::sleep(Duration::from_micros(500));
         }
-        frames
+        Seen { frames, pitches }
     })
+}
+
+/// How far the hand is turned, rad above the table.
+fn pitch(truth: &Truth) -> f64 {
+    let [.., wrist, tip] = truth.arm.map(DVec3::from);
+    let along = tip - wrist;
+    along.z.atan2(along.truncate().length())
 }
 
 /// A page that is no browser: sends pointers, and takes in what it is told without looking at it.
@@ -113,47 +125,18 @@ fn turn_again_and_again(page: &mut Page) -> Vec<u64> {
     turns
 }
 
-/// How far the hand is turned in a frame, rad above the table: wrist to the middle between thumb and index; none where one is not seen.
-fn pitch(frame: &Frame) -> Option<f64> {
-    let place = |name: KeypointName| {
-        let point = &frame.view.keypoints[name as usize];
-        (point.confidence > 0.0).then_some(DVec3::from(point.position))
-    };
-    let tips = place(KeypointName::ThumbTip)?.midpoint(place(KeypointName::IndexTip)?);
-    let along = tips - place(KeypointName::Wrist)?;
-    Some(along.z.atan2(along.truncate().length()))
-}
-
-/// When the hand has begun to turn, ns: where the line through the middle of the turn leaves the pitch of before.
-fn begun(frames: &[Frame], first: usize) -> f64 {
-    let angles = |frames: &[Frame]| -> Vec<f64> { frames.iter().filter_map(pitch).collect() };
-    let mean = |angles: &[f64]| angles.iter().sum::<f64>() / angles.len() as f64;
-    let before = mean(&angles(&frames[first - STANDS..first]));
-    let after = mean(&angles(&frames[frames.len() - STANDS..]));
-    let gone = |frame: &Frame| Some((frame.captured_ns as f64, (pitch(frame)? - before) / (after - before)));
-    let middle: Vec<_> =
-        frames[first..].iter().filter_map(gone).filter(|(_, gone)| MIDDLE.contains(gone)).collect();
-    let count = middle.len() as f64;
-    let [at, way] = middle.iter().fold([0.0; 2], |[at, way], own| [at + own.0 / count, way + own.1 / count]);
-    let both: f64 = middle.iter().map(|own| (own.0 - at) * (own.1 - way)).sum();
-    let alone: f64 = middle.iter().map(|own| (own.1 - way).powi(2)).sum();
-    at - way * both / alone
-}
-
 /// From the event of a turn until the hand turns, until the camera's next frame, and until the sample that brought this, ms; none where
-/// the tracker has lost that frame, as it does with one in a hundred, or a busy machine has kept this test from seeing enough of them.
-fn latency(turn: u64, next: u64, frames: &[Frame]) -> Option<[f64; 3]> {
-    let first = frames.partition_point(|frame| frame.captured_ns < turn);
-    let end = frames.partition_point(|frame| frame.captured_ns < next);
-    if first < STANDS || end < first + 2 * STANDS {
-        return None;
-    }
-    let begun = begun(&frames[..end], first);
-    let shows = frames.partition_point(|frame| (frame.captured_ns as f64) < begun);
+/// the tracker has lost that frame, as it does with one in a hundred, or a busy machine has kept this test from seeing the turn.
+fn latency(turn: u64, next: u64, Seen { frames, pitches }: &Seen) -> Option<[f64; 3]> {
+    let [first, end] = [turn, next].map(|at| pitches.partition_point(|(seen, _)| *seen < at));
+    let (_, before) = *pitches.get(first.checked_sub(1)?)?;
+    let turned = pitches[first..end].iter().find(|(_, pitch)| (pitch - before).abs() > TURNED);
+    let begun = turned.map(|(at, _)| *at)?;
+    let shows = frames.partition_point(|frame| frame.captured_ns < begun);
     let [last, shown] = [frames.get(shows.checked_sub(1)?)?, frames.get(shows)?];
     let is_lost = shown.captured_ns - last.captured_ns > 3 * EVENT.as_nanos() as u64 / 2;
-    let since = |at: f64| (at - turn as f64) / 1e6;
-    (!is_lost).then(|| [begun, shown.captured_ns as f64, shown.published_ns as f64].map(since))
+    let since = |at: u64| (at - turn) as f64 / 1e6;
+    (!is_lost).then(|| [begun, shown.captured_ns, shown.published_ns].map(since))
 }
 
 fn percentile(sorted: &[f64], fraction: f64) -> f64 {
@@ -177,11 +160,11 @@ fn a_pointer_is_in_a_frame_of_the_camera_within_a_frame_and_five_milliseconds() 
     page.tell(&json!({ "play": true }));
     let turns = turn_again_and_again(&mut page);
     ends.store(true, Ordering::Relaxed);
-    let frames = watched.join().unwrap();
+    let seen = watched.join().unwrap();
     launched.signal(Signal::INT);
     launched.finish();
     let pairs = turns.windows(2);
-    let found: Vec<[f64; 3]> = pairs.filter_map(|pair| latency(pair[0], pair[1], &frames)).collect();
+    let found: Vec<[f64; 3]> = pairs.filter_map(|pair| latency(pair[0], pair[1], &seen)).collect();
     assert!(
         found.len() > TURNS / 2,
         "{} of {TURNS} turns were seen; expected a machine that is less busy",

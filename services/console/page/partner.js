@@ -2,8 +2,8 @@
 
 import { HandButtons } from "./hand-buttons.js";
 
-/** How often the hand is told of, ms: 60 times a second. */
-const EVERY = 16;
+/** How often the hand is told of, ms: 60 times a second; and how soon after the last time when the pointer moves. */
+const EVERY = 16, SOONEST = 8;
 /** How fast the arrow keys move the hand, m/s. */
 const BY_KEYS = 0.35;
 /** How far a turn of the wheel lifts the hand, and how high at most, m. */
@@ -44,7 +44,10 @@ export class Partner {
       if (!event.isPrimary) this.hand.pressed = false;
       else if (event.button === 0) this.#press(event);
     });
-    canvas.addEventListener("pointermove", (event) => isMine(event) && event.isPrimary && this.#move(event));
+    // A browser that knows the first tells of the pointer at once, not with its next frame.
+    for (const moves of ["pointerrawupdate", "pointermove"]) {
+      canvas.addEventListener(moves, (event) => isMine(event) && event.isPrimary && this.#move(event));
+    }
     canvas.addEventListener("pointerup", (event) => event.button === 0 && (this.hand.pressed = false));
     canvas.addEventListener("pointercancel", () => (this.hand.pressed = false));
     // Leaving the scene as a whole hides the hand; the buttons that lie over it are no way out.
@@ -100,6 +103,7 @@ export class Partner {
     if (!place || Math.hypot(place[0], place[1]) > FARTHEST) return;
     [this.hand.x, this.hand.y] = place;
     if (!this.hides) this.present = true;
+    if (performance.now() - this.told >= SOONEST) this.#tell();
   }
 
   #press(event) {
@@ -107,6 +111,7 @@ export class Partner {
     if (this.hides) this.hide(false);
     this.#move(event);
     this.hand.pressed = true;
+    this.#tell();
   }
 
   #key(event, down) {

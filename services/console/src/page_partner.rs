@@ -5,11 +5,9 @@ use coact_pipeline::RunSettings;
 use coact_realtime::{Output, PortError, Process, now};
 use std::time::{Duration, Instant};
 
-/// A page tells of its pointer 60 times a second, and the hand is shown at once; but no sooner than so long after the last time, for
-/// whoever tells more often.
-const SOONEST: Duration = Duration::from_millis(8);
-/// When nothing was told for so long, the hand goes on to where the pointer was: half a frame more than a page takes.
-const LATEST: Duration = Duration::from_millis(25);
+/// The hand goes on in steps of so long, and at once when the page has told of its pointer: a camera that looks between two of its
+/// events, 16 ms apart, would see the hand of the last one.
+const STEP: Duration = Duration::from_millis(3);
 /// A hand that was not shown for longer has stood meanwhile.
 const MOVES: Duration = Duration::from_millis(33);
 /// A page that has not told of its pointer for so long is gone, and nobody sees the hand any more.
@@ -50,9 +48,11 @@ impl PagePartner {
 
     /// How long until the hand is to be shown; long, while nobody points.
     pub fn hand_due_in(&self) -> Duration {
-        let Some((_, told)) = self.pointed() else { return POINTED_WITHIN };
-        let after = if told > self.shown { SOONEST } else { LATEST };
-        after.saturating_sub(self.shown.elapsed())
+        match self.pointed() {
+            Some((_, told)) if told > self.shown => Duration::ZERO,
+            Some(_) => STEP.saturating_sub(self.shown.elapsed()),
+            None => POINTED_WITHIN,
+        }
     }
 
     /// Where the page points, and when it told so, unless it is gone.
