@@ -21,8 +21,9 @@ impl HandPoints {
     /// three of 30 Hz, so that who is held up for some frames is bridged; and for no longer is a hand taken to stand still of which
     /// nobody tells any more.
     pub const LIFETIME: Duration = Duration::from_millis(100);
-    /// How often it may be told, Hz: four times as often as cameras do. What comes faster is ignored. Chosen by hand.
-    pub const FASTEST: u64 = 250;
+    /// How often it may be told, Hz: as often as a hand that follows a pointer goes on, and some. What comes faster is ignored. Chosen by
+    /// hand.
+    pub const FASTEST: u64 = 500;
 }
 
 /// Nothing in reach of the table is farther from the world's origin, m. Chosen by hand.

@@ -68,7 +68,7 @@ const PERCEPTS_EACH_CYCLE: usize = 8;
 /// Depth of spoken sentences: many more than are said while nobody looks.
 const SENTENCES: usize = 32;
 /// Depth of hands: as many as may come in half of their lifetime.
-const HANDS: usize = 16;
+const HANDS: usize = 32;
 
 /// How long ago the cycle of a message may be that is taken in: no writer of a set is silent for so long and lives, so what is
 /// older is a message of long ago that is sent again. Stages have shorter limits of their own. Chosen by hand, far above the
