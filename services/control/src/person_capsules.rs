@@ -199,6 +199,7 @@ impl ArmBound {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use coact_safety::SafetyLimits;
