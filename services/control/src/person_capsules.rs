@@ -199,8 +199,9 @@ impl ArmBound {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+
     use super::*;
     use coact_safety::SafetyLimits;
 
