@@ -22,6 +22,9 @@ pub(crate) struct HandGoals {
 /// Distance at which the approach to a grasp, or to a place where a part is put, begins, m. Chosen by hand: from there the hand
 /// comes straight, between what stands around its goal.
 const BACK: f64 = 0.15;
+/// How far before the handover place the hand waits for a part that the person gives, m. A trade-off: from farther away it comes later,
+/// nearer to the person's hand the guard slows it down on its way there.
+const WAITS: f64 = 0.20;
 /// Last part of the way to a part that the person gives, on which the hand moves straight, m. Shorter than elsewhere, for the
 /// hand has waited straight before that place already.
 const STRAIGHT: f64 = 0.03;
@@ -90,7 +93,7 @@ impl HandGoals {
         let mut goals = self.grasping(kind, NextUse::Anything, frame);
         goals.retain(|goal| goal.grip == Some(self.grips.received(kind)));
         for GripGoal { goal, .. } in &mut goals {
-            goal.point -= if stops_before { goal.along * BACK } else { Vector3::zeros() };
+            goal.point -= if stops_before { goal.along * WAITS } else { Vector3::zeros() };
             goal.back = if stops_before { 0.0 } else { STRAIGHT };
         }
         goals

@@ -86,11 +86,16 @@ impl PlanningScene {
         })
     }
 
-    /// The person as obstacles, inflated so that a path keeps a little more than the guard's protective separation; by less
-    /// where the person is nearer than that already.
-    pub fn inflated(&self, person: &[Capsule], separation: f64) -> impl Iterator<Item = Obstacle> {
+    /// The person as obstacles, inflated so that paths and goals keep so much farther away than the guard's protective separation; by
+    /// less where the person is nearer than that already.
+    pub fn inflated(
+        &self,
+        person: &[Capsule],
+        separation: f64,
+        beyond_guard: f64,
+    ) -> impl Iterator<Item = Obstacle> {
         let SafetyLimits { guard, planner, .. } = self.limits;
-        let most = guard.protective_separation + planner.beyond_guard - planner.path_clearance;
+        let most = guard.protective_separation + beyond_guard - planner.goal_clearance;
         let by = (separation - planner.goal_clearance).clamp(0.0, most);
         let inflated = person.iter().map(move |limb| Capsule { radius: limb.radius + by, ..*limb });
         inflated.map(|limb| Obstacle::moving(PERSON, limb))

@@ -81,7 +81,8 @@ impl SkillPlanner {
         self.movement(query).unwrap_or(PlanningResult::REFUSED)
     }
 
-    /// From a person who is near the hand withdraws first, and then keeps its distance. Where the person leaves no path, the arm goes as far as the guard
+    /// From a person who is near the hand withdraws first, and then keeps its distance: so much that the guard lets it go on at its own
+    /// speed, or just what the guard asks for, beside which it is slow. Where the person leaves no path, the arm goes as far as the guard
     /// lets it, but not to where the person comes; where there is no room for the fingers to move with the arm, they move when
     /// it has arrived.
     fn movement(&self, query: &PlanningQuery) -> Option<PlanningResult> {
@@ -90,8 +91,10 @@ impl SkillPlanner {
         let person = self.scene.person(query, &self.goals);
         let (separation, away) = self.scene.separation(query, &still, &person);
         let alone = self.scene.without_person(query, &goals);
-        let scene = alone.with(self.scene.inflated(&person, separation));
-        let mut from_person = alone.with(self.scene.inflated(&person, f64::INFINITY));
+        let clear_of = |beyond: f64| alone.with(self.scene.inflated(&person, separation, beyond));
+        let (scene, close) = (clear_of(self.limits.beyond_guard), clear_of(0.0));
+        let mut from_person =
+            alone.with(self.scene.inflated(&person, f64::INFINITY, self.limits.beyond_guard));
         from_person.allowed_leaving.push(PERSON.to_owned());
         let (moves, awaits, leave) = (query.is_in_motion(), query.awaits_person(), query.leave);
         let is_near = separation < self.limits.withdraw_within && !moves;
@@ -99,8 +102,9 @@ impl SkillPlanner {
         let attempts = [
             Attempt { applies: is_near, model: &moving, scene: &from_person, leave: out },
             Attempt { applies: true, model: &moving, scene: &scene, leave },
+            Attempt { applies: true, model: &moving, scene: &close, leave },
             Attempt { applies: !awaits, model: &moving, scene: &alone, leave },
-            Attempt { applies: !moves, model: &still, scene: if awaits { &scene } else { &alone }, leave },
+            Attempt { applies: !moves, model: &still, scene: if awaits { &close } else { &alone }, leave },
         ];
         for attempt in attempts.iter().filter(|attempt| attempt.applies) {
             if let Ok(plan) = self.search(query, attempt, &goals) {
@@ -108,7 +112,7 @@ impl SkillPlanner {
                 return Some(result(&plan, &goals, fingers_wait));
             }
         }
-        if moves { None } else { self.withdrawal(query, &still, &scene) }
+        if moves { None } else { self.withdrawal(query, &still, &close) }
     }
 
     /// Arm and hand with fingers that take their shape for the goal on the way, and with fingers that stand still.

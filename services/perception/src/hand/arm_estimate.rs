@@ -21,8 +21,8 @@ impl TrackedHand {
         let elbow = if self.is_known(KeypointName::Elbow) { elbow } else { wrist };
         let shoulder = if self.is_known(KeypointName::Shoulder) { shoulder } else { elbow };
         let point = |name, joint: &TrackedJoint| TrackedPoint {
-            position: joint.at(tick).into(),
-            velocity: joint.velocity().into(),
+            position: joint.expected_at(tick).into(),
+            velocity: joint.expected_velocity().into(),
             deviation: self.deviation(name, joint.velocity().norm(), tick),
             age: self.age_of(name, tick).unwrap_or(u64::MAX),
             still: joint.still_for(tick),

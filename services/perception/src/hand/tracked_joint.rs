@@ -55,6 +55,14 @@ const LIVELY: (f64, f64) = (0.9, 0.6);
 const SURPRISES: (f64, f64) = (0.004, 0.010);
 /// Weight of the former surprise in the smoothed one.
 const REMEMBERED: f64 = 0.6;
+/// How a joint goes on in the mean over the next tenth of a second, beside its velocity. Fitted on the same half of the motion capture
+/// (least cubes of what it then is off, so that large misses count): by so much for each metre of surprise, 1/s, at this speed, m/s, and
+/// above; at lower ones in proportion, for there the surprise is scatter. In the other half, after 0.1 s, 99 % of the joints of 0.2 to
+/// 1 m/s, and of faster ones, are within 80 and 203 mm of where they are expected, by their velocity alone within 106 and 275.
+const PURSUED: (f64, f64) = (46.0, 0.3);
+/// What a movement loses of its velocity meanwhile: this fraction, and for each m/s above the speed that stands second by the third,
+/// up to 1 m/s more. Fast hands brake soon.
+const LOST: (f64, f64, f64) = (0.15, 1.0, 0.25);
 
 impl TrackedJoint {
     /// Standing at `place`, seen at cycle `captured`.
@@ -100,6 +108,23 @@ impl TrackedJoint {
     pub fn at(&self, tick: u64) -> Vector3<f64> {
         let age = tick.saturating_add(1).saturating_sub(self.found);
         self.position() + self.velocity() * seconds(age.min(EXTRAPOLATED))
+    }
+
+    /// Where it is expected at `tick`, m, if it goes on with its [expected velocity](Self::expected_velocity).
+    pub fn expected_at(&self, tick: u64) -> Vector3<f64> {
+        let age = tick.saturating_add(1).saturating_sub(self.found);
+        self.position() + self.expected_velocity() * seconds(age.min(EXTRAPOLATED))
+    }
+
+    /// How it is expected to move in the mean over the next tenth of a second, m/s: a joint that surprises accelerates, which its velocity
+    /// follows late.
+    pub fn expected_velocity(&self) -> Vector3<f64> {
+        let (velocity, speed) = (self.velocity(), self.velocity().norm());
+        let (most, from) = PURSUED;
+        let pursued = most * (speed / from).min(1.0);
+        let (always, above, more) = LOST;
+        let lost = always + more * (speed - above).clamp(0.0, 1.0);
+        velocity * (1.0 - lost) + Vector3::from(self.surprise) * pursued
     }
 
     /// For how long it has been where it is, cycles.
