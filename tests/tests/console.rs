@@ -167,7 +167,7 @@ impl Player {
         for _ in 0..TRIES {
             let part = self.lying(kind);
             self.grasp(part.truncate(), grip);
-            if self.sees(|player| player.in_hand(kind).is_some()) {
+            if self.sees(LOOKS, |player| player.in_hand(kind).is_some()) {
                 return;
             }
             self.pressed = false;
@@ -181,14 +181,14 @@ impl Player {
     fn brings(&mut self, kind: &str, to: DVec2) {
         self.go(to);
         let is_there = |at: DVec2| at.distance(to) < 0.03;
-        let came = self.sees(|player| player.in_hand(kind).is_some_and(is_there));
+        let came = self.sees(LOOKS, |player| player.in_hand(kind).is_some_and(is_there));
         assert!(came, "the {kind} is not where the hand is: {}", self.state());
     }
 
-    /// Whether somebody who looks for a while sees this.
-    fn sees(&mut self, what: impl Fn(&mut Self) -> bool) -> bool {
+    /// Whether somebody who looks for so long sees this.
+    fn sees(&mut self, within: Duration, what: impl Fn(&mut Self) -> bool) -> bool {
         let begun = Instant::now();
-        while begun.elapsed() < LOOKS {
+        while begun.elapsed() < within {
             if what(self) {
                 return true;
             }
@@ -214,11 +214,8 @@ impl Player {
         let handover = self.handover();
         self.takes(kind, 1);
         self.go(handover);
-        let taken = Instant::now();
-        while self.part(kind, handover, 1).is_none() {
-            assert!(taken.elapsed() < PATIENCE, "the robot does not take the {kind}: {}", self.state());
-            std::thread::sleep(Duration::from_millis(50));
-        }
+        let is_taken = self.sees(PATIENCE, |player| player.part(kind, handover, 1).is_some());
+        assert!(is_taken, "the robot does not take the {kind}: {}", self.state());
         std::thread::sleep(Duration::from_millis(300));
         self.let_go_and_rest();
         self.wait_for_achieved(for_subgoal);
@@ -228,19 +225,14 @@ impl Player {
         let handover = self.handover();
         self.browser.click("gesture-0");
         self.go(handover - DVec2::new(0.10, 0.0));
-        let asked = Instant::now();
-        while !self.part(kind, handover, 1).is_some_and(|part| part.truncate().distance(handover) < 0.05) {
-            assert!(asked.elapsed() < PATIENCE, "the robot does not give the {kind}: {}", self.state());
-            std::thread::sleep(Duration::from_millis(50));
-        }
+        let is_near = |part: DVec3| part.truncate().distance(handover) < 0.05;
+        let is_given = self.sees(PATIENCE, |player| player.part(kind, handover, 1).is_some_and(is_near));
+        assert!(is_given, "the robot does not give the {kind}: {}", self.state());
         std::thread::sleep(Duration::from_millis(1000));
         let given = wait_within(PATIENCE, "the part that is given", || self.part(kind, handover, 1));
         self.grasp(given.truncate(), 0);
-        let waited = Instant::now();
-        while self.part(kind, handover, 2).is_none() {
-            assert!(waited.elapsed() < PATIENCE, "the robot does not let the {kind} go: {}", self.state());
-            std::thread::sleep(Duration::from_millis(50));
-        }
+        let is_mine = self.sees(PATIENCE, |player| player.part(kind, handover, 2).is_some());
+        assert!(is_mine, "the robot does not let the {kind} go: {}", self.state());
         self.insert(kind, name);
     }
 

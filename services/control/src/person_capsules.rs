@@ -25,19 +25,28 @@ pub(crate) struct BodyPart {
     velocities: [Vector3<f64>; 2],
     /// For how long it is taken to go on as it moves, s.
     extrapolated: f64,
-    /// Time since it was seen, s, and whether that is recent.
-    age: f64,
+    /// Whether it was seen recently.
     pub is_seen: bool,
-    /// Its speed, m/s, as far as it is known; what it may accelerate with, m/s², and its greatest possible speed, m/s.
+    /// Its speed, m/s, as far as it is known.
     speed: f64,
-    acceleration: f64,
-    most_speed: f64,
-    /// By how much its velocity is older than its position, s.
-    velocity_lag: f64,
+    growth: Growth,
     /// Where the arm's length binds it to, while the shoulder is seen and it is not.
     bound: Option<ArmBound>,
     /// Whether it may take or give a part in a handover.
     pub hands_over: bool,
+}
+
+/// How far something may be from where it is expected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Growth {
+    /// Time since it was seen, s.
+    age: f64,
+    /// What it may accelerate with, m/s².
+    acceleration: f64,
+    /// By how much its velocity is older than its position, s.
+    velocity_lag: f64,
+    /// Its greatest possible speed, m/s.
+    most_speed: f64,
 }
 
 /// Shorter than this, a forearm has no direction, m.
@@ -78,7 +87,7 @@ impl PersonCapsules {
         let mut head = part(&shoulder, &shoulder);
         head.now.radius = limits.head_radius;
         head.now.end += limits.head_height * Vector3::z();
-        head.most_speed = limits.walking_speed.max(head.speed);
+        head.growth.most_speed = limits.walking_speed.max(head.speed);
         Some(Self { limbs: [upper_arm, forearm, hand], held: None, head })
     }
 
@@ -128,12 +137,14 @@ impl BodyPart {
             now: Capsule { start: Point3::from(from.position), end: Point3::from(to.position), radius: 0.0 },
             velocities,
             extrapolated: limits.extrapolated.as_secs_f64(),
-            age: seconds(age),
             is_seen,
             speed,
-            acceleration: limits.acceleration(rests, speed),
-            most_speed: limits.hand_speed.max(speed),
-            velocity_lag: limits.velocity_lag.as_secs_f64(),
+            growth: Growth {
+                age: seconds(age),
+                acceleration: limits.acceleration(rests, speed),
+                velocity_lag: limits.velocity_lag.as_secs_f64(),
+                most_speed: limits.hand_speed.max(speed),
+            },
             bound: None,
             hands_over: false,
         }
@@ -151,16 +162,23 @@ impl BodyPart {
         self.growth(ahead) + self.speed * ahead
     }
 
-    /// How far it may be from there, m: by what it has accelerated since it was seen, and what it had not yet been seen to be
-    /// faster by then, at its greatest speed at most.
+    /// How far it may be from there, m.
     pub fn growth(&self, ahead: f64) -> f64 {
-        let time = self.age + ahead;
-        (self.acceleration * time * (0.5 * time + self.velocity_lag)).min(self.most_speed * time)
+        self.growth.after(ahead)
     }
 
     /// Whether it cannot come nearer than `within` m to this capsule at all, because the arm is no longer.
     pub fn is_bound_away_from(&self, capsule: &Capsule, within: f64, ahead: f64) -> bool {
         self.bound.is_some_and(|bound| bound.distance(capsule, ahead) > within)
+    }
+}
+
+impl Growth {
+    /// So far `ahead` s from now, m: by what it has accelerated since it was seen, and what it had not yet been seen to be faster
+    /// by then, at its greatest speed at most.
+    fn after(&self, ahead: f64) -> f64 {
+        let time = self.age + ahead;
+        (self.acceleration * time * (0.5 * time + self.velocity_lag)).min(self.most_speed * time)
     }
 }
 
@@ -173,9 +191,9 @@ fn rests(joint: &TrackedPoint, limits: &PersonLimits) -> bool {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct ArmBound {
     shoulder: Capsule,
-    age: f64,
-    acceleration: f64,
-    most_speed: f64,
+    /// The shoulder's own, m/s.
+    speed: f64,
+    growth: Growth,
 }
 
 impl ArmBound {
@@ -184,17 +202,19 @@ impl ArmBound {
         let reached = (limb.now.start - at).norm().max((limb.now.end - at).norm());
         Self {
             shoulder: Capsule { start: at, end: at, radius: limits.reach.max(reached) + limb.now.radius },
-            age: seconds(shoulder.age),
-            acceleration: limits.acceleration(rests(shoulder, limits), speed),
-            most_speed: limits.walking_speed.max(speed),
+            speed,
+            growth: Growth {
+                age: seconds(shoulder.age),
+                acceleration: limits.acceleration(rests(shoulder, limits), speed),
+                velocity_lag: limits.velocity_lag.as_secs_f64(),
+                most_speed: limits.walking_speed.max(speed),
+            },
         }
     }
 
-    /// Least distance of the arm from a capsule `ahead` s from now, m.
+    /// Least distance of the arm from a capsule `ahead` s from now, m, wherever the shoulder goes.
     fn distance(&self, capsule: &Capsule, ahead: f64) -> f64 {
-        let time = self.age + ahead;
-        let moved = (0.5 * self.acceleration * time * time).min(self.most_speed * time);
-        self.shoulder.distance(capsule) - moved
+        self.shoulder.distance(capsule) - self.growth.after(ahead) - self.speed * ahead
     }
 }
 
@@ -216,9 +236,10 @@ mod tests {
     #[test]
     fn a_hand_has_gained_speed_since_its_velocity_was_measured_and_gains_more() {
         let hand = hand(0.5, 30);
-        let (since, lag) = (0.03 + 0.1, hand.velocity_lag);
+        let Growth { acceleration, velocity_lag: lag, .. } = hand.growth;
+        let since = 0.03 + 0.1;
         // Of what it was faster by when it was seen, and of what it may have become faster by since then.
-        let (before, after) = (15.0 * lag * since, 0.5 * 15.0 * since * since);
+        let (before, after) = (acceleration * lag * since, 0.5 * acceleration * since * since);
         assert!(lag > 0.0 && (hand.growth(0.1) - before - after).abs() < 1e-12, "{}", hand.growth(0.1));
     }
 
@@ -226,7 +247,7 @@ mod tests {
     fn nothing_grows_faster_than_hands_are_and_what_is_not_seen_does_so() {
         for (speed, age) in [(0.0, 10), (0.3, 100), (1.5, 30), (3.0, 150)] {
             let (hand, since) = (hand(speed, age), seconds(age) + 0.3);
-            assert!(hand.growth(0.3) <= hand.most_speed * since + 1e-12, "{speed} {age}");
+            assert!(hand.growth(0.3) <= hand.growth.most_speed * since + 1e-12, "{speed} {age}");
         }
         let unseen = hand(0.5, 151);
         assert!(!unseen.is_seen && (unseen.growth(0.3) - 2.0 * 0.451).abs() < 1e-9, "{}", unseen.growth(0.3));

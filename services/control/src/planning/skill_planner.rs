@@ -81,8 +81,7 @@ impl SkillPlanner {
         self.movement(query).unwrap_or(PlanningResult::REFUSED)
     }
 
-    /// From a person who is near the hand withdraws first, and then keeps its distance: so much that the guard lets it go on at its own
-    /// speed, or just what the guard asks for, beside which it is slow. Where the person leaves no path, the arm goes as far as the guard
+    /// From a person who is near the hand withdraws first, and then keeps its distance. Where the person leaves no path, the arm goes as far as the guard
     /// lets it, but not to where the person comes; where there is no room for the fingers to move with the arm, they move when
     /// it has arrived.
     fn movement(&self, query: &PlanningQuery) -> Option<PlanningResult> {
@@ -91,17 +90,23 @@ impl SkillPlanner {
         let person = self.scene.person(query, &self.goals);
         let (separation, away) = self.scene.separation(query, &still, &person);
         let alone = self.scene.without_person(query, &goals);
-        let clear_of = |beyond: f64| alone.with(self.scene.inflated(&person, separation, beyond));
-        let (scene, close) = (clear_of(self.limits.beyond_guard), clear_of(0.0));
-        let mut from_person =
-            alone.with(self.scene.inflated(&person, f64::INFINITY, self.limits.beyond_guard));
-        from_person.allowed_leaving.push(PERSON.to_owned());
+        let clear_of = |beyond, separation| alone.with(self.scene.inflated(&person, separation, beyond));
+        let withdrawing = |beyond| {
+            let mut scene = clear_of(beyond, f64::INFINITY);
+            scene.allowed_leaving.push(PERSON.to_owned());
+            scene
+        };
+        // As far from the person as the guard lets the arm go on at its own speed; and just as far as it asks for.
+        let distances = [self.limits.beyond_guard, 0.0];
+        let [wide, close] = distances.map(|beyond| clear_of(beyond, separation));
+        let [out_wide, out_close] = distances.map(withdrawing);
         let (moves, awaits, leave) = (query.is_in_motion(), query.awaits_person(), query.leave);
         let is_near = separation < self.limits.withdraw_within && !moves;
         let out = leave.or(Some((away, self.limits.withdraw_distance)));
         let attempts = [
-            Attempt { applies: is_near, model: &moving, scene: &from_person, leave: out },
-            Attempt { applies: true, model: &moving, scene: &scene, leave },
+            Attempt { applies: is_near, model: &moving, scene: &out_wide, leave: out },
+            Attempt { applies: is_near, model: &moving, scene: &out_close, leave: out },
+            Attempt { applies: true, model: &moving, scene: &wide, leave },
             Attempt { applies: true, model: &moving, scene: &close, leave },
             Attempt { applies: !awaits, model: &moving, scene: &alone, leave },
             Attempt { applies: !moves, model: &still, scene: if awaits { &close } else { &alone }, leave },
