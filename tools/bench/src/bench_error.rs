@@ -12,6 +12,14 @@ pub enum BenchError {
     /// iceoryx2 refused a port of the raw hop.
     #[error("the raw hop: {0}")]
     Port(String),
+    /// The process table of a bench cannot be made.
+    #[error("{}: {cause}; expected a process table, and a folder that can be written to", file.display())]
+    Table {
+        /// What was read or written.
+        file: std::path::PathBuf,
+        /// Why that failed.
+        cause: String,
+    },
     /// The run cannot be watched.
     #[error(transparent)]
     Watch(#[from] coact_realtime::PortError),

@@ -1,14 +1,16 @@
 //! `coact bench`: what is measured beside what it is to be compared with.
 
 mod latency;
+mod recovery;
 
 use anyhow::Result;
 use std::process::ExitCode;
 
 /// Measures the pipeline beside what it is to be compared with.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:
-  coact bench latency --load all --out reports/bench")]
+#[command(after_help = "Examples:
+  coact bench latency --load all --out reports/bench
+  coact bench recovery --faults 1000 --standby")]
 pub struct Args {
     #[command(subcommand)]
     bench: Bench,
@@ -18,6 +20,8 @@ pub struct Args {
 enum Bench {
     /// Latencies of a real set, of an idle thread and of iceoryx2 alone, at the same time
     Latency(latency::Args),
+    /// What many deaths of fields and control cost a real set
+    Recovery(recovery::Args),
 }
 
 /// Measures.
@@ -27,5 +31,6 @@ enum Bench {
 pub fn run(args: Args) -> Result<ExitCode> {
     match args.bench {
         Bench::Latency(args) => latency::run(args),
+        Bench::Recovery(args) => recovery::run(args),
     }
 }

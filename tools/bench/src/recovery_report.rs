@@ -1,0 +1,110 @@
+use coact_run_records::{FaultReport, Judgement, OutageReport, Summary};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// What many faults of a running set cost.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RecoveryReport {
+    /// What was done to the processes.
+    pub fault: &'static str,
+    /// Of each process that was struck.
+    pub processes: BTreeMap<String, Recovery>,
+    /// Faults in which no other process went without a timely output, and all of them.
+    pub others_missed_none: u64,
+    /// See `others_missed_none`.
+    pub faults: u64,
+    /// Cycles without a timely command, over the whole run.
+    pub command_outage: OutageReport,
+    /// Wake-ups of the idle thread that came late by a period meanwhile; none where there was no such thread.
+    pub machine_late: Option<u64>,
+    /// The verdict on the work of the whole run.
+    pub work: Judgement,
+}
+
+/// What the faults of one process cost.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Recovery {
+    /// Faults.
+    pub count: u64,
+    /// From its last good output to its replacement's first, ms: median, 99th percentile and longest. Those that never recovered count
+    /// in `lost` only.
+    pub recovered_ms: [f64; 3],
+    /// Faults without a recovery.
+    pub lost: u64,
+    /// Where it has a standby: how many faults left the stage's readers so many cycles without a timely message.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub without_output: BTreeMap<u64, u64>,
+}
+
+impl RecoveryReport {
+    /// Of a run in which this `fault` was injected.
+    pub fn new(fault: &'static str, summary: &Summary) -> Self {
+        let struck: Vec<&FaultReport> =
+            summary.faults.iter().filter(|report| report.fault == fault).collect();
+        let names: std::collections::BTreeSet<&str> =
+            struck.iter().map(|report| report.process.as_str()).collect();
+        let of = |name: &str| {
+            let own: Vec<_> = struck.iter().copied().filter(|report| report.process == name).collect();
+            (name.to_owned(), Recovery::of(&own, summary.processes.contains_key(&standby_of(name))))
+        };
+        Self {
+            fault,
+            processes: names.into_iter().map(of).collect(),
+            others_missed_none: struck.iter().filter(|report| report.survivors_missed == 0).count() as u64,
+            faults: struck.len() as u64,
+            command_outage: summary.command_outage,
+            machine_late: summary.environment.machine.map(|machine| machine.late),
+            work: summary.work.clone(),
+        }
+    }
+}
+
+impl Recovery {
+    fn of(faults: &[&FaultReport], has_standby: bool) -> Self {
+        let mut times: Vec<f64> = faults.iter().filter_map(|fault| fault.recovered_ms).collect();
+        times.sort_by(f64::total_cmp);
+        let rank = |fraction: f64| {
+            let place = (fraction * times.len() as f64).ceil() as usize;
+            times.get(place.saturating_sub(1)).copied().unwrap_or(0.0)
+        };
+        let mut without_output = BTreeMap::new();
+        for fault in faults.iter().filter(|_| has_standby) {
+            let missed = fault.survivors_missed_by.get(&standby_of(&fault.process)).copied().unwrap_or(0);
+            *without_output.entry(missed).or_default() += 1;
+        }
+        let (count, lost) = (faults.len() as u64, (faults.len() - times.len()) as u64);
+        Self { count, recovered_ms: [rank(0.5), rank(0.99), rank(1.0)], lost, without_output }
+    }
+}
+
+/// Name of the standby of a stage.
+fn standby_of(stage: &str) -> String {
+    format!("{stage}-standby")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fault(recovered_ms: Option<f64>, standby_missed: u64) -> FaultReport {
+        FaultReport {
+            process: "fields".into(),
+            fault: "kill".into(),
+            at_s: 1.0,
+            detected_ms: Some(2.0),
+            recovered_ms,
+            survivors_missed: standby_missed,
+            survivors_missed_by: BTreeMap::from([("fields-standby".into(), standby_missed)]),
+        }
+    }
+
+    #[test]
+    fn percentiles_are_those_of_what_recovered_and_what_did_not_is_told() {
+        let faults: Vec<_> =
+            (1..=100).map(|ms| fault(Some(f64::from(ms)), 0)).chain([fault(None, 2)]).collect();
+        let recovery = Recovery::of(&faults.iter().collect::<Vec<_>>(), true);
+        assert_eq!((recovery.count, recovery.lost, recovery.recovered_ms), (101, 1, [50.0, 99.0, 100.0]));
+        assert_eq!(recovery.without_output, BTreeMap::from([(0, 100), (2, 1)]));
+        assert_eq!(Recovery::of(&[], true), Recovery::default());
+    }
+}
