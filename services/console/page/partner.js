@@ -98,18 +98,23 @@ export class Partner {
     this.buttons.mark();
   }
 
-  #move({ offsetX, offsetY }) {
+  #move(event) {
+    this.#follow(event);
+    if (performance.now() - this.told >= SOONEST) this.#tell();
+  }
+
+  /** Puts the hand where the pointer is, if that is over the table. */
+  #follow({ offsetX, offsetY }) {
     const place = this.scene.camera.placeAt(offsetX, offsetY, this.scene.handPlane);
     if (!place || Math.hypot(place[0], place[1]) > FARTHEST) return;
     [this.hand.x, this.hand.y] = place;
     if (!this.hides) this.present = true;
-    if (performance.now() - this.told >= SOONEST) this.#tell();
   }
 
   #press(event) {
     this.scene.canvas.setPointerCapture(event.pointerId);
     if (this.hides) this.hide(false);
-    this.#move(event);
+    this.#follow(event);
     this.hand.pressed = true;
     this.#tell();
   }
