@@ -2,9 +2,12 @@
 
 use coact_lockstep::Lockstep;
 use coact_messages::{ARM_JOINTS, LayerKind, NONE};
+use coact_monitor::JointMotion;
 use coact_period::{CYCLES_PER_SECOND, seconds};
 use coact_pipeline::{RunSettings, WorldMode};
+use coact_robot::Robot;
 use std::path::Path;
+use std::time::Duration;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -15,6 +18,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
     let shipped = RunSettings::shipped(&folder);
     let model = std::env::var("MODEL").map_or_else(|_| shipped.model.clone(), Into::into);
+    let limits = Robot::load(&shipped.robot)?.limits()[..ARM_JOINTS].to_vec();
+    let mut motion = JointMotion::new(limits, Duration::from_secs(1));
     let mut stages = Lockstep::new(&RunSettings { model, seed, partner, world, ..shipped })?;
     let mut last = String::new();
     let mut errors = Vec::new();
@@ -22,6 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     while stages.ticks() < duration * CYCLES_PER_SECOND && !stages.complete() {
         stages.step();
         errors.push(tracking_error(&stages));
+        motion.sample(&stages.sample);
         let now = describe(&stages);
         if now != last {
             println!("{:8.3} {now}", seconds(stages.ticks()));
@@ -42,6 +48,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         errors.iter().filter(|error| **error > 0.02).count(),
         1e3 * errors.get(largest).copied().unwrap_or(0.0),
         seconds(largest as u64)
+    );
+    let joints = motion.report();
+    println!(
+        "joints: at most {:.3} of the speed and {:.3} of the acceleration limit",
+        joints.speed, joints.acceleration
     );
     println!("{} ms in {elapsed:.2} s: {:.1} times real time", ticks, seconds(ticks) / elapsed);
     Ok(())

@@ -203,6 +203,27 @@ mod tests {
     }
 
     #[test]
+    fn a_joint_that_gains_speed_is_expected_nearer_to_where_it_will_be_than_its_velocity_tells() {
+        // A reach of 0.35 m in 0.7 s, seen up to a fifth and a third of it: as people reach, with least jerk.
+        let reach = |begun: f64| {
+            move |time: f64| {
+                let part = ((time - begun) / 0.7).clamp(0.0, 1.0);
+                let way = 0.35 * part.powi(3) * (10.0 - 15.0 * part + 6.0 * part * part);
+                Vector3::new(way, 0.0, 0.0)
+            }
+        };
+        let newest = seconds(29 * FRAME);
+        for begun in [newest - 0.14, newest - 0.23] {
+            let (way, joint) = (reach(begun), followed(reach(begun)));
+            let off = |velocity: Vector3<f64>| (joint.position() + velocity * 0.1 - way(newest + 0.1)).norm();
+            let (expected, told) = (off(joint.expected_velocity()), off(joint.velocity()));
+            assert!(expected < 0.7 * told, "{expected} m, by its velocity {told} m");
+        }
+        let rests = followed(|_| Vector3::new(0.3, 0.2, 0.0));
+        assert!(rests.expected_velocity().norm() < 1e-9);
+    }
+
+    #[test]
     fn a_joint_is_still_from_when_it_has_stopped_and_not_when_it_was_just_found() {
         let stops = |time: f64| Vector3::new(time.min(0.2), 0.0, 0.0);
         let now = 29 * FRAME;

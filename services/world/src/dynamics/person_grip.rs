@@ -1,11 +1,10 @@
-use super::physics_simulation::PERSON_HAND;
 use rapier3d::prelude::*;
 
 /// The most that the person's fingers exert on a part, N. Chosen by hand: what 15 N of a precision grip carry by friction on both
 /// sides, three times what people were measured to pull with in a handover (Khanna et al., RO-MAN 2023: 4.0 to 4.6 N).
 const FORCE: f64 = 20.0;
 /// The same as a torque, Nm: at half the breadth of the hand.
-const TORQUE: f64 = FORCE * PERSON_HAND;
+const TORQUE: f64 = FORCE * PersonGrip::HAND;
 /// Natural frequency at which a free part follows the hand, critically damped, rad/s. Chosen by hand: within 0.1 mm on the way.
 const STIFFNESS: f64 = 150.0;
 
@@ -24,6 +23,9 @@ pub(super) struct PersonGrip {
 }
 
 impl PersonGrip {
+    /// The person's hand is a ball of this radius, m: half the breadth of an adult's hand.
+    pub const HAND: f64 = 0.045;
+
     /// On a part as it is now.
     pub fn new(world: &mut PhysicsWorld, part: usize, body: RigidBodyHandle) -> Self {
         let here = world.bodies.get_mut(body).map_or(Pose::IDENTITY, |body| {

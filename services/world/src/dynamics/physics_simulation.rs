@@ -34,8 +34,6 @@ const CONTACT_FREQUENCY: f64 = 60.0;
 const SETTLING: f64 = PERIOD_S / 0.3;
 /// A mounted part that is as near as this is in its place, m and rad. Not sensitive.
 const SETTLED: (f64, f64) = (1e-5, 1e-3);
-/// The person's hand is a ball of this radius, m: half the breadth of an adult's hand.
-pub(super) const PERSON_HAND: f64 = 0.045;
 
 /// Rigid-body dynamics of table, base, parts and robot; one step is one tick.
 ///
@@ -74,7 +72,7 @@ impl PhysicsSimulation {
         let numbered = parts.all().iter().zip(1..);
         let bodies = numbered.map(|(part, number)| insert_part(&mut world, task, part, number)).collect();
         let person = world.insert_body(RigidBodyBuilder::kinematic_position_based());
-        let ball = ColliderBuilder::ball(PERSON_HAND).collision_groups(Layer::Person.groups());
+        let ball = ColliderBuilder::ball(PersonGrip::HAND).collision_groups(Layer::Person.groups());
         world.insert_collider(ball, Some(person));
         let left = parts.all().to_vec();
         let mut built = Self {
