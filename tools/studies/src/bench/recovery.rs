@@ -17,9 +17,9 @@ use std::time::Duration;
 /// Strikes fields and control by turns, at random instants, and tells for how long their readers were without them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
-  coact bench recovery                                    a hundred SIGKILLs; replacements wait, loaded
-  coact bench recovery --faults 1000 --standby            a thousand; each stage has a standby
-  coact bench recovery --faults 200 --fault stop-for-good ... SIGSTOPs that nothing ends
+  coact bench recovery                          a hundred SIGKILLs; replacements wait, loaded
+  coact bench recovery --faults 1000 --standby  a thousand; each stage has a standby
+  coact bench recovery --fault stop-for-good    SIGSTOPs that nothing ends
 
 The arm is watched as in every run: its verdict on the work is told, too.
 
