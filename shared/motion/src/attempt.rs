@@ -43,10 +43,13 @@ impl<'a> Attempt<'a> {
     /// The movement with this bounce on the reach.
     pub(crate) fn timed(&self, bounce: Posture) -> Result<Vec<Segment>, Refusal> {
         let waypoints = Waypoints { bounce, ..self.waypoints.clone() };
-        waypoints.timed(&self.limits).map_err(|joint| {
-            let joint = self.clearance.mechanism.arm.joints.get(joint).map_or("", |joint| &joint.name);
-            Refusal::TooFast { joint: joint.to_owned() }
-        })
+        waypoints.timed(&self.limits).map_err(|joint| self.too_fast(joint))
+    }
+
+    /// That this joint is too fast for the movement.
+    pub fn too_fast(&self, joint: usize) -> Refusal {
+        let joint = self.clearance.mechanism.arm.joints.get(joint).map_or("", |joint| &joint.name);
+        Refusal::TooFast { joint: joint.to_owned() }
     }
 
     /// These segments, changed so that hand and joints move more smoothly, if they are clear then.

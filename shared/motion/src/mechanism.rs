@@ -46,10 +46,6 @@ const ELBOW: f64 = 1.6;
 /// fingers that bend inwards meet nearer to the palm than they are long.
 const MEETING: f64 = 0.6;
 
-/// The fraction of a joint's speed limit that movements use at most. A drive lets setpoints come up to 0.99 of it: a movement that is
-/// faster between two of the instants at which it is checked would be broken off, joint by joint.
-const PLANNED: f64 = 0.98;
-
 impl Mechanism {
     /// The robot that a robot file describes.
     ///
@@ -132,12 +128,11 @@ impl Mechanism {
         self.arm.joints.len()
     }
 
-    /// Limits of the arm's joints for movements; those of unused joints only fill their places.
+    /// Limits of the arm's joints; those of unused joints only fill their places.
     pub fn limits(&self) -> [JointLimits; MAX_JOINTS] {
         let unused =
             JointLimits { lower: -1.0, upper: 1.0, velocity: 1.0, effort: 1.0, acceleration: 1.0, jerk: 1.0 };
-        let planned = |limits: JointLimits| JointLimits { velocity: PLANNED * limits.velocity, ..limits };
-        std::array::from_fn(|joint| self.arm.joints.get(joint).map_or(unused, |joint| planned(joint.limits)))
+        std::array::from_fn(|joint| self.arm.joints.get(joint).map_or(unused, |joint| joint.limits))
     }
 
     /// The collision model of arm and hand with the fingers at these angles, rad, by joint name; joints that mimic others

@@ -21,6 +21,12 @@ const CHECKED: u32 = 4;
 /// Fraction of the limits that a movement from rest uses. Chosen by hand: the rest is room for peaks between
 /// samples.
 const USED: f64 = 0.95;
+/// Fraction of the speed limits that no movement exceeds, at whatever instant: a drive lets setpoints come up to 0.99 of them, and one that
+/// is faster is broken off, joint by joint. A wrist that still lagged then
+/// braked with 1.3 times its acceleration.
+pub(crate) const FASTEST: f64 = 0.98;
+/// Steps between two knots at whose ends speeds are looked at for that.
+const LOOKED_AT: u32 = 24;
 
 impl Plan {
     /// Most knots of a plan: it fits into messages of a fixed size. A trade-off: 32 follow the path of hand and joints
@@ -63,6 +69,30 @@ impl Plan {
         }
         self.segments.iter_mut().for_each(|(_, end)| *end *= factor);
         self
+    }
+
+    /// The same path, slower if a joint's speed peaks too near to its limit.
+    ///
+    /// # Errors
+    /// That joint, when the movement is under way and can be no slower.
+    pub(crate) fn below_speed_limits(self, limits: &[JointLimits; 7]) -> Result<Self, usize> {
+        let (joint, speed) = self.fastest(limits);
+        let begins_at_rest =
+            self.knots.first().is_none_or(|knot| knot.states.iter().all(MotionState::is_at_rest));
+        match speed <= FASTEST {
+            true => Ok(self),
+            false if begins_at_rest => Ok(self.slower(speed / FASTEST)),
+            false => Err(joint),
+        }
+    }
+
+    /// The joint that comes nearest to its speed limit, and the fraction of it.
+    fn fastest(&self, limits: &[JointLimits; 7]) -> (usize, f64) {
+        let speeds = self.instants(LOOKED_AT).flat_map(|t| {
+            let states = self.at(t);
+            (0..7).map(move |joint| (joint, states[joint].velocity.abs() / limits[joint].velocity))
+        });
+        speeds.fold((0, 0.0), |most, speed| if speed.1 > most.1 { speed } else { most })
     }
 
     /// Instants of the movement: `steps` in each piece, s.

@@ -179,14 +179,23 @@ impl<'a> Search<'a> {
         let clear = attempt.check(segments);
         let bounces = bounces || clear.is_err();
         if let Some(smoother) = attempt.smooth(segments) {
-            self.incumbent.offer(attempt.plan(&smoother), target, bounces);
+            self.take(attempt, &smoother, target, bounces);
             if segments.len() == 1 && self.incumbent.is_smooth() {
                 return;
             }
         }
         match clear {
-            Ok(()) => self.incumbent.offer(attempt.plan(segments), target, bounces),
+            Ok(()) => self.take(attempt, segments, target, bounces),
             Err(refusal) => self.incumbent.refuse(refusal),
+        }
+    }
+
+    /// Takes clear segments as a plan that keeps below the speed limits, if it is better than the best so far.
+    fn take(&mut self, attempt: &Attempt, segments: &[Segment], target: Option<Target>, bounces: bool) {
+        let (roughness, plan) = attempt.plan(segments);
+        match plan.below_speed_limits(&attempt.limits) {
+            Ok(plan) => self.incumbent.offer((roughness, plan), target, bounces),
+            Err(joint) => self.incumbent.refuse(attempt.too_fast(joint)),
         }
     }
 

@@ -1,5 +1,5 @@
 use crate::blend::Blend;
-use crate::plan::load;
+use crate::plan::{FASTEST, load};
 use crate::{HandPath, Mechanism, Segment, SegmentKind, SegmentMotion, minimum_jerk_spline, time_scaling};
 use coact_robot::{JointLimits, MotionState, Posture};
 
@@ -116,10 +116,11 @@ impl Waypoints {
             let segments = self.segments(duration);
             return broken(&segments, limits, 1.0 + ROUNDING).map_or(Ok(segments), Err);
         }
+        let limits = limits.map(|limit| JointLimits { velocity: FASTEST * limit.velocity, ..limit });
         let mut joint = 0;
         for _ in 0..LONGER_TRIES {
             let segments = self.segments(duration);
-            match broken(&segments, limits, 1.0) {
+            match broken(&segments, &limits, 1.0) {
                 None => return Ok(segments),
                 Some(broken) => joint = broken,
             }
