@@ -15,6 +15,9 @@ const FAST: f64 = 0.4;
 /// How long the driver may go on after its supervisor's death: a second of braking, and some for a busy machine.
 const LONGEST_END: Duration = Duration::from_secs(3);
 
+/// A joint that stands at its limit is read so far beyond it, rad: six times what encoders scatter by.
+const SCATTER: f64 = 1.2e-4;
+
 /// Reads the sensor samples as any program can.
 struct Viewer {
     samples: Subscriber<ipc::Service, SensorSample, ()>,
@@ -82,5 +85,5 @@ fn the_joints_keep_their_limits_of_speed_and_position_when_control_is_killed_and
     // Of the acceleration this says nothing: a simulated world that was late moves the joints on by several cycles at once.
     // `tools/lockstep/tests/broken_chain.rs` measures it.
     assert!(motion.speed <= 1.0, "{motion:?}");
-    assert_eq!(motion.beyond_position_rad, 0.0);
+    assert!(motion.beyond_position_rad <= SCATTER, "{motion:?}");
 }
