@@ -22,8 +22,8 @@ const CHECKED: u32 = 4;
 /// samples.
 const USED: f64 = 0.95;
 /// Fraction of the speed limits that no movement exceeds, at whatever instant: a drive lets setpoints come up to 0.99 of them, and one that
-/// is faster is broken off, joint by joint. A wrist that still lagged then
-/// braked with 1.3 times its acceleration.
+/// is faster is broken off, joint by joint. A wrist that still lagged then braked with 1.3 times its
+/// acceleration.
 pub(crate) const FASTEST: f64 = 0.98;
 /// Steps between two knots at whose ends speeds are looked at for that.
 const LOOKED_AT: u32 = 24;

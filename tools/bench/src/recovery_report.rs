@@ -1,6 +1,6 @@
 use coact_run_records::{FaultReport, Judgement, OutageReport, Summary};
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What many faults of a running set cost.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -41,8 +41,7 @@ impl RecoveryReport {
     pub fn new(fault: &'static str, summary: &Summary) -> Self {
         let struck: Vec<&FaultReport> =
             summary.faults.iter().filter(|report| report.fault == fault).collect();
-        let names: std::collections::BTreeSet<&str> =
-            struck.iter().map(|report| report.process.as_str()).collect();
+        let names: BTreeSet<&str> = struck.iter().map(|report| report.process.as_str()).collect();
         let of = |name: &str| {
             let own: Vec<_> = struck.iter().copied().filter(|report| report.process == name).collect();
             (name.to_owned(), Recovery::of(&own, summary.processes.contains_key(&standby_of(name))))

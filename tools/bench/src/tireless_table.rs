@@ -8,14 +8,14 @@ const INTENSITY: i64 = 1_000_000;
 const WINDOW: f64 = 0.1;
 
 /// Writes a process table into `folder`, with the verdict's rules that belong beside it, and returns its file: `table`, but no process is
-/// ever given up, and where `standby` is set each of `stages` has one.
+/// ever given up, and each of the stages `with_standby` has one.
 ///
 /// # Errors
 /// [`BenchError::Table`] when a file cannot be read or written.
 pub fn tireless_table(
     table: &Path,
     rules: &Path,
-    standby: Option<&[&str]>,
+    with_standby: &[&str],
     folder: &Path,
 ) -> Result<PathBuf, BenchError> {
     let at = |file: &Path| {
@@ -28,8 +28,7 @@ pub fn tireless_table(
     document["restart"]["window_s"] = value(WINDOW);
     let processes = document["process"].as_array_of_tables_mut().into_iter().flat_map(|all| all.iter_mut());
     for process in processes {
-        let has_one = |stages: &&[&str]| stages.iter().any(|stage| process["name"].as_str() == Some(stage));
-        if standby.as_ref().is_some_and(has_one) {
+        if process["name"].as_str().is_some_and(|name| with_standby.contains(&name)) {
             process["standby"] = value(true);
         }
     }

@@ -79,8 +79,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
 fn prepare(args: &Args, out: &Path) -> Result<Launch> {
     let Installation { programs, configuration, .. } = Installation::find()?;
     let shipped = RunSettings::shipped(&configuration);
-    let standby = args.standby.then_some(&STRUCK[..]);
-    let table = tireless_table(&shipped.pipeline, &configuration.join(Rules::FILE), standby, out)?;
+    let with_standby = if args.standby { &STRUCK[..] } else { &[] };
+    let table = tireless_table(&shipped.pipeline, &configuration.join(Rules::FILE), with_standby, out)?;
     let every = Duration::from_millis(args.every);
     let injections = random_faults(&STRUCK, args.fault, args.faults as usize, every, args.seed);
     let last = injections.last().map_or(Duration::ZERO, |last| last.at);
