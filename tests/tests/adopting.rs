@@ -4,6 +4,7 @@
 use coact_messages::SensorSample;
 use coact_pipeline::Run;
 use coact_run_records::{SupervisorEvent, SupervisorEventKind};
+use coact_table_edit::TableEdit;
 use coact_tests::{JointViewer, Launched, alone, checkout, left_behind, operate, wait_for, wait_within};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::OFlags;
@@ -25,15 +26,8 @@ const ENDS_WITHIN: Duration = Duration::from_secs(20);
 
 /// The process table of a set that can be adopted, in a folder of its own.
 fn table(folder: &Path, adoptable_for_s: f64) -> PathBuf {
-    let shipped = checkout().join("rt-config");
-    let text = std::fs::read_to_string(shipped.join("pipeline.toml")).unwrap();
-    let adoptable =
-        text.replacen("adoptable_for_s = 0 ", &format!("adoptable_for_s = {adoptable_for_s} "), 1);
-    assert_ne!(text, adoptable, "the table names the time");
-    std::fs::copy(shipped.join("verdict.toml"), folder.join("verdict.toml")).unwrap();
-    let path = folder.join("pipeline.toml");
-    std::fs::write(&path, adoptable).unwrap();
-    path
+    let table = TableEdit::of(&checkout().join("rt-config")).unwrap();
+    table.with("supervision", "adoptable_for_s", adoptable_for_s).unwrap().write(folder).unwrap()
 }
 
 fn start(table: &Path, duration: &str) -> Launched {

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_run_records::{Event, FaultEvent, SupervisorEventKind};
+use coact_table_edit::TableEdit;
 use coact_tests::{Finished, Launched, alone, checkout, coact, left_behind};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -11,18 +12,11 @@ use std::process::Command;
 /// Cycles of a busy test machine's own that may fall into one recovery, in which everybody misses some.
 const OF_THE_MACHINE: u64 = 3;
 
-/// A copy of the shipped table and verdicts, in which fields and control have a standby. Returns the table.
+/// The shipped table, but fields and control have a standby, and what dies is not given up.
 fn with_standby(folder: &Path) -> String {
-    let shipped = checkout().join("rt-config");
-    std::fs::copy(shipped.join("verdict.toml"), folder.join("verdict.toml")).unwrap();
-    let table = std::fs::read_to_string(shipped.join("pipeline.toml")).unwrap();
-    assert_eq!(table.matches("\nstandby = false").count(), 2);
-    // What dies is not given up in this test.
-    let table =
-        table.replace("\nstandby = false", "\nstandby = true").replace("intensity = 5 ", "intensity = 99 ");
-    let file = folder.join("pipeline.toml");
-    std::fs::write(&file, table).unwrap();
-    file.to_str().unwrap().to_owned()
+    let table = TableEdit::of(&checkout().join("rt-config")).unwrap();
+    let table = table.with_standby(&["fields", "control"]).unwrap().with("restart", "intensity", 99).unwrap();
+    table.write(folder).unwrap().to_str().unwrap().to_owned()
 }
 
 fn faults(finished: &Finished) -> impl Iterator<Item = &FaultEvent> {

@@ -4,10 +4,11 @@
 use coact_messages::{Pulse, topic};
 use coact_pipeline::{Pipeline, Run};
 use coact_realtime::{Bus, Input, exclude_real_time_cores};
+use coact_table_edit::TableEdit;
 use coact_tests::{Launched, ThreadFaults, TraceError, Tracer, checkout};
 use rustix::process::Signal;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// A process of the chain, and how often each of its cycles may make a system call.
@@ -74,14 +75,9 @@ const STARTS_WITHIN: Duration = Duration::from_secs(25);
 const ENDS_WITHIN: Duration = Duration::from_secs(15);
 
 /// The process table, with a watchdog that waits for what a debugger slows down, in a folder of its own.
-fn patient_table(folder: &Path) -> Pipeline {
-    let shipped = checkout().join("rt-config");
-    let text = std::fs::read_to_string(shipped.join("pipeline.toml")).unwrap();
-    let patient = text.replacen("hung_after_ms = 100 ", "hung_after_ms = 10000 ", 1);
-    assert_ne!(text, patient, "the table names the limit");
-    std::fs::write(folder.join("pipeline.toml"), patient).unwrap();
-    std::fs::copy(shipped.join("verdict.toml"), folder.join("verdict.toml")).unwrap();
-    Pipeline::load(&folder.join("pipeline.toml")).unwrap()
+fn patient_table(folder: &Path) -> PathBuf {
+    let table = TableEdit::of(&checkout().join("rt-config")).unwrap();
+    table.with("restart", "hung_after_ms", 10_000).unwrap().write(folder).unwrap()
 }
 
 /// How many messages a process has sent.
@@ -146,12 +142,11 @@ impl Chain {
 fn steady_cycles_take_no_page_fault_and_make_no_other_system_call_than_they_need() {
     let folder = tempfile::tempdir().unwrap();
     let table = patient_table(folder.path());
-    let path = folder.path().join("pipeline.toml");
-    let path = path.to_str().unwrap();
+    let path = table.to_str().unwrap();
     let mut launched = Launched::start(&["--world", "kinematic", "--duration", LONGEST, "--pipeline", path]);
     let run = launched.when_started_within(STARTS_WITHIN);
     let ready = EXPECTED.map(|expected| run.ready(expected.process, 0).unwrap().unwrap());
-    exclude_real_time_cores(&table);
+    exclude_real_time_cores(&Pipeline::load(&table).unwrap());
     std::thread::sleep(WARM_UP);
     let mut chain = Chain::of(&run);
     std::thread::sleep(Duration::from_millis(500));

@@ -49,4 +49,4 @@ mod joint_limits;
 
 pub use drive::Drive;
 pub use drive_state::DriveState;
-pub use joint_limits::joint_limits;
+pub use joint_limits::{FASTEST_SETPOINT, joint_limits};

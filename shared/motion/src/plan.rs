@@ -21,14 +21,14 @@ const CHECKED: u32 = 4;
 /// Fraction of the limits that a movement from rest uses. Chosen by hand: the rest is room for peaks between
 /// samples.
 const USED: f64 = 0.95;
-/// Fraction of the speed limits that no movement exceeds, at whatever instant: a drive lets setpoints come up to 0.99 of them, and one that
-/// is faster is broken off, joint by joint. A wrist that still lagged then braked with 1.3 times its
-/// acceleration.
-pub(crate) const FASTEST: f64 = 0.98;
 /// Steps between two knots at whose ends speeds are looked at for that.
 const LOOKED_AT: u32 = 24;
 
 impl Plan {
+    /// Fraction of the speed limits that no movement exceeds, at whatever instant: to be less than what a drive lets setpoints come up to,
+    /// for one that is faster is broken off, joint by joint. A wrist that still lagged then braked with 1.3 times its acceleration.
+    pub const FASTEST: f64 = 0.98;
+
     /// Most knots of a plan: it fits into messages of a fixed size. A trade-off: 32 follow the path of hand and joints
     /// closely enough to stay clear, and take 5.6 kB.
     pub const KNOTS: usize = 32;
@@ -79,9 +79,9 @@ impl Plan {
         let (joint, speed) = self.fastest(limits);
         let begins_at_rest =
             self.knots.first().is_none_or(|knot| knot.states.iter().all(MotionState::is_at_rest));
-        match speed <= FASTEST {
+        match speed <= Self::FASTEST {
             true => Ok(self),
-            false if begins_at_rest => Ok(self.slower(speed / FASTEST)),
+            false if begins_at_rest => Ok(self.slower(speed / Self::FASTEST)),
             false => Err(joint),
         }
     }

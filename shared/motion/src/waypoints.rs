@@ -1,6 +1,8 @@
 use crate::blend::Blend;
-use crate::plan::{FASTEST, load};
-use crate::{HandPath, Mechanism, Segment, SegmentKind, SegmentMotion, minimum_jerk_spline, time_scaling};
+use crate::plan::load;
+use crate::{
+    HandPath, Mechanism, Plan, Segment, SegmentKind, SegmentMotion, minimum_jerk_spline, time_scaling,
+};
 use coact_robot::{JointLimits, MotionState, Posture};
 
 /// The postures that a movement passes, how it passes them, and which fraction of its duration lies between them: all of
@@ -116,7 +118,7 @@ impl Waypoints {
             let segments = self.segments(duration);
             return broken(&segments, limits, 1.0 + ROUNDING).map_or(Ok(segments), Err);
         }
-        let limits = limits.map(|limit| JointLimits { velocity: FASTEST * limit.velocity, ..limit });
+        let limits = limits.map(|limit| JointLimits { velocity: Plan::FASTEST * limit.velocity, ..limit });
         let mut joint = 0;
         for _ in 0..LONGER_TRIES {
             let segments = self.segments(duration);

@@ -9,17 +9,18 @@ pub enum BenchError {
     /// The load could not be started.
     #[error("stress-ng cannot be started: {0}")]
     Load(std::io::Error),
+    /// The raw hop's other process cannot be started or waited for.
+    #[error("the raw hop's sender: {0}")]
+    Sender(std::io::Error),
     /// iceoryx2 refused a port of the raw hop.
     #[error("the raw hop: {0}")]
     Port(String),
-    /// The process table of a bench cannot be made.
-    #[error("{}: {cause}; expected a process table, and a folder that can be written to", file.display())]
-    Table {
-        /// What was read or written.
-        file: std::path::PathBuf,
-        /// Why that failed.
-        cause: String,
-    },
+    /// The run cannot be read.
+    #[error(transparent)]
+    Run(#[from] coact_pipeline::RunError),
+    /// The run's process table cannot be read.
+    #[error(transparent)]
+    Pipeline(#[from] coact_pipeline::PipelineError),
     /// The run cannot be watched.
     #[error(transparent)]
     Watch(#[from] coact_realtime::PortError),

@@ -5,8 +5,7 @@
 //! payload through iceoryx2 alone, and [`SlowCycles`] keeps the slowest cycles from the pulses. A [`LatencyReport`] is what comes of
 //! it; [`page`] draws it.
 //!
-//! Beside that, [`random_faults`] strike stages of a set that never gives up ([`tireless_table`]); a [`RecoveryReport`] counts what
-//! that cost.
+//! Beside that, [`random_faults`] strike stages of a set that never gives up; a [`RecoveryReport`] counts what that cost.
 //!
 //! ```
 //! use coact_bench::{Load, kills};
@@ -26,11 +25,11 @@ mod page;
 mod random_faults;
 mod raw_hop;
 mod raw_port;
+mod raw_sender;
 mod recovery_report;
 mod running_load;
 mod slow_cycle;
 mod slow_cycles;
-mod tireless_table;
 
 pub use bench_error::BenchError;
 pub use kills::kills;
@@ -39,8 +38,8 @@ pub use load::Load;
 pub use page::page;
 pub use random_faults::random_faults;
 pub use raw_hop::RawHop;
+pub use raw_sender::send_raw;
 pub use recovery_report::{Recovery, RecoveryReport};
 pub use running_load::RunningLoad;
 pub use slow_cycle::{SlowCycle, StageTimes};
 pub use slow_cycles::SlowCycles;
-pub use tireless_table::tireless_table;

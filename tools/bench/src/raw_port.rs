@@ -1,8 +1,10 @@
 use crate::BenchError;
 use coact_messages::{Header, SensorSample};
-use coact_realtime::now;
+use coact_pipeline::ProcessEntry;
+use coact_realtime::{SchedulingClass, now};
 use iceoryx2::port::{listener::Listener, notifier::Notifier, publisher::Publisher, subscriber::Subscriber};
 use iceoryx2::prelude::*;
+use rustix::thread::{CpuSet, sched_setaffinity};
 use std::path::Path;
 use std::time::Duration;
 
@@ -23,9 +25,21 @@ pub(crate) enum RawPort {
     },
 }
 
-/// What the names of this program's shared memory begin with.
-pub(crate) fn prefix() -> String {
-    format!("coact-bench-{}_", std::process::id())
+/// What the names of the shared memory begin with that belongs to this folder.
+pub(crate) fn prefix(folder: &Path) -> String {
+    format!("{}_", folder.file_name().unwrap_or_default().to_string_lossy())
+}
+
+/// Gives the calling thread what the process has, as far as the machine grants it.
+pub(crate) fn become_like(entry: Option<&ProcessEntry>) {
+    let Some(entry) = entry else { return };
+    if let Some(core) = entry.core.filter(|core| *core < CpuSet::MAX_CPU) {
+        let mut cores = CpuSet::new();
+        cores.set(core);
+        // Refused, it runs where the process that was refused the same does.
+        let _ = sched_setaffinity(None, &cores);
+    }
+    let _ = SchedulingClass::Fifo(entry.priority).apply();
 }
 
 fn refused(error: impl std::fmt::Debug) -> BenchError {
@@ -36,7 +50,7 @@ impl RawPort {
     /// Opens an end below a folder of its own.
     pub(crate) fn open(folder: &Path, sends: bool) -> Result<Self, BenchError> {
         let mut config = Config::default();
-        config.global.prefix = FileName::new(prefix().as_bytes()).map_err(refused)?;
+        config.global.prefix = FileName::new(prefix(folder).as_bytes()).map_err(refused)?;
         let root = iceoryx2::prelude::Path::new(folder.as_os_str().as_encoded_bytes()).map_err(refused)?;
         config.global.set_root_path(&root);
         let node = NodeBuilder::new().config(&config).signal_handling_mode(SignalHandlingMode::Disabled);

@@ -1,4 +1,5 @@
-use coact_run_records::{FaultReport, Judgement, OutageReport, Summary};
+use coact_monitor::{histogram, percentiles};
+use coact_run_records::{FaultReport, Judgement, OutageReport, Percentiles, Summary};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,9 +27,8 @@ pub struct RecoveryReport {
 pub struct Recovery {
     /// Faults.
     pub count: u64,
-    /// From its last good output to its replacement's first, ms: median, 99th percentile and longest. Those that never recovered count
-    /// in `lost` only.
-    pub recovered_ms: [f64; 3],
+    /// From its last good output to its replacement's first, ns. Those that never recovered count in `lost` only.
+    pub recovered: Percentiles,
     /// Faults without a recovery.
     pub lost: u64,
     /// Where it has a standby: how many faults left the stage's readers so many cycles without a timely message.
@@ -60,21 +60,21 @@ impl RecoveryReport {
 
 impl Recovery {
     fn of(faults: &[&FaultReport], has_standby: bool) -> Self {
-        let mut times: Vec<f64> = faults.iter().filter_map(|fault| fault.recovered_ms).collect();
-        times.sort_by(f64::total_cmp);
-        let rank = |fraction: f64| {
-            let place = (fraction * times.len() as f64).ceil() as usize;
-            times.get(place.saturating_sub(1)).copied().unwrap_or(0.0)
-        };
+        let mut times = histogram();
+        for ms in faults.iter().filter_map(|fault| fault.recovered_ms) {
+            times.saturating_record((ms * NS_PER_MS) as u64);
+        }
         let mut without_output = BTreeMap::new();
         for fault in faults.iter().filter(|_| has_standby) {
             let missed = fault.survivors_missed_by.get(&standby_of(&fault.process)).copied().unwrap_or(0);
             *without_output.entry(missed).or_default() += 1;
         }
-        let (count, lost) = (faults.len() as u64, (faults.len() - times.len()) as u64);
-        Self { count, recovered_ms: [rank(0.5), rank(0.99), rank(1.0)], lost, without_output }
+        let count = faults.len() as u64;
+        Self { count, recovered: percentiles(&times), lost: count - times.len(), without_output }
     }
 }
+
+const NS_PER_MS: f64 = 1e6;
 
 /// Name of the standby of a stage.
 fn standby_of(stage: &str) -> String {
@@ -102,7 +102,11 @@ mod tests {
         let faults: Vec<_> =
             (1..=100).map(|ms| fault(Some(f64::from(ms)), 0)).chain([fault(None, 2)]).collect();
         let recovery = Recovery::of(&faults.iter().collect::<Vec<_>>(), true);
-        assert_eq!((recovery.count, recovery.lost, recovery.recovered_ms), (101, 1, [50.0, 99.0, 100.0]));
+        assert_eq!((recovery.count, recovery.lost, recovery.recovered.count), (101, 1, 100));
+        // The histogram has three digits.
+        let ms = |ns: u64| (ns as f64 / NS_PER_MS).round();
+        let Percentiles { p50, p99, max, .. } = recovery.recovered;
+        assert_eq!([p50, p99, max].map(ms), [50.0, 99.0, 100.0]);
         assert_eq!(recovery.without_output, BTreeMap::from([(0, 100), (2, 1)]));
         assert_eq!(Recovery::of(&[], true), Recovery::default());
     }

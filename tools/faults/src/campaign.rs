@@ -74,21 +74,27 @@ impl<'a> Campaign<'a> {
 
     fn outcomes(&self, cells: &[Cell]) -> Vec<JudgedCell> {
         // A thread of its own: what it mounts goes with it.
-        let run = std::thread::scope(|scope| {
-            scope
-                .spawn(|| Trial::run(self.setup, cells))
-                .join()
-                .unwrap_or_else(|_| Err(Trouble("it panicked".into())))
+        let judged = std::thread::scope(|scope| {
+            let panicked = |_| Err(Trouble("it panicked".into()));
+            scope.spawn(|| self.done(cells)).join().unwrap_or_else(panicked)
         });
-        let (records, evidence) = match run {
-            Ok(run) => run,
-            Err(trouble) => return cells.iter().map(|cell| not_judged(cell, &trouble.0)).collect(),
-        };
+        judged.unwrap_or_else(|trouble| cells.iter().map(|cell| not_judged(cell, &trouble.0)).collect())
+    }
+
+    /// The cells after a run.
+    fn done(&self, cells: &[Cell]) -> Result<Vec<JudgedCell>, Trouble> {
+        let (records, evidence, set) = Trial::run(self.setup, cells)?;
         let judged = |record: &crate::record::Record| JudgedCell {
             cell: record.cell.clone(),
             outcome: judge(record, &evidence, &self.setup.rules, cells.len() == 1),
         };
-        records.iter().map(judged).collect()
+        let judged: Vec<_> = records.iter().map(judged).collect();
+        let poor = judged.iter().find(|judged| judged.outcome != Outcome::Green);
+        if let Some(poor) = poor.filter(|_| self.setup.kept.is_some()) {
+            let kept = set.keep(&poor.cell.to_string());
+            kept.map_err(|error| Trouble::because("what the run left cannot be kept")(&error))?;
+        }
+        Ok(judged)
     }
 }
 

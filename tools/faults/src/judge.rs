@@ -290,6 +290,13 @@ impl Case<'_> {
         }
     }
 
+    /// For so long, ms, nobody drove the joints nor told of them, because a cell replaced who does.
+    fn without_world(&self) -> u64 {
+        let struck = self.cell.struck().contains(&"world");
+        let fault = self.report_of("world").filter(|_| struck);
+        fault.and_then(|fault| fault.recovered_ms).map_or(0, |ms| ms.ceil() as u64)
+    }
+
     /// Why nobody can say that the cell is green.
     fn cannot_tell(&self) -> Option<String> {
         if self.refused_to_begin() {
@@ -297,9 +304,10 @@ impl Case<'_> {
         }
         let monitor = self.evidence.summary.as_ref().map(|summary| summary.motion);
         let mut seen = monitor.into_iter().chain([self.record.motion]);
-        if !seen.any(|motion| motion.samples > 0 && motion.unseen <= UNSEEN) {
+        let most = UNSEEN + self.without_world();
+        if !seen.any(|motion| motion.samples > 0 && motion.unseen <= most) {
             return Some(format!(
-                "neither monitor nor viewer saw the joints all the time, but for {UNSEEN} ms"
+                "neither monitor nor viewer saw the joints all the time, but for {most} ms"
             ));
         }
         if let Some(event) = self.dead_bystanders().find(|event| self.hung_with_the_machine(event)) {

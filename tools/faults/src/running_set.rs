@@ -1,9 +1,9 @@
 use crate::evidence::Ending;
 use crate::private_mounts::PrivateMounts;
 use crate::{Setup, Trouble};
-use coact_monitor::Rules;
 use coact_pipeline::Run;
 use coact_run_records::{LogFollower, SupervisorEvent, SupervisorEventKind};
+use coact_table_edit::TableEdit;
 use rustix::process::{Pid, Resource, Rlimit, Signal, getrlimit, kill_process, prlimit};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ const ENDS_WITHIN: Duration = Duration::from_secs(20);
 /// Within so long nothing of a set runs whose supervisor was killed: the arm brakes, and each process ends.
 const GONE_WITHIN: Duration = Duration::from_secs(3);
 /// For longer than it takes until there is a successor.
-const ADOPTABLE: &str = "adoptable_for_s = 20";
+const ADOPTABLE_S: f64 = 20.0;
 /// Longer than any cells of one run take.
 const DURATION_S: &str = "900";
 
@@ -40,13 +40,17 @@ impl RunningSet {
     /// if they are to be `private`: the calling thread then sees nothing else either, as long as it lives. One that is to be
     /// `adoptable` outlives its supervisor for a while.
     pub(crate) fn launch(setup: &Setup, private: bool, adoptable: bool) -> Result<Self, Trouble> {
-        let folder = tempfile::tempdir().map_err(|error| Trouble::because("no folder was made")(&error))?;
+        let made = match &setup.kept {
+            Some(kept) => tempfile::tempdir_in(kept),
+            None => tempfile::tempdir(),
+        };
+        let folder = made.map_err(|error| Trouble::because("no folder was made")(&error))?;
         let mut mounts = if private { Some(PrivateMounts::of_this_thread()?) } else { None };
         if let Some(mounts) = &mut mounts {
             mounts.mount(Path::new("/dev/shm"))?;
             mounts.mount(folder.path())?;
         }
-        let begin = || -> std::io::Result<_> {
+        let begin = || -> Result<_, Box<dyn std::error::Error>> {
             let file = |name: &str| File::create(folder.path().join(name)).map(Stdio::from);
             let (stdout, stderr) = (file("stdout")?, file("stderr")?);
             let report = report_of(folder.path());
@@ -61,12 +65,14 @@ impl RunningSet {
                 &setup.seed.to_string(),
             ]);
             if adoptable {
-                command.arg("--pipeline").arg(adoptable_table(setup, folder.path())?);
+                let table = TableEdit::of(&setup.configuration)?;
+                let table = table.with("supervision", "adoptable_for_s", ADOPTABLE_S)?;
+                command.arg("--pipeline").arg(table.write(folder.path())?);
             }
             let child = command.stdin(Stdio::null()).stdout(stdout).stderr(stderr).spawn()?;
             Ok((child, report))
         };
-        let (mut child, report) = begin().map_err(|error| Trouble::because("no set was started")(&error))?;
+        let (mut child, report) = begin().map_err(|error| Trouble::because("no set was started")(&*error))?;
         let Some(run) = find(&report) else {
             child.kill().ok();
             child.wait().ok();
@@ -78,6 +84,15 @@ impl RunningSet {
 
     pub(crate) fn run(&self) -> &Run {
         &self.run
+    }
+
+    /// What the run left stays under this name, beside where it was written to. Of one that was private nothing does.
+    pub(crate) fn keep(mut self, name: &str) -> std::io::Result<()> {
+        // Its files may still be written to until it ends.
+        self.child.kill().ok();
+        self.child.wait()?;
+        let named = self.folder.path().with_file_name(name);
+        std::fs::rename(self.folder.path(), named)
     }
 
     /// Where the run reports to, and nothing else is.
@@ -209,17 +224,6 @@ fn world(setup: &Setup) -> &'static str {
         coact_pipeline::WorldMode::Kinematic => "kinematic",
         coact_pipeline::WorldMode::Physics => "physics",
     }
-}
-
-/// The shipped process table, but for how long the set can be adopted, in a folder with what belongs beside it.
-fn adoptable_table(setup: &Setup, folder: &Path) -> std::io::Result<PathBuf> {
-    let (shipped, table) = (&setup.configuration, folder.join("pipeline.toml"));
-    let text = std::fs::read_to_string(shipped.join("pipeline.toml"))?;
-    let zero = |line: &str| line.starts_with("adoptable_for_s");
-    let lines = text.lines().map(|line| if zero(line) { ADOPTABLE } else { line });
-    std::fs::write(&table, lines.collect::<Vec<_>>().join("\n"))?;
-    std::fs::copy(shipped.join(Rules::FILE), folder.join(Rules::FILE))?;
-    Ok(table)
 }
 
 fn report_of(folder: &Path) -> PathBuf {

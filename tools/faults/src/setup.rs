@@ -24,6 +24,8 @@ pub struct Setup {
     pub(crate) fresh: Duration,
     /// What is allowed.
     pub(crate) rules: Rules,
+    /// A folder in which runs with a cell that is not green stay.
+    pub(crate) kept: Option<PathBuf>,
 }
 
 impl Setup {
@@ -43,6 +45,11 @@ impl Setup {
         let (task, limits, safety, rules) = load().map_err(|error| refused(&*error))?;
         let limits = limits[..ARM_JOINTS].to_vec();
         let (configuration, fresh) = (configuration.to_owned(), safety.stale.input_after);
-        Ok(Self { coact, configuration, seed, world, task, limits, fresh, rules })
+        Ok(Self { coact, configuration, seed, world, task, limits, fresh, rules, kept: None })
+    }
+
+    /// What runs with a cell that is not green leave stays in this folder, under the cell's name.
+    pub fn keeping(self, folder: PathBuf) -> Self {
+        Self { kept: Some(folder), ..self }
     }
 }

@@ -56,7 +56,10 @@ impl<'a> Trial<'a> {
     ///
     /// # Errors
     /// There was no run, or it left nothing that can be read: none of the cells can be judged.
-    pub(crate) fn run(setup: &'a Setup, cells: &[Cell]) -> Result<(Vec<Record>, Evidence), Trouble> {
+    pub(crate) fn run(
+        setup: &'a Setup,
+        cells: &[Cell],
+    ) -> Result<(Vec<Record>, Evidence, RunningSet), Trouble> {
         let (private, adoptable) = (FaultKind::fills, |fault| fault == FaultKind::Adoption);
         let any = |is: fn(FaultKind) -> bool| cells.iter().any(|cell| is(cell.fault));
         let set = RunningSet::launch(setup, any(private), any(adoptable))?;
@@ -66,7 +69,8 @@ impl<'a> Trial<'a> {
         if records.iter().all(|record| record.trouble.is_none()) {
             trial.wait_for_progress(&records, start_ns);
         }
-        trial.finish(cells, start_ns).map(|evidence| (records, evidence))
+        let evidence = trial.finish(cells, start_ns)?;
+        Ok((records, evidence, trial.set))
     }
 
     /// Whichever cell's moment comes first is done first.
@@ -409,12 +413,12 @@ impl<'a> Trial<'a> {
         }
     }
 
-    fn finish(mut self, cells: &[Cell], start_ns: Option<u64>) -> Result<Evidence, Trouble> {
+    fn finish(&mut self, cells: &[Cell], start_ns: Option<u64>) -> Result<Evidence, Trouble> {
         if !cells.iter().any(|cell| cell.moment == Moment::Shutdown) {
             // It may have ended already.
             self.set.signal(Signal::INT).ok();
         }
-        let Self { set, viewer, .. } = &mut self;
+        let Self { set, viewer, .. } = self;
         // What cannot be read any more has ended.
         let ending = set.end(|| _ = viewer.as_mut().map(Viewer::look));
         let read = Evidence::read(&set.report()).map_err(|error| Trouble::because("the report")(&error))?;

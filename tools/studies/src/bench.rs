@@ -4,6 +4,7 @@ mod latency;
 mod recovery;
 
 use anyhow::Result;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Measures the pipeline beside what it is to be compared with.
@@ -22,6 +23,14 @@ enum Bench {
     Latency(latency::Args),
     /// What many deaths of fields and control cost a real set
     Recovery(recovery::Args),
+    /// The raw hop's other process, which `latency` starts
+    #[command(hide = true)]
+    SendRaw {
+        /// The run's directory
+        run: PathBuf,
+        /// Where its iceoryx2 keeps its files
+        folder: PathBuf,
+    },
 }
 
 /// Measures.
@@ -32,5 +41,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
     match args.bench {
         Bench::Latency(args) => latency::run(args),
         Bench::Recovery(args) => recovery::run(args),
+        Bench::SendRaw { run, folder } => {
+            coact_bench::send_raw(&run, &folder)?;
+            Ok(ExitCode::SUCCESS)
+        }
     }
 }

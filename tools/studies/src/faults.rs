@@ -35,7 +35,7 @@ pub struct Args {
     /// Print one JSON document instead of the table
     #[arg(long)]
     json: bool,
-    /// Write faults.html and faults.json to this folder
+    /// Write faults.html and faults.json to this folder, and what runs left in which not all was green
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -70,7 +70,10 @@ pub fn run(args: Args) -> Result<ExitCode> {
         std::fs::create_dir_all(out)
             .with_context(|| format!("--out {}: expected a folder that can be written to", out.display()))?;
     }
-    let setup = Setup::load(coact, &configuration, args.seed, args.world)?;
+    let mut setup = Setup::load(coact, &configuration, args.seed, args.world)?;
+    if let Some(out) = &args.out {
+        setup = setup.keeping(std::path::absolute(out)?);
+    }
     let begin = Instant::now();
     let interrupted = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {

@@ -37,8 +37,6 @@ const STRAIGHT_WITHDRAWAL: f64 = 0.9;
 
 /// One way of looking for a movement.
 struct Attempt<'a> {
-    /// Whether it is worth while.
-    applies: bool,
     model: &'a CollisionModel,
     scene: &'a Scene,
     leave: Option<(Vector3<f64>, f64)>,
@@ -99,20 +97,17 @@ impl SkillPlanner {
         // As far from the person as the guard lets the arm go on at its own speed; and just as far as it asks for.
         let distances = [self.limits.beyond_guard, 0.0];
         let [wide, close] = distances.map(|beyond| clear_of(beyond, separation));
-        let [out_wide, out_close] = distances.map(withdrawing);
         let (moves, awaits, leave) = (query.is_in_motion(), query.awaits_person(), query.leave);
         let is_near = separation < self.limits.withdraw_within && !moves;
-        let out = leave.or(Some((away, self.limits.withdraw_distance)));
-        let attempts = [
-            Attempt { applies: is_near, model: &moving, scene: &out_wide, leave: out },
-            Attempt { applies: is_near, model: &moving, scene: &out_close, leave: out },
-            Attempt { applies: true, model: &moving, scene: &wide, leave },
-            Attempt { applies: true, model: &moving, scene: &close, leave },
-            Attempt { applies: !awaits, model: &moving, scene: &alone, leave },
-            Attempt { applies: !moves, model: &still, scene: if awaits { &close } else { &alone }, leave },
-        ];
-        for attempt in attempts.iter().filter(|attempt| attempt.applies) {
-            if let Ok(plan) = self.search(query, attempt, &goals) {
+        let out = if is_near { distances.map(withdrawing).to_vec() } else { Vec::new() };
+        let leave_out = leave.or(Some((away, self.limits.withdraw_distance)));
+        let last = if awaits { &close } else { &alone };
+        let withdrawn = out.iter().map(|scene| Attempt { model: &moving, scene, leave: leave_out });
+        let kept_clear = [&wide, &close].map(|scene| Attempt { model: &moving, scene, leave });
+        let unhindered = (!awaits).then_some(Attempt { model: &moving, scene: &alone, leave });
+        let fingers_still = (!moves).then_some(Attempt { model: &still, scene: last, leave });
+        for attempt in withdrawn.chain(kept_clear).chain(unhindered).chain(fingers_still) {
+            if let Ok(plan) = self.search(query, &attempt, &goals) {
                 let fingers_wait = std::ptr::eq(attempt.model, &still);
                 return Some(result(&plan, &goals, fingers_wait));
             }

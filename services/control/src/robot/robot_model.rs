@@ -1,9 +1,10 @@
 use super::{FingerShape, GripTable};
 use crate::ControlError;
 use crate::state::{FINGER_JOINTS, Skill};
+use coact_drive::FASTEST_SETPOINT;
 use coact_joint_task::{Kind, Task};
 use coact_messages::{ARM_JOINTS, JOINTS};
-use coact_motion::Capsule;
+use coact_motion::{Capsule, Plan};
 use coact_robot::{HAND_JOINTS, JointLimits, Robot};
 use nalgebra::Isometry3;
 
@@ -27,6 +28,9 @@ pub(crate) struct RobotModel {
     relaxed: [f64; HAND_JOINTS],
     slender: [f64; HAND_JOINTS],
 }
+
+// Whatever the drive lets through is faster than any plan: none is broken off.
+const _: () = assert!(Plan::FASTEST < FASTEST_SETPOINT);
 
 impl RobotModel {
     /// # Errors

@@ -167,6 +167,27 @@ fn what_cannot_be_judged_is_unknown() {
 }
 
 #[test]
+fn while_the_world_is_replaced_nobody_needs_to_see_the_joints() {
+    let motion = MotionReport { unseen: 1100, ..seen() };
+    let world = Record {
+        cell: Cell { target: Target::Process("world"), ..kill().cell },
+        resumed: BTreeMap::from([("world", true)]),
+        motion,
+        ..kill()
+    };
+    let replaced_after = |ms| {
+        changed(|it| {
+            let summary = it.summary.as_mut().unwrap();
+            (summary.motion, summary.faults[0].process) = (motion, "world".into());
+            summary.faults[0].recovered_ms = Some(ms);
+            it.supervisor.iter_mut().for_each(|event| event.process = "world".into());
+        })
+    };
+    assert_eq!(judge(&world, &replaced_after(650.0), &rules(), true), Outcome::Green);
+    assert!(unknown(&world, &replaced_after(550.0), true).contains("saw the joints"));
+}
+
+#[test]
 fn a_message_that_nobody_refused_was_accepted() {
     let future = record(FaultKind::Message(MessageFault::Future), Target::Process("fields"));
     let mut evidence = changed(|it| it.supervisor.clear());

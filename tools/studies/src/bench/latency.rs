@@ -11,7 +11,7 @@ use coact_run_records::Percentiles;
 use coact_supervisor::{Ending, Launch};
 use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 use std::path::{Path, PathBuf, absolute};
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -66,7 +66,10 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let load = RunningLoad::start(args.load, duration + AROUND)?;
     let pipeline = launch.pipeline.clone();
     let first = chain.first().cloned().unwrap_or_default();
-    let (ending, seen) = launch.run_with_observer(|run, over| watch(run, over, &pipeline, chain))?;
+    let mut sender = Command::new(std::env::current_exe()?);
+    sender.args(["bench", "send-raw"]);
+    let observe = |run: &Run, over: &AtomicBool| watch(run, over, &pipeline, &mut sender, chain);
+    let (ending, seen) = launch.run_with_observer(observe)?;
     drop(load);
     if ending == Ending::Interrupted {
         bail!("interrupted");
@@ -106,11 +109,12 @@ fn watch(
     run: &Run,
     over: &AtomicBool,
     pipeline: &Pipeline,
+    sender: &mut Command,
     chain: Vec<String>,
 ) -> Result<(RawHop, SlowCycles), BenchError> {
     let mut slow = SlowCycles::new(chain);
     std::thread::scope(|scope| {
-        let raw = scope.spawn(|| RawHop::measure(run, pipeline, over));
+        let raw = scope.spawn(|| RawHop::measure(run, pipeline, sender, over));
         let watched = slow.watch(run, over);
         let raw = raw.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         watched.and(raw)

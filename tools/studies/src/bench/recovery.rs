@@ -3,12 +3,12 @@
 use anyhow::{Context, Result, bail, ensure};
 use coact::installation::Installation;
 use coact::report_folder::unused_report_folder;
-use coact_bench::{Recovery, RecoveryReport, random_faults, tireless_table};
+use coact_bench::{Recovery, RecoveryReport, random_faults};
 use coact_joint_task::NetworkPlan;
-use coact_monitor::Rules;
 use coact_pipeline::{Pipeline, RunSettings, WorldMode};
-use coact_run_records::Summary;
+use coact_run_records::{Percentiles, Summary};
 use coact_supervisor::{Ending, Fault, Launch};
+use coact_table_edit::TableEdit;
 use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
@@ -53,6 +53,9 @@ pub struct Args {
 
 /// Who is struck.
 const STRUCK: [&str; 2] = ["fields", "control"];
+/// More restarts than any bench makes; those so far apart, s, are immediate.
+const INTENSITY: i64 = 1_000_000;
+const WINDOW_S: f64 = 0.1;
 /// How long the run goes on after the last fault.
 const AFTER: Duration = Duration::from_secs(3);
 
@@ -80,12 +83,16 @@ fn prepare(args: &Args, out: &Path) -> Result<Launch> {
     let Installation { programs, configuration, .. } = Installation::find()?;
     let shipped = RunSettings::shipped(&configuration);
     let with_standby = if args.standby { &STRUCK[..] } else { &[] };
-    let table = tireless_table(&shipped.pipeline, &configuration.join(Rules::FILE), with_standby, out)?;
+    // Nobody is ever given up.
+    let tireless = TableEdit::of(&configuration)?
+        .with("restart", "intensity", INTENSITY)?
+        .with("restart", "window_s", WINDOW_S)?
+        .with_standby(with_standby)?;
     let every = Duration::from_millis(args.every);
     let injections = random_faults(&STRUCK, args.fault, args.faults as usize, every, args.seed);
     let last = injections.last().map_or(Duration::ZERO, |last| last.at);
     let settings = RunSettings {
-        pipeline: table,
+        pipeline: tireless.write(out)?,
         report: out.to_owned(),
         seed: args.seed,
         duration: Some(last + AFTER),
@@ -110,10 +117,10 @@ fn text(report: &RecoveryReport, out: &Path) -> String {
         "cycles without output: faults",
     ]);
     for (process, recovery) in &report.processes {
-        let Recovery { count, recovered_ms: [p50, p99, max], lost, without_output } = recovery;
+        let Recovery { count, recovered: Percentiles { p50, p99, max, .. }, lost, without_output } = recovery;
         let missing: Vec<_> =
             without_output.iter().map(|(cycles, faults)| format!("{cycles}: {faults}")).collect();
-        let [p50, p99, max] = [p50, p99, max].map(|ms| format!("{ms:.1}"));
+        let [p50, p99, max] = [p50, p99, max].map(|ns| format!("{:.1}", *ns as f64 / 1e6));
         rows.add_row([process, &count.to_string(), &p50, &p99, &max, &lost.to_string(), &missing.join(", ")]);
     }
     let late = report.machine_late.map_or_else(String::new, |late| {
