@@ -17,6 +17,7 @@ use coact_period::PERIOD_S;
 use coact_robot::{HAND_JOINTS, PathProgress, Robot};
 use coact_safety::SafetyLimits;
 use coact_stage_state::{Flag, StageState};
+use std::time::Duration;
 
 /// What is left in each cycle of the speed that the guard does not admit. Chosen by hand: a hundredth of what braking takes
 /// away, so that the arm holds a speed a little below the admitted one.
@@ -123,9 +124,10 @@ impl Control {
     }
 
     /// Whether the planner beside the servo hangs: it owes an answer, and its search does not go on. Nothing but another process
-    /// helps then; all that control knows stands in its last command.
-    pub fn planner_hangs(&self) -> bool {
-        self.planner.hangs()
+    /// helps then; all that control knows stands in its last command. `starves` says whether it would go on but for the machine, and
+    /// hardly has since some time ago: then it is waited for.
+    pub fn planner_hangs(&self, starves: impl FnOnce(Duration) -> bool) -> bool {
+        self.planner.hangs(starves)
     }
 
     /// Whether a movement is asked for and not there yet. That query is this instance's own: one that takes over asks again.

@@ -3,12 +3,14 @@
 use coact_control::Control;
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, Header, Percept, SensorSample, topic};
-use coact_realtime::{Candidate, Cycle, Input, PortError, StandIn, Tick, end_for_hung_thread};
+use coact_realtime::{BackgroundThread, Candidate, Cycle, Input, PortError, StandIn, Tick, end_for_hung_thread};
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
 
 struct ControlCycle {
     control: Control,
+    /// The thread that plans for it.
+    planner: BackgroundThread,
     sample: Input<SensorSample>,
     percept: Input<Percept>,
     frame: Input<FieldFrame>,
@@ -25,7 +27,7 @@ impl Cycle for ControlCycle {
     }
 
     fn step(&mut self, tick: Tick) -> Result<Header, PortError> {
-        let Self { control, sample, percept, frame, command, last } = self;
+        let Self { control, sample, percept, frame, command, last, .. } = self;
         if let Some(sent) = command.sent_by_other(tick)? {
             return Ok(sent);
         }
@@ -37,7 +39,7 @@ impl Cycle for ControlCycle {
         control.step(tick.cycle, sample.latest(), percept.latest(), frame.latest(), previous, &mut out);
         let header = out.send(tick.cycle, frame.header().map_or(0, |header| header.sensor_ns))?;
         *last = Some(header);
-        if self.control.planner_hangs() {
+        if self.control.planner_hangs(|since| self.planner.starves(since)) {
             end_for_hung_thread("planner");
         }
         Ok(header)
@@ -67,6 +69,6 @@ fn main() -> anyhow::Result<()> {
         }
     }
     let freezes = process.background_freezes();
-    process.spawn_background("planner", move || planner.run(&freezes))?;
-    Ok(process.run_cycles(ControlCycle { control, sample, percept, frame, command, last })?)
+    let planner = process.spawn_background("planner", move || planner.run(&freezes))?;
+    Ok(process.run_cycles(ControlCycle { control, planner, sample, percept, frame, command, last })?)
 }

@@ -4,7 +4,7 @@ use anyhow::Context;
 use coact_joint_task::NetworkPlan;
 use coact_messages::{ARM_JOINTS, Command, FieldFrame, Pulse, SensorSample, Speech, Truth, topic};
 use coact_monitor::{Intentions, Monitor, MonitorError, PipelineNode, Rules, Watched, environment};
-use coact_realtime::{Bus, Input, LatencyProbe, PortError, Process, Schedule, now};
+use coact_realtime::{Bus, Input, LatencyProbe, PortError, Process, Schedule, handles_left, now};
 use coact_robot::Robot;
 use coact_run_records::Environment;
 use coact_safety::SafetyLimits;
@@ -38,7 +38,7 @@ fn main() -> anyhow::Result<()> {
         process.warn_of_refusals();
         if written.elapsed() >= WRITE_EVERY {
             written = Instant::now();
-            warn_once(monitor.write(), &mut refused);
+            warn_once(monitor.write(), &mut refused)?;
         }
     }
     topics.drain(&mut monitor, &mut refused)?;
@@ -75,12 +75,16 @@ fn since_start(watched: Watched, schedule: Schedule) -> Watched {
     Watched { start_ns: schedule.start_ns, started: SystemTime::now() - elapsed, ..watched }
 }
 
-/// A full disk must not end the run: the first failure is warned of, later ones are not.
-fn warn_once(result: Result<(), MonitorError>, refused: &mut Option<MonitorError>) {
-    if let (Err(error), None) = (result, &refused) {
+/// A full disk must not end the run: the first failure is warned of, later ones are not. For want of handles the monitor ends: its
+/// replacement has some.
+fn warn_once(result: Result<(), MonitorError>, refused: &mut Option<MonitorError>) -> anyhow::Result<()> {
+    let Err(error) = result else { return Ok(()) };
+    handles_left().with_context(|| error.to_string())?;
+    if refused.is_none() {
         tracing::warn!("{error}; the report lacks what could not be written");
         *refused = Some(error);
     }
+    Ok(())
 }
 
 /// All that the monitor listens to.
@@ -111,10 +115,10 @@ impl Topics {
         })
     }
 
-    fn drain(&mut self, monitor: &mut Monitor, refused: &mut Option<MonitorError>) -> Result<(), PortError> {
+    fn drain(&mut self, monitor: &mut Monitor, refused: &mut Option<MonitorError>) -> anyhow::Result<()> {
         let Self { pulses, truth, sensors, fields, command, speech } = self;
         let mut events = Vec::new();
-        warn_once(monitor.read_supervisor(), refused);
+        warn_once(monitor.read_supervisor(), refused)?;
         for (process, input) in pulses {
             input.each(|pulse| monitor.pulse(process, pulse))?;
         }
@@ -123,7 +127,6 @@ impl Topics {
         fields.each(|frame| monitor.frame(frame, &mut events))?;
         command.each(|command| monitor.command(command))?;
         speech.each(|speech| monitor.speech(speech, &mut events))?;
-        warn_once(monitor.record(now(), events), refused);
-        Ok(())
+        warn_once(monitor.record(now(), events), refused)
     }
 }

@@ -133,14 +133,14 @@ impl Field {
 /// The two hot loops are compiled for wider registers as well, and chosen at run time: neither fuses nor reorders
 /// operations, so that every machine computes the same bits.
 #[multiversion::multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
-fn fire(output: &mut [f64], now: &[f64], slope: f64, threshold: f64) {
+pub(crate) fn fire(output: &mut [f64], now: &[f64], slope: f64, threshold: f64) {
     for (output, &u) in output.iter_mut().zip(now) {
         *output = sigmoid(u, slope, threshold);
     }
 }
 
 /// Sum of all outputs, in eight partial sums: one alone would wait for each addition.
-fn sum(output: &[f64]) -> f64 {
+pub(crate) fn sum(output: &[f64]) -> f64 {
     let mut partial = [0.0; 8];
     let chunks = output.chunks_exact(8);
     let rest: f64 = chunks.remainder().iter().sum();

@@ -3,6 +3,8 @@
 //! A [`Field`] is a row of sites that represents several populations side by side. Its activity obeys the chapter's
 //! equation 1, with the kernel of equation 2 and the sigmoid of equation 3; [`Field::spread`] makes the
 //! Gaussian input of equation 4, and [`forget`] moves a resting level, so that memories can be given up.
+//! A [`MetricField`] has places instead of populations: one to three continuous dimensions on a [`Lattice`], with an [`Interaction`] of any
+//! form. A [`Projection`] carries one field's output into another one's input, and a [`MemoryTrace`] remembers where peaks stood.
 //! The crate knows no task, no process and no clock: the caller owns all activity, and steps it from one buffer
 //! into another.
 //!
@@ -36,16 +38,34 @@
 //! # Ok::<(), coact_neural_field::ParameterError>(())
 //! ```
 
+mod axis;
 mod existence;
 mod field;
 mod forgetting;
+mod gaussian;
+mod interaction;
 mod kernel;
+mod lattice;
+mod memory_trace;
+mod metric_constants;
+mod metric_field;
 mod parameters;
+mod projection;
+mod separable;
 mod sigmoid;
+mod taps;
 
+pub use axis::Axis;
 pub use existence::Existence;
 pub use field::Field;
 pub use forgetting::{Forgetting, forget};
+pub use gaussian::Gaussian;
+pub use interaction::Interaction;
 pub use kernel::Kernel;
+pub use lattice::Lattice;
+pub use memory_trace::MemoryTrace;
+pub use metric_constants::MetricConstants;
+pub use metric_field::MetricField;
 pub use parameters::{ParameterError, Parameters};
+pub use projection::Projection;
 pub use sigmoid::sigmoid;

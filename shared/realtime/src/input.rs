@@ -2,11 +2,8 @@ use crate::monotonic_clock::now;
 use crate::port::Reader;
 use crate::refusals::topic_index;
 use crate::run_view::RunView;
-use crate::{Judge, Message, Origin, PortError, Refusals, Verdict};
+use crate::{Judge, Message, Origin, PortError, Refusals, Verdict, handles_left};
 use coact_messages::{Header, Refusal, topic};
-use rustix::io::Errno;
-use std::fs::File;
-use std::io;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -93,7 +90,7 @@ impl<T: Message> Input<T> {
         self.silent = if count > 0 { 0 } else { self.silent.saturating_add(1) };
         let fell_silent = self.received_ns > 0 && bench.is_steady && self.silent == SILENT;
         if unreadable || fell_silent || std::mem::take(&mut bench.met_stranger) {
-            expect_handles(&self.topic)?;
+            handles_left().map_err(|cause| PortError::NoHandles { topic: self.topic.clone(), cause })?;
         }
         if count > 0 {
             self.received_ns = now();
@@ -162,16 +159,4 @@ impl Bench {
         }
         verdict == Ok(Verdict::Next)
     }
-}
-
-/// Whether the process may still open something.
-fn expect_handles(topic: &str) -> Result<(), PortError> {
-    match File::open("/dev/null") {
-        Err(cause) if is_shortage(&cause) => Err(PortError::NoHandles { topic: topic.to_owned(), cause }),
-        _ => Ok(()),
-    }
-}
-
-fn is_shortage(error: &io::Error) -> bool {
-    [Errno::MFILE, Errno::NFILE].iter().any(|shortage| error.raw_os_error() == Some(shortage.raw_os_error()))
 }

@@ -42,6 +42,7 @@
 
 mod any_topic;
 mod arguments;
+mod background_thread;
 mod bus;
 mod candidate;
 mod checkpoint;
@@ -51,6 +52,7 @@ mod cycle_accounting;
 mod drop_outs;
 mod each_topic;
 mod executor;
+mod handles;
 mod heartbeat;
 mod hung_thread;
 mod input;
@@ -90,11 +92,13 @@ mod zero_copy_reader;
 mod zero_copy_writer;
 
 pub use arguments::Arguments;
+pub use background_thread::BackgroundThread;
 pub use bus::Bus;
 pub use candidate::Candidate;
 pub use checkpoint_store::CheckpointStore;
 pub use cycle::Cycle;
 pub use drop_outs::DropOuts;
+pub use handles::handles_left;
 pub use heartbeat::Heartbeat;
 pub use hung_thread::{HUNG_THREAD, end_for_hung_thread};
 pub use input::Input;

@@ -2,7 +2,7 @@ use crate::executor::Executor;
 use crate::owner_watch::OwnerWatch;
 use crate::signals::Signals;
 use crate::{
-    Bus, Candidate, Cycle, DropOuts, Heartbeat, Message, Output, PortError, ProcessError, Schedule, StandIn,
+    BackgroundThread, Bus, Candidate, Cycle, DropOuts, Heartbeat, Message, Output, PortError, ProcessError, Schedule, StandIn,
     memory_lock, scheduling,
 };
 use coact_messages::{Refusal, topic};
@@ -145,9 +145,12 @@ impl Process {
         &self,
         name: &str,
         work: impl FnOnce() + Send + 'static,
-    ) -> Result<(), ProcessError> {
+    ) -> Result<BackgroundThread, ProcessError> {
         let pipeline = self.pipeline.clone();
+        let thread = BackgroundThread::default();
+        let own = thread.clone();
         let background = move || {
+            own.begin();
             scheduling::become_ordinary(&pipeline);
             // A process whose background work died would wait for it for ever: it ends instead, and is replaced.
             if std::panic::catch_unwind(AssertUnwindSafe(work)).is_err() {
@@ -155,7 +158,7 @@ impl Process {
             }
         };
         std::thread::Builder::new().name(name.to_owned()).spawn(background).map_err(ProcessError::Thread)?;
-        Ok(())
+        Ok(thread)
     }
 
     /// Warns of the messages that its inputs have ignored, once for each reason. For processes without a pulse, which would
@@ -183,6 +186,7 @@ impl Process {
             }
             idle();
         })
+        .map(drop)
     }
 
     /// Set once an injected fault requests that the background work stands still; the work itself does it.

@@ -2,6 +2,7 @@ use super::slots::Slots;
 use super::{PlannerWatch, PlanningQuery, PlanningResult, PlanningThread, SkillPlanner};
 use coact_motion::SearchHeartbeat;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Control's side of the planner: makes queries, and takes the results.
 #[derive(Debug)]
@@ -44,8 +45,8 @@ impl PlannerLink {
     }
 
     /// Whether the planner hangs: it owes an answer, and does not go on. One that answers within the step cannot.
-    pub fn hangs(&self) -> bool {
-        self.watch.hangs()
+    pub fn hangs(&self, starves: impl FnOnce(Duration) -> bool) -> bool {
+        self.watch.hangs(starves)
     }
 
     /// Makes the query that has this number in control's state; one that was not taken up yet is replaced.

@@ -15,6 +15,11 @@ pub(crate) struct PlannerWatch {
 /// milliseconds, a busy machine keeps an ordinary thread from its core for some 100, and until a hang is found the robot does
 /// not move.
 const HANGS_AFTER: u64 = cycles(Duration::from_millis(700));
+/// One that would go on, but does not get its core, is waited for so long: another process would get it no sooner. Chosen by hand, as
+/// the supervisor's.
+const STARVED_AFTER: u64 = cycles(Duration::from_secs(10));
+/// One that is silent for too long is looked at this often: it takes some system calls.
+const LOOK_EVERY: Duration = Duration::from_millis(100);
 
 impl PlannerWatch {
     /// Looks once in each cycle. `owes`: there is a query that has no answer yet; `beats`: of the heartbeat, so far.
@@ -24,9 +29,11 @@ impl PlannerWatch {
         self.beats = beats;
     }
 
-    /// Whether the planner hangs.
-    pub fn hangs(&self) -> bool {
-        self.still >= HANGS_AFTER
+    /// Whether the planner hangs. `starves` says whether it would go on but for the machine, and hardly has since some time ago; it is
+    /// asked only about one that is silent.
+    pub fn hangs(&self, starves: impl FnOnce(Duration) -> bool) -> bool {
+        let is_looked_at = self.still >= HANGS_AFTER && self.still.is_multiple_of(cycles(LOOK_EVERY));
+        is_looked_at && (self.still >= STARVED_AFTER || !starves(LOOK_EVERY))
     }
 }
 
@@ -38,7 +45,7 @@ mod tests {
     fn hangs(cycles: u64, owes: bool, beats: impl Fn(u64) -> u64) -> bool {
         let mut watch = PlannerWatch::default();
         (0..cycles).for_each(|cycle| watch.look(owes, beats(cycle)));
-        watch.hangs()
+        watch.hangs(|_| false)
     }
 
     #[test]
@@ -53,11 +60,24 @@ mod tests {
     }
 
     #[test]
+    fn one_that_gets_no_core_is_waited_for_but_not_for_ever() {
+        let mut watch = PlannerWatch::default();
+        let mut hung = Vec::new();
+        for cycle in 0..=STARVED_AFTER {
+            watch.look(true, 9);
+            if watch.hangs(|_| true) {
+                hung.push(cycle);
+            }
+        }
+        assert_eq!(hung, [STARVED_AFTER]);
+    }
+
+    #[test]
     fn the_count_begins_anew_with_each_beat() {
         let mut watch = PlannerWatch::default();
         for beats in 1..5 {
             (0..HANGS_AFTER).for_each(|_| watch.look(true, beats));
-            assert!(!watch.hangs());
+            assert!(!watch.hangs(|_| false));
         }
     }
 }

@@ -1,0 +1,32 @@
+use crate::ParameterError;
+
+/// Constants of a metric field.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MetricConstants {
+    /// Time scale tau, in the unit of the step (coact: ms).
+    pub tau: f64,
+    /// Slope beta of the sigmoid (chapter, eq. 3).
+    pub slope: f64,
+    /// Threshold u0 of the sigmoid.
+    pub threshold: f64,
+}
+
+impl MetricConstants {
+    /// Checks that a field of these constants is well defined.
+    ///
+    /// # Errors
+    /// The first constant that is out of its range.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        let Self { tau, slope, threshold } = *self;
+        for (name, value) in [("tau", tau), ("slope", slope)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(ParameterError { name, value, expected: "a finite number above 0" });
+            }
+        }
+        let expected = "a finite number";
+        match threshold.is_finite() {
+            true => Ok(()),
+            false => Err(ParameterError { name: "threshold", value: threshold, expected }),
+        }
+    }
+}
