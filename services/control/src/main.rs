@@ -3,7 +3,9 @@
 use coact_control::Control;
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, Header, Percept, SensorSample, topic};
-use coact_realtime::{BackgroundThread, Candidate, Cycle, Input, PortError, StandIn, Tick, end_for_hung_thread};
+use coact_realtime::{
+    BackgroundThread, Candidate, Cycle, Input, PortError, StandIn, Tick, end_for_hung_thread,
+};
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
 

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_neural_field::{
-    Axis, Field, Gaussian, Interaction, Kernel, Lattice, MemoryTrace, MetricConstants, MetricField, Parameters,
-    Projection,
+    Axis, Field, Gaussian, Interaction, Kernel, Lattice, MemoryTrace, MetricConstants, MetricField,
+    Parameters, Projection,
 };
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -178,8 +178,7 @@ fn without_interaction_each_site_relaxes_as_the_equation_says() {
         std::mem::swap(&mut now, &mut next);
     }
     let left = (1.0_f64 - 1.0 / 20.0).powi(60);
-    let expected: Vec<f64> =
-        start.iter().zip(&input).map(|(u, s)| s - 0.3 + (u - s + 0.3) * left).collect();
+    let expected: Vec<f64> = start.iter().zip(&input).map(|(u, s)| s - 0.3 + (u - s + 0.3) * left).collect();
     assert!(differ(&now, &expected) < 1e-12);
 }
 
@@ -210,8 +209,7 @@ fn a_peak_in_two_dimensions_is_as_wide_as_amaris_condition_says() {
         if over_disc(middle, weight) > -h { small = middle } else { large = middle }
     }
     let lattice = Lattice::new([Axis::open(-10.0, 10.0, 0.25); 2]).unwrap();
-    let interaction =
-        Interaction::none(lattice).with(Gaussian { amplitude, sigma: [sigma; 2] }).unwrap();
+    let interaction = Interaction::none(lattice).with(Gaussian { amplitude, sigma: [sigma; 2] }).unwrap();
     // So steep that a site is on or off.
     let steep = MetricConstants { tau: 100.0, slope: 100.0, threshold: 0.0 };
     let mut field = MetricField::new(steep, interaction.with_inhibition_everywhere(inhibition)).unwrap();
@@ -219,7 +217,8 @@ fn a_peak_in_two_dimensions_is_as_wide_as_amaris_condition_says() {
         let [x, y] = lattice.place(site);
         6.0 * (-(x * x + y * y) / 8.0).exp()
     };
-    let (input, nothing): (Vec<f64>, _) = ((0..lattice.sites()).map(bump).collect(), vec![0.0; lattice.sites()]);
+    let (input, nothing): (Vec<f64>, _) =
+        ((0..lattice.sites()).map(bump).collect(), vec![0.0; lattice.sites()]);
     let (mut now, mut next) = (vec![h; lattice.sites()], vec![0.0; lattice.sites()]);
     for step in 0..3000 {
         field.step(1.0, &now, if step < 300 { &input } else { &nothing }, h, &mut next);
@@ -276,7 +275,8 @@ fn a_dimension_that_is_left_out_is_integrated_over() {
     let on_plane: Vec<f64> = (0..plane.sites()).map(|site| value(plane.place(site))).collect();
     let mut found = vec![0.0; line.sites()];
     Projection::gathering(&plane, &line, |[x, _]: [f64; 2]| Some([x])).add(1.0, &on_plane, &mut found);
-    let expected: Vec<f64> = (0..line.sites()).map(|site| TAU * (-line.place(site)[0].powi(2) / 2.0).exp()).collect();
+    let expected: Vec<f64> =
+        (0..line.sites()).map(|site| TAU * (-line.place(site)[0].powi(2) / 2.0).exp()).collect();
     assert!(differ(&found, &expected) < 1e-10, "{}", differ(&found, &expected));
 }
 

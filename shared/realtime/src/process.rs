@@ -2,8 +2,8 @@ use crate::executor::Executor;
 use crate::owner_watch::OwnerWatch;
 use crate::signals::Signals;
 use crate::{
-    BackgroundThread, Bus, Candidate, Cycle, DropOuts, Heartbeat, Message, Output, PortError, ProcessError, Schedule, StandIn,
-    memory_lock, scheduling,
+    BackgroundThread, Bus, Candidate, Cycle, DropOuts, Heartbeat, Message, Output, PortError, ProcessError,
+    Schedule, StandIn, memory_lock, scheduling,
 };
 use coact_messages::{Refusal, topic};
 use coact_pipeline::{Pipeline, ProcessEntry, ProcessStat, Ready, Run};
