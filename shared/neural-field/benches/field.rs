@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use coact_neural_field::{
-    Axis, Field, Gaussian, Interaction, Kernel, Lattice, MetricConstants, MetricField, Parameters,
+    Axis, Field, Gaussian, Interaction, Kernel, Lattice, MetricConstants, MetricField, Parameters, Projection,
 };
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 

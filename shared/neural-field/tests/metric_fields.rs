@@ -86,7 +86,7 @@ proptest! {
     #[test]
     fn an_arbitrary_kernel_that_is_a_gaussian_does_what_the_separable_one_does(
         axes in [axis(), axis(), axis()],
-        sigma in 0.1..0.5,
+        sigma in 0.1..0.5_f64,
         seed in any::<u64>(),
     ) {
         // A reach within which no circle closes.
@@ -107,7 +107,7 @@ proptest! {
     fn gathering_is_what_reading_is_turned_round(
         from in [axis(), axis()],
         to in [axis()],
-        slope in [-0.5..0.5, -0.5..0.5],
+        slope in [-0.5..0.5_f64, -0.5..0.5],
         seed in any::<u64>(),
     ) {
         let (plane, line) = (Lattice::new(from).unwrap(), Lattice::new(to).unwrap());

@@ -37,7 +37,7 @@ mod tests {
     use std::sync::atomic::AtomicBool;
 
     /// Whether a thread starves that does this, some time after it began.
-    fn starves(work: impl Fn(&AtomicBool) + Send) -> bool {
+    fn starves(work: impl Fn(&AtomicBool) + Send + Sync) -> bool {
         let (over, mut thread) = (AtomicBool::new(false), BackgroundThread::default());
         let known = thread.clone();
         std::thread::scope(|scope| {
