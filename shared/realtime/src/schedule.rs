@@ -7,9 +7,6 @@ pub struct Schedule {
     pub start_ns: u64,
 }
 
-/// A release that is no longer ago still begins a cycle, ns. Chosen by hand: half a period, in the rest of which the whole chain is done.
-const STILL_BEGINS: u64 = PERIOD_NS / 2;
-
 impl Schedule {
     /// Instant at which `tick` is released, ns of `CLOCK_MONOTONIC`.
     pub fn release(&self, tick: u64) -> u64 {
@@ -23,10 +20,10 @@ impl Schedule {
 
     /// The tick to begin after `tick`, when it is `ns` now.
     ///
-    /// A cycle that overran a little is followed by the one that has just been released: a late one costs no second one. One that overran by more is
-    /// followed by the next release, in all stages alike: nothing is caught up with.
+    /// A cycle that overran is followed by the next one that is released, in all stages alike. Nothing is caught up
+    /// with, so one late cycle does not make the next one late.
     pub(crate) fn following(&self, tick: u64, ns: u64) -> u64 {
-        (tick + 1).max(self.next_after(ns.saturating_sub(STILL_BEGINS)))
+        (tick + 1).max(self.next_after(ns))
     }
 
     /// The first tick that is not yet released at `ns`.
@@ -54,7 +51,7 @@ mod tests {
     }
 
     #[test]
-    fn tick_that_overran_is_followed_by_the_one_that_there_is_time_for() {
+    fn tick_that_overran_is_followed_by_the_next_release() {
         let follows = |ns: u64| SCHEDULE.following(3, START + ns);
         let release = |tick: u64| tick * PERIOD_NS;
         assert_eq!(
@@ -62,17 +59,8 @@ mod tests {
             [4; 3],
             "it ended within its period"
         );
-        assert_eq!(
-            [release(4) + 1, release(4) + STILL_BEGINS].map(follows),
-            [4; 2],
-            "its successor has just begun"
-        );
-        assert_eq!(
-            [release(4) + STILL_BEGINS + 1, release(5)].map(follows),
-            [5; 2],
-            "there is no time left for it"
-        );
-        assert_eq!([release(35), release(35) + STILL_BEGINS + 1].map(follows), [35, 36], "much later");
+        assert_eq!([release(4) + 1, release(5)].map(follows), [5; 2], "its successor is released already");
+        assert_eq!([release(35), release(35) + 1].map(follows), [35, 36], "much later");
     }
 
     #[test]
