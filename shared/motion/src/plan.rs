@@ -21,7 +21,7 @@ const CHECKED: u32 = 4;
 /// Fraction of the limits that a movement from rest uses. Chosen by hand: the rest is room for peaks between
 /// samples.
 const USED: f64 = 0.95;
-/// Steps between two knots at whose ends speeds are looked at for that.
+/// Steps between two knots at whose ends the speed is held against [`Plan::FASTEST`].
 const LOOKED_AT: u32 = 24;
 
 impl Plan {

@@ -16,10 +16,8 @@ impl<const D: usize> Lattice<D> {
     /// No axis, an axis without sites or with a spacing that is not positive, or too many sites.
     pub fn new(axes: [Axis; D]) -> Result<Self, ParameterError> {
         for axis in &axes {
-            if !(axis.spacing > 0.0 && axis.spacing.is_finite() && axis.origin.is_finite()) {
-                let value = axis.spacing;
-                return Err(ParameterError { name: "spacing", value, expected: "a finite number above 0" });
-            }
+            ParameterError::unless_positive("spacing", axis.spacing)?;
+            ParameterError::unless_finite("origin", axis.origin)?;
         }
         let sites = axes.iter().try_fold(1_usize, |product, axis| product.checked_mul(axis.sites));
         let sites = sites.filter(|sites| D > 0 && (1..=MOST_SITES).contains(sites));

@@ -18,15 +18,8 @@ impl MetricConstants {
     /// The first constant that is out of its range.
     pub fn check(&self) -> Result<(), ParameterError> {
         let Self { tau, slope, threshold } = *self;
-        for (name, value) in [("tau", tau), ("slope", slope)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(ParameterError { name, value, expected: "a finite number above 0" });
-            }
-        }
-        let expected = "a finite number";
-        match threshold.is_finite() {
-            true => Ok(()),
-            false => Err(ParameterError { name: "threshold", value: threshold, expected }),
-        }
+        ParameterError::unless_positive("tau", tau)?;
+        ParameterError::unless_positive("slope", slope)?;
+        ParameterError::unless_finite("threshold", threshold)
     }
 }

@@ -30,6 +30,19 @@ pub struct ParameterError {
     pub expected: &'static str,
 }
 
+impl ParameterError {
+    /// Refuses what is not a finite number above 0.
+    pub(crate) fn unless_positive(name: &'static str, value: f64) -> Result<(), Self> {
+        let expected = "a finite number above 0";
+        if value > 0.0 && value.is_finite() { Ok(()) } else { Err(Self { name, value, expected }) }
+    }
+
+    /// Refuses what is not a finite number.
+    pub(crate) fn unless_finite(name: &'static str, value: f64) -> Result<(), Self> {
+        if value.is_finite() { Ok(()) } else { Err(Self { name, value, expected: "a finite number" }) }
+    }
+}
+
 /// No kernel or input is wider, sites: as many as a field frame holds in all. Memory is taken in proportion.
 const WIDEST: f64 = 1e4;
 
@@ -48,9 +61,7 @@ impl Parameters {
             ("input_sigma", self.input_sigma),
             ("kernel sigma", sigma),
         ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(ParameterError { name, value, expected: "a finite number above 0" });
-            }
+            ParameterError::unless_positive(name, value)?;
         }
         for (name, value) in [("amplitude", amplitude), ("inhibition", inhibition), ("range", range)] {
             if !(value >= 0.0 && value.is_finite()) {
@@ -62,14 +73,7 @@ impl Parameters {
                 return Err(ParameterError { name, value, expected: "at most 10000 times the spacing" });
             }
         }
-        if !self.threshold.is_finite() {
-            return Err(ParameterError {
-                name: "threshold",
-                value: self.threshold,
-                expected: "a finite number",
-            });
-        }
-        Ok(())
+        ParameterError::unless_finite("threshold", self.threshold)
     }
 }
 

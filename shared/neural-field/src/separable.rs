@@ -20,9 +20,7 @@ const BLOCK: usize = 32;
 impl<const D: usize> Separable<D> {
     pub fn new(lattice: &Lattice<D>, gaussian: Gaussian<D>) -> Result<Self, ParameterError> {
         let Gaussian { amplitude, sigma } = gaussian;
-        if !amplitude.is_finite() {
-            return Err(ParameterError { name: "amplitude", value: amplitude, expected: "a finite number" });
-        }
+        ParameterError::unless_finite("amplitude", amplitude)?;
         for (sigma, axis) in sigma.into_iter().zip(lattice.axes()) {
             if !(sigma > 0.0 && taps::CUT_OFF * sigma / axis.spacing < 1e6) {
                 let expected = "above 0, and less than 200000 times the spacing";
