@@ -22,7 +22,8 @@ impl BackgroundThread {
     }
 
     /// Whether it would go on but for the machine, and hardly has in the time `since` the last look: it has no core, or waits for memory or a
-    /// file. One that stands still or computes without end does not starve. It takes some system calls.
+    /// file. One that stands still or computes without end does not starve. What the first look says of one that has computed before is not
+    /// true: it is what the second one compares with. It takes some system calls.
     pub fn starves(&mut self, since: Duration) -> bool {
         let Ok(stat) = ProcessStat::of_thread(self.id.load(Ordering::Relaxed)) else { return false };
         let computed = stat.computed.saturating_sub(self.computed);
@@ -33,7 +34,9 @@ impl BackgroundThread {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+    use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
     use std::sync::atomic::AtomicBool;
 
     /// Whether a thread starves that does this, some time after it began.
@@ -51,6 +54,38 @@ mod tests {
             over.store(true, Ordering::Relaxed);
             starves
         })
+    }
+
+    #[test]
+    fn one_of_many_on_a_core_starves() {
+        const OTHERS: usize = 30;
+        let (over, mut thread) = (AtomicBool::new(false), BackgroundThread::default());
+        let known = thread.clone();
+        let mut core = CpuSet::new();
+        let allowed = sched_getaffinity(None).unwrap();
+        core.set((0..CpuSet::MAX_CPU).find(|core| allowed.is_set(*core)).unwrap());
+        let spin = || {
+            sched_setaffinity(None, &core).unwrap();
+            while !over.load(Ordering::Relaxed) {
+                std::hint::spin_loop();
+            }
+        };
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                known.begin();
+                spin();
+            });
+            // It has computed for long before it starves.
+            std::thread::sleep(Duration::from_millis(100));
+            (0..OTHERS).for_each(|_| _ = scope.spawn(spin));
+            let time = Duration::from_millis(400);
+            std::thread::sleep(time);
+            thread.starves(time);
+            std::thread::sleep(time);
+            let starves = thread.starves(time);
+            over.store(true, Ordering::Relaxed);
+            assert!(starves);
+        });
     }
 
     #[test]

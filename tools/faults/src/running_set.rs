@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 pub(crate) struct RunningSet {
     child: Child,
     // Before the folder, for one of them may lie there.
-    _mounts: Option<PrivateMounts>,
+    mounts: Option<PrivateMounts>,
     folder: tempfile::TempDir,
     run: Run,
     log: LogFollower<SupervisorEvent>,
@@ -79,20 +79,24 @@ impl RunningSet {
             let said = std::fs::read_to_string(folder.path().join("stderr")).unwrap_or_default();
             return Err(Trouble(format!("no run was made within {} s: {said}", MADE_WITHIN.as_secs())));
         };
-        Ok(Self { child, _mounts: mounts, folder, run, log: LogFollower::new(&report), seen: Vec::new() })
+        Ok(Self { child, mounts, folder, run, log: LogFollower::new(&report), seen: Vec::new() })
     }
 
     pub(crate) fn run(&self) -> &Run {
         &self.run
     }
 
-    /// What the run left stays under this name, beside where it was written to. Of one that was private nothing does.
-    pub(crate) fn keep(mut self, name: &str) -> std::io::Result<()> {
-        // Its files may still be written to until it ends.
-        self.child.kill().ok();
-        self.child.wait()?;
+    /// What the run, which has ended, left stays under this name, beside where it was written to, in place of what an earlier run left there. Of
+    /// one that was private nothing can.
+    pub(crate) fn keep(self, name: &str) -> std::io::Result<()> {
+        if self.mounts.is_some() {
+            return Ok(());
+        }
         let named = self.folder.path().with_file_name(name);
-        std::fs::rename(self.folder.path(), named)
+        match std::fs::remove_dir_all(&named) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
+            _ => std::fs::rename(self.folder.path(), named),
+        }
     }
 
     /// Where the run reports to, and nothing else is.

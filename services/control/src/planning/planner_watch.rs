@@ -18,7 +18,8 @@ const HANGS_AFTER: u64 = cycles(Duration::from_millis(700));
 /// One that would go on, but does not get its core, is waited for so long: another process would get it no sooner. Chosen by hand, as
 /// the supervisor's.
 const STARVED_AFTER: u64 = cycles(Duration::from_secs(10));
-/// One that is silent for too long is looked at this often: it takes some system calls.
+/// One that is silent is looked at this often: it takes some system calls. The first look, long before one that hangs is told from one that
+/// waits for its core, is what the next one compares with.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
 
 impl PlannerWatch {
@@ -29,11 +30,14 @@ impl PlannerWatch {
         self.beats = beats;
     }
 
-    /// Whether the planner hangs. `starves` says whether it would go on but for the machine, and hardly has since some time ago; it is
-    /// asked only about one that is silent.
+    /// Whether the planner hangs. `starves` says whether it would go on but for the machine, and hardly has since it was last asked, some time
+    /// ago; it is asked only about one that is silent.
     pub fn hangs(&self, starves: impl FnOnce(Duration) -> bool) -> bool {
-        let is_looked_at = self.still >= HANGS_AFTER && self.still.is_multiple_of(cycles(LOOK_EVERY));
-        is_looked_at && (self.still >= STARVED_AFTER || !starves(LOOK_EVERY))
+        if self.still == 0 || !self.still.is_multiple_of(cycles(LOOK_EVERY)) {
+            return false;
+        }
+        let starves = starves(LOOK_EVERY);
+        self.still >= HANGS_AFTER && (self.still >= STARVED_AFTER || !starves)
     }
 }
 
@@ -70,6 +74,20 @@ mod tests {
             }
         }
         assert_eq!(hung, [STARVED_AFTER]);
+    }
+
+    #[test]
+    fn what_it_has_computed_before_it_fell_silent_does_not_count() {
+        let (mut watch, mut looks) = (PlannerWatch::default(), 0);
+        // As its thread tells it: at the first look all that it has ever computed is new.
+        let hung = (0..2 * HANGS_AFTER).any(|_| {
+            watch.look(true, 9);
+            watch.hangs(|_| {
+                looks += 1;
+                looks > 1
+            })
+        });
+        assert!(!hung && looks > 1);
     }
 
     #[test]

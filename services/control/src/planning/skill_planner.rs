@@ -99,7 +99,7 @@ impl SkillPlanner {
         let [wide, close] = distances.map(|beyond| clear_of(beyond, separation));
         let (moves, awaits, leave) = (query.is_in_motion(), query.awaits_person(), query.leave);
         let is_near = separation < self.limits.withdraw_within && !moves;
-        let out = if is_near { distances.map(withdrawing).to_vec() } else { Vec::new() };
+        let out = if is_near { Vec::from(distances.map(withdrawing)) } else { Vec::new() };
         let leave_out = leave.or(Some((away, self.limits.withdraw_distance)));
         let last = if awaits { &close } else { &alone };
         let withdrawn = out.iter().map(|scene| Attempt { model: &moving, scene, leave: leave_out });
