@@ -40,7 +40,7 @@ fn two_runs_beside_each_other_both_build() {
     for (run, finished) in [(first, one.finish()), (second, other.finish())] {
         assert_eq!(left_behind(&run), Vec::<String>::new());
         assert!(finished.summary().task.achieved >= 1, "{}", finished.stderr);
-        assert!(finished.summary().faults.is_empty());
+        assert_eq!(finished.summary().faults, [], "{}", finished.stderr);
     }
 }
 

@@ -200,16 +200,12 @@ impl RunningChild {
         ProcessStat::of(self.pid()).is_ok_and(|stat| stat.is_runnable)
     }
 
-    /// The time that it has computed for; `None` when it is dead.
+    /// The time that its main thread has computed for, to some milliseconds; `None` when it is dead, or the kernel does not tell.
+    ///
+    /// Not the process's: a background thread that computes says nothing about the one that pulses.
     pub fn computed(&self) -> Option<Duration> {
-        let mut clock = 0;
-        let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
-        // SAFETY: system calls that write only to the two variables that they are given.
-        let failed = unsafe {
-            libc::clock_getcpuclockid(self.pid() as i32, &raw mut clock) != 0
-                || libc::clock_gettime(clock, &raw mut time) != 0
-        };
-        (!failed).then(|| Duration::new(time.tv_sec as u64, time.tv_nsec as u32))
+        let told = std::fs::read_to_string(format!("/proc/{}/schedstat", self.pid())).ok()?;
+        Some(Duration::from_nanos(told.split_ascii_whitespace().next()?.parse().ok()?))
     }
 
     /// Whether it has ended: it does nothing any more, but may still have its memory.

@@ -222,6 +222,36 @@ fn a_real_time_process_that_is_silent_while_another_goes_on_is_replaced_within_m
     assert!(silent > limit - Duration::from_millis(4), "killed after {silent:?}");
 }
 
+/// What the test below supervises.
+#[test]
+#[ignore = "a process of another test"]
+fn computes_in_the_background() {
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let begin = Instant::now();
+            while begin.elapsed() < Duration::from_secs(60) {}
+        });
+    });
+}
+
+#[test]
+fn who_computes_in_the_background_does_not_certainly_hang() {
+    let program = std::env::current_exe().unwrap();
+    let background = format!(
+        "touch \"$READY\"; exec '{}' --ignored --exact computes_in_the_background",
+        program.display()
+    );
+    let mut trial =
+        Trial::with(&[("a", &background)], |spec| spec.hung_after = Some(Duration::from_millis(100)));
+    trial.run_until_ready();
+    trial.set.expect_pulses(coact_realtime::monotonic_time());
+    trial.set.pulse("a");
+    trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Died, "a") == 1).unwrap();
+    let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
+    // Its main thread waits. What computes without end is killed after 10 ms.
+    assert_eq!(died.reason.as_deref(), Some("hung: no pulse for more than 500 ms"));
+}
+
 #[test]
 fn a_process_whose_heartbeat_stops_is_replaced_and_one_that_never_had_any_is_not() {
     let beats = "touch \"$READY\"; for beat in 1 2 3 4 5 6 7 8; do touch \"$DIR/a.heartbeat\"; sleep 0.1; done; exec sleep 600";
