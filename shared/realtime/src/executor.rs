@@ -68,6 +68,7 @@ impl Executor {
     /// A port that failed; [`ProcessError::Overload`] when the stage, which was fast enough, is too slow for the others.
     pub(crate) fn run(&mut self, work: &mut impl Cycle, signals: &Signals) -> Result<(), ProcessError> {
         let mut cycle = self.schedule.next_after(now());
+        let mut in_time = true;
         let mut last = None;
         loop {
             let mut scheduled_ns = self.wait(cycle, work, signals)?;
@@ -87,7 +88,9 @@ impl Executor {
             if self.overload.is_reached(now() - started_ns, thread_time) {
                 return Err(ProcessError::Overload);
             }
-            cycle = self.schedule.following(cycle, now());
+            let ended_ns = now();
+            cycle = self.schedule.following(cycle, ended_ns, in_time);
+            in_time = ended_ns <= self.schedule.release(cycle);
         }
     }
 

@@ -7,6 +7,9 @@ pub struct Schedule {
     pub start_ns: u64,
 }
 
+/// A release that is no longer ago still begins a cycle, ns. Chosen by hand: half a period, in the rest of which the whole chain is done.
+const STILL_BEGINS: u64 = PERIOD_NS / 2;
+
 impl Schedule {
     /// Instant at which `tick` is released, ns of `CLOCK_MONOTONIC`.
     pub fn release(&self, tick: u64) -> u64 {
@@ -18,12 +21,14 @@ impl Schedule {
         ns.saturating_sub(self.start_ns) / PERIOD_NS
     }
 
-    /// The tick to begin after `tick`, when it is `ns` now.
+    /// The tick to begin after `tick`, when it is `ns` now; `in_time` tells that `tick` was begun at its release.
     ///
-    /// A cycle that overran is followed by the next one that is released, in all stages alike. Nothing is caught up
-    /// with, so one late cycle does not make the next one late.
-    pub(crate) fn following(&self, tick: u64, ns: u64) -> u64 {
-        (tick + 1).max(self.next_after(ns))
+    /// One that overran a little is followed by the one that has just been released: a late cycle costs no second one. One that
+    /// overran by more, or was late itself, is followed by the next release, in all stages alike: nothing is caught up with, and a
+    /// core that several share is left to the others.
+    pub(crate) fn following(&self, tick: u64, ns: u64, in_time: bool) -> u64 {
+        let ago = if in_time { STILL_BEGINS } else { 0 };
+        (tick + 1).max(self.next_after(ns.saturating_sub(ago)))
     }
 
     /// The first tick that is not yet released at `ns`.
@@ -51,16 +56,27 @@ mod tests {
     }
 
     #[test]
-    fn tick_that_overran_is_followed_by_the_next_release() {
-        let follows = |ns: u64| SCHEDULE.following(3, START + ns);
+    fn tick_that_overran_is_followed_by_the_one_that_there_is_time_for() {
+        let follows = |ns: u64| [true, false].map(|in_time| SCHEDULE.following(3, START + ns, in_time));
         let release = |tick: u64| tick * PERIOD_NS;
+        for within in [release(3) + 1, release(4) - 1, release(4)] {
+            assert_eq!(follows(within), [4; 2], "it ended within its period");
+        }
+        for just in [release(4) + 1, release(4) + STILL_BEGINS] {
+            assert_eq!(
+                follows(just),
+                [4, 5],
+                "its successor has just begun: begun at once, but not twice in a row"
+            );
+        }
+        for late in [release(4) + STILL_BEGINS + 1, release(5)] {
+            assert_eq!(follows(late), [5; 2], "there is no time left for it");
+        }
         assert_eq!(
-            [release(3) + 1, release(4) - 1, release(4)].map(follows),
-            [4; 3],
-            "it ended within its period"
+            [release(35), release(35) + STILL_BEGINS + 1].map(follows),
+            [[35; 2], [36; 2]],
+            "much later"
         );
-        assert_eq!([release(4) + 1, release(5)].map(follows), [5; 2], "its successor is released already");
-        assert_eq!([release(35), release(35) + 1].map(follows), [35, 36], "much later");
     }
 
     #[test]
