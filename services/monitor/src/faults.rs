@@ -1,5 +1,6 @@
 use coact_messages::Pulse;
 use coact_period::PERIOD_NS;
+use coact_realtime::LateWakeUp;
 use coact_run_records::{Event, FaultEvent, SupervisorEvent, SupervisorEventKind};
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
@@ -30,6 +31,8 @@ pub struct Faults {
     good: BTreeMap<String, VecDeque<(u32, u64)>>,
     /// Outages of the last two minutes: release of the cycle at their end, process, how many cycles without output.
     outages: VecDeque<(u64, String, u64)>,
+    /// When the machine was late in the last two minutes.
+    machine_late: VecDeque<LateWakeUp>,
     /// Up to which instant each process's faults are in the report already.
     settled: BTreeMap<String, u64>,
 }
@@ -60,6 +63,7 @@ impl Faults {
             open: Vec::new(),
             good: BTreeMap::new(),
             outages: VecDeque::new(),
+            machine_late: VecDeque::new(),
             settled: BTreeMap::new(),
         }
     }
@@ -109,6 +113,11 @@ impl Faults {
         }
     }
 
+    /// The machine itself was late, whatever process failed.
+    pub fn machine_late(&mut self, late: LateWakeUp) {
+        self.machine_late.push_back(late);
+    }
+
     fn remember(&mut self, process: &str, pulse: &Pulse) {
         if !self.good.contains_key(process) {
             self.good.insert(process.to_owned(), VecDeque::with_capacity(GOOD_OUTPUTS));
@@ -131,18 +140,19 @@ impl Faults {
     /// Appends to `events` the faults that are over, once all pulses from that time have come.
     pub fn settle(&mut self, now_ns: u64, events: &mut Vec<Event>) {
         self.outages.retain(|&(at, ..)| now_ns.saturating_sub(at) < REMEMBERED_NS);
+        self.machine_late.retain(|late| now_ns.saturating_sub(late.woken_ns) < REMEMBERED_NS);
         let over = |open: &OpenFault| {
             open.given_up || open.recovered_ns.is_some_and(|at| now_ns > at.saturating_add(SETTLING_NS))
         };
         for open in self.open.extract_if(.., |open| over(open)) {
-            events.push(describe(&open, &self.outages));
+            events.push(describe(&open, &self.outages, &self.machine_late));
         }
     }
 
     /// Ends the run: faults that are not over stay so.
     pub fn finish(&mut self, events: &mut Vec<Event>) {
         for open in self.open.drain(..) {
-            events.push(describe(&open, &self.outages));
+            events.push(describe(&open, &self.outages, &self.machine_late));
         }
     }
 
@@ -208,7 +218,11 @@ impl OpenFault {
     }
 }
 
-fn describe(open: &OpenFault, outages: &VecDeque<(u64, String, u64)>) -> Event {
+fn describe(
+    open: &OpenFault,
+    outages: &VecDeque<(u64, String, u64)>,
+    machine_late: &VecDeque<LateWakeUp>,
+) -> Event {
     let at_ns = open.last_good_ns.unwrap_or(open.reported_ns);
     let until = open.recovered_ns.unwrap_or(u64::MAX);
     let mut survivors_missed = BTreeMap::new();
@@ -217,6 +231,8 @@ fn describe(open: &OpenFault, outages: &VecDeque<(u64, String, u64)>) -> Event {
             *survivors_missed.entry(process.clone()).or_default() += missed;
         }
     }
+    let meanwhile = machine_late.iter().filter(|late| late.due_ns <= until && late.woken_ns >= at_ns);
+    let machine_late_ns = meanwhile.map(|late| late.woken_ns - late.due_ns).max().unwrap_or(0);
     let after_ms = |instant: u64| instant.saturating_sub(at_ns) as f64 / 1e6;
     Event::Fault(FaultEvent {
         process: open.process.clone(),
@@ -225,5 +241,6 @@ fn describe(open: &OpenFault, outages: &VecDeque<(u64, String, u64)>) -> Event {
         detected_ms: open.detected_ns.map(after_ms),
         recovered_ms: open.recovered_ns.map(after_ms),
         survivors_missed,
+        machine_late_ms: machine_late_ns as f64 / 1e6,
     })
 }

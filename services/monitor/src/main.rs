@@ -34,6 +34,7 @@ fn main() -> anyhow::Result<()> {
     while !process.stop_requested() {
         heartbeat.beat()?;
         std::thread::sleep(LOOK_EVERY);
+        probe.iter().flat_map(LatencyProbe::take_late).for_each(|late| monitor.machine_late(late));
         topics.drain(&mut monitor, &mut refused)?;
         process.warn_of_refusals();
         if written.elapsed() >= WRITE_EVERY {

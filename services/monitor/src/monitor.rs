@@ -8,6 +8,7 @@ use crate::{
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, NONE, Pulse, Refusal, SensorSample, Speech, Truth, topic};
 use coact_period::cycles;
+use coact_realtime::LateWakeUp;
 use coact_run_records::{
     Environment, Event, LogFollower, OperatorStopReport, Record, RunLog, Snapshot, Summary, SupervisorEvent,
     SupervisorEventKind,
@@ -173,6 +174,11 @@ impl Monitor {
             self.commanded = pulse.header.cycle;
             self.motion.commanded(pulse);
         }
+    }
+
+    /// The machine itself was late, whatever the processes did.
+    pub fn machine_late(&mut self, late: LateWakeUp) {
+        self.faults.machine_late(late);
     }
 
     /// What really happens; it is judged once the fields' frame of the same cycle has come, or is overdue.

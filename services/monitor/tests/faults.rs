@@ -4,6 +4,7 @@
 mod support;
 
 use coact_monitor::Faults;
+use coact_realtime::LateWakeUp;
 use coact_run_records::{Event, FaultEvent, SupervisorEvent, SupervisorEventKind};
 use support::pulse;
 
@@ -70,6 +71,24 @@ fn kill_is_detected_recovered_and_its_cost_to_others_counted() {
         [("control".into(), 2), ("world".into(), 1)]
     );
     assert_eq!(settled(&mut faults, 4000), []);
+}
+
+#[test]
+fn a_fault_tells_the_longest_lateness_of_the_machine_meanwhile() {
+    let lateness = |late: &[(u64, u64)]| {
+        let mut faults = set();
+        late.iter().for_each(|&(due, woken)| {
+            faults.machine_late(LateWakeUp { due_ns: due * MS, woken_ns: woken * MS })
+        });
+        beat(&mut faults, "fields", 0, 100, false);
+        faults.supervisor(&seen(SupervisorEventKind::Died, "fields", 0, 104));
+        beat(&mut faults, "fields", 1, 121, false);
+        settled(&mut faults, 400).remove(0).machine_late_ms
+    };
+    assert_eq!(lateness(&[]), 0.0);
+    assert_eq!(lateness(&[(90, 99), (123, 140)]), 0.0, "before it, and after it");
+    assert_eq!(lateness(&[(110, 112), (99, 104), (119, 121)]), 5.0);
+    assert_eq!(lateness(&[(80, 180)]), 100.0);
 }
 
 #[test]

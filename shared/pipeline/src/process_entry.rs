@@ -36,7 +36,7 @@ pub struct ProcessEntry {
 
 impl ProcessEntry {
     /// Highest priority of SCHED_FIFO.
-    const HIGHEST: u8 = 99;
+    pub const HIGHEST: u8 = 99;
 
     /// A standby of this process: the same program on the same core. The task goes on without it.
     ///

@@ -20,6 +20,9 @@ pub struct FaultReport {
     pub survivors_missed: u64,
     /// The same, by process.
     pub survivors_missed_by: BTreeMap<String, u64>,
+    /// For how long at most the machine itself did nothing for real-time threads meanwhile; 0 when never for a period.
+    #[serde(default)]
+    pub machine_late_ms: f64,
 }
 
 impl FaultReport {
@@ -41,6 +44,7 @@ impl FaultReport {
             recovered_ms: fault.recovered_ms,
             survivors_missed: fault.survivors_missed.values().sum(),
             survivors_missed_by: fault.survivors_missed.clone(),
+            machine_late_ms: fault.machine_late_ms,
         }
     }
 }

@@ -34,6 +34,9 @@ pub struct Recovery {
     /// Where it has a standby: how many faults left the stage's readers so many cycles without a timely message.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub without_output: BTreeMap<u64, u64>,
+    /// The same of those faults during which the machine itself was late by a period: they say nothing about the standby.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub without_output_machine_late: BTreeMap<u64, u64>,
 }
 
 impl RecoveryReport {
@@ -64,13 +67,18 @@ impl Recovery {
         for ms in faults.iter().filter_map(|fault| fault.recovered_ms) {
             times.saturating_record((ms * NS_PER_MS) as u64);
         }
-        let mut without_output = BTreeMap::new();
+        let [mut without_output, mut without_output_machine_late] = [BTreeMap::new(), BTreeMap::new()];
         for fault in faults.iter().filter(|_| has_standby) {
             let missed = fault.survivors_missed_by.get(&standby_of(&fault.process)).copied().unwrap_or(0);
-            *without_output.entry(missed).or_default() += 1;
+            let counts = match fault.machine_late_ms {
+                0.0 => &mut without_output,
+                _ => &mut without_output_machine_late,
+            };
+            *counts.entry(missed).or_default() += 1;
         }
         let count = faults.len() as u64;
-        Self { count, recovered: percentiles(&times), lost: count - times.len(), without_output }
+        let (recovered, lost) = (percentiles(&times), count - times.len());
+        Self { count, recovered, lost, without_output, without_output_machine_late }
     }
 }
 
@@ -94,20 +102,23 @@ mod tests {
             recovered_ms,
             survivors_missed: standby_missed,
             survivors_missed_by: BTreeMap::from([("fields-standby".into(), standby_missed)]),
+            machine_late_ms: 0.0,
         }
     }
 
     #[test]
     fn percentiles_are_those_of_what_recovered_and_what_did_not_is_told() {
+        let stalled = FaultReport { machine_late_ms: 7.5, ..fault(None, 8) };
         let faults: Vec<_> =
-            (1..=100).map(|ms| fault(Some(f64::from(ms)), 0)).chain([fault(None, 2)]).collect();
+            (1..=100).map(|ms| fault(Some(f64::from(ms)), 0)).chain([fault(None, 2), stalled]).collect();
         let recovery = Recovery::of(&faults.iter().collect::<Vec<_>>(), true);
-        assert_eq!((recovery.count, recovery.lost, recovery.recovered.count), (101, 1, 100));
+        assert_eq!((recovery.count, recovery.lost, recovery.recovered.count), (102, 2, 100));
         // The histogram has three digits.
         let ms = |ns: u64| (ns as f64 / NS_PER_MS).round();
         let Percentiles { p50, p99, max, .. } = recovery.recovered;
         assert_eq!([p50, p99, max].map(ms), [50.0, 99.0, 100.0]);
         assert_eq!(recovery.without_output, BTreeMap::from([(0, 100), (2, 1)]));
+        assert_eq!(recovery.without_output_machine_late, BTreeMap::from([(8, 1)]));
         assert_eq!(Recovery::of(&[], true), Recovery::default());
     }
 }

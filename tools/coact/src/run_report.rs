@@ -193,8 +193,12 @@ fn operator_stop(stop: &OperatorStopReport) -> String {
 
 fn fault(fault: &FaultReport) -> String {
     let after = |ms: Option<f64>| ms.map_or("never".into(), |ms| format!("after {ms:.1} ms"));
+    let machine = match fault.machine_late_ms {
+        0.0 => String::new(),
+        ms => format!(", the machine was late by {ms:.1} ms meanwhile"),
+    };
     format!(
-        "fault         {}: {} at {:.1} s, seen {}, recovered {}, others missed {}",
+        "fault         {}: {} at {:.1} s, seen {}, recovered {}, others missed {}{machine}",
         fault.process,
         fault.fault,
         fault.at_s,
@@ -283,6 +287,7 @@ mod tests {
                 recovered_ms: Some(21.54),
                 survivors_missed: 1,
                 survivors_missed_by: Default::default(),
+                machine_late_ms: 3.25,
             }],
             work: Judgement::new(vec!["only 2 of 9 subgoals were achieved".into()]),
             timing: Judgement::new(vec!["fields was missing".into()]),
@@ -306,7 +311,7 @@ mod tests {
             "p50 210 µs, p99 400 µs, p999 513 µs, max 900 µs; 3 of 2001 cycles missed their deadline, 4 were skipped",
             "late by a period or more at 3 of 1000 wake-ups of an idle thread, by 2.3 ms at most",
             "not locked",
-            "fields: kill at 20.0 s, seen after 0.3 ms, recovered after 21.5 ms, others missed 1",
+            "fields: kill at 20.0 s, seen after 0.3 ms, recovered after 21.5 ms, others missed 1, the machine was late by 3.2 ms meanwhile",
             "stopped       from 4.2 s by user 0 (pid 7), until 6.0 s by user 0 (pid 8)",
             "reports/x",
         ] {

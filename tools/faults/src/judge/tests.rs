@@ -63,6 +63,7 @@ fn evidence() -> Evidence {
         recovered_ms: Some(15.0),
         survivors_missed: 0,
         survivors_missed_by: BTreeMap::new(),
+        machine_late_ms: 0.0,
     });
     Evidence {
         ending: Ending { status: Some(ExitStatus::from_raw(0)), left_behind: Vec::new() },

@@ -10,6 +10,7 @@ use coact_run_records::{Percentiles, Summary};
 use coact_supervisor::{Ending, Fault, Launch};
 use coact_table_edit::TableEdit;
 use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -115,13 +116,27 @@ fn text(report: &RecoveryReport, out: &Path) -> String {
         "max ms",
         "never",
         "cycles without output: faults",
+        "the same beside a late machine",
     ]);
     for (process, recovery) in &report.processes {
-        let Recovery { count, recovered: Percentiles { p50, p99, max, .. }, lost, without_output } = recovery;
-        let missing: Vec<_> =
-            without_output.iter().map(|(cycles, faults)| format!("{cycles}: {faults}")).collect();
+        let Recovery { count, recovered: Percentiles { p50, p99, max, .. }, lost, without_output, .. } =
+            recovery;
+        let list = |counts: &BTreeMap<u64, u64>| {
+            let counts: Vec<_> =
+                counts.iter().map(|(cycles, faults)| format!("{cycles}: {faults}")).collect();
+            counts.join(", ")
+        };
         let [p50, p99, max] = [p50, p99, max].map(|ns| format!("{:.1}", *ns as f64 / 1e6));
-        rows.add_row([process, &count.to_string(), &p50, &p99, &max, &lost.to_string(), &missing.join(", ")]);
+        rows.add_row([
+            process,
+            &count.to_string(),
+            &p50,
+            &p99,
+            &max,
+            &lost.to_string(),
+            &list(without_output),
+            &list(&recovery.without_output_machine_late),
+        ]);
     }
     let late = report.machine_late.map_or_else(String::new, |late| {
         format!("the idle thread woke up late by a period {late} times meanwhile\n")
