@@ -18,7 +18,7 @@ pub struct FaultEvent {
     pub recovered_ms: Option<f64>,
     /// Cycles without timely output of each surviving process between fault and recovery.
     pub survivors_missed: BTreeMap<String, u64>,
-    /// For how long at most the machine itself did nothing for real-time threads meanwhile; 0 when never for a period.
+    /// For how long at most the machine itself did nothing for real-time threads meanwhile; 0 when never for half a period.
     #[serde(default)]
     pub machine_late_ms: f64,
 }

@@ -20,7 +20,7 @@ pub struct FaultReport {
     pub survivors_missed: u64,
     /// The same, by process.
     pub survivors_missed_by: BTreeMap<String, u64>,
-    /// For how long at most the machine itself did nothing for real-time threads meanwhile; 0 when never for a period.
+    /// For how long at most the machine itself did nothing for real-time threads meanwhile; 0 when never for half a period.
     #[serde(default)]
     pub machine_late_ms: f64,
 }

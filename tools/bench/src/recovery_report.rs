@@ -34,7 +34,7 @@ pub struct Recovery {
     /// Where it has a standby: how many faults left the stage's readers so many cycles without a timely message.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub without_output: BTreeMap<u64, u64>,
-    /// The same of those faults during which the machine itself was late by a period: they say nothing about the standby.
+    /// The same of those faults during which the machine itself was late by half a period: they say nothing about the standby.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub without_output_machine_late: BTreeMap<u64, u64>,
 }
