@@ -1,19 +1,17 @@
 use coact_monitor::{histogram, percentiles};
 use coact_run_records::{FaultReport, Judgement, OutageReport, Percentiles, Summary};
 use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// What many faults of a running set cost.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RecoveryReport {
     /// What was done to the processes.
     pub fault: &'static str,
-    /// Of each process that was struck.
+    /// Of each process that was struck: all faults.
     pub processes: BTreeMap<String, Recovery>,
-    /// Faults in which no other process went without a timely output, and all of them.
-    pub others_missed_none: u64,
-    /// See `others_missed_none`.
-    pub faults: u64,
+    /// The same without those during which the machine itself was late by half a period, or more.
+    pub machine_in_time: BTreeMap<String, Recovery>,
     /// Cycles without a timely command, over the whole run.
     pub command_outage: OutageReport,
     /// Wake-ups of the idle thread that came late by a period meanwhile; none where there was no such thread.
@@ -31,34 +29,38 @@ pub struct Recovery {
     pub recovered: Percentiles,
     /// Faults without a recovery.
     pub lost: u64,
+    /// Faults in which no other process went without a timely output.
+    pub others_missed_none: u64,
     /// Where it has a standby: how many faults left the stage's readers so many cycles without a timely message.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub without_output: BTreeMap<u64, u64>,
-    /// The same of those faults during which the machine itself was late by half a period: they say nothing about the standby.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub without_output_machine_late: BTreeMap<u64, u64>,
 }
 
 impl RecoveryReport {
     /// Of a run in which this `fault` was injected.
     pub fn new(fault: &'static str, summary: &Summary) -> Self {
-        let struck: Vec<&FaultReport> =
-            summary.faults.iter().filter(|report| report.fault == fault).collect();
-        let names: BTreeSet<&str> = struck.iter().map(|report| report.process.as_str()).collect();
-        let of = |name: &str| {
-            let own: Vec<_> = struck.iter().copied().filter(|report| report.process == name).collect();
-            (name.to_owned(), Recovery::of(&own, summary.processes.contains_key(&standby_of(name))))
-        };
+        let struck = summary.faults.iter().filter(|report| report.fault == fault);
+        let in_time = struck.clone().filter(|report| report.machine_late_ms == 0.0);
+        let has_standby = |process: &str| summary.processes.contains_key(&standby_of(process));
         Self {
             fault,
-            processes: names.into_iter().map(of).collect(),
-            others_missed_none: struck.iter().filter(|report| report.survivors_missed == 0).count() as u64,
-            faults: struck.len() as u64,
+            processes: by_process(struck, has_standby),
+            machine_in_time: by_process(in_time, has_standby),
             command_outage: summary.command_outage,
             machine_late: summary.environment.machine.map(|machine| machine.late),
             work: summary.work.clone(),
         }
     }
+}
+
+fn by_process<'a>(
+    faults: impl Iterator<Item = &'a FaultReport>,
+    has_standby: impl Fn(&str) -> bool,
+) -> BTreeMap<String, Recovery> {
+    let mut struck: BTreeMap<&str, Vec<&FaultReport>> = BTreeMap::new();
+    faults.for_each(|fault| struck.entry(&fault.process).or_default().push(fault));
+    let recovery = |(name, own): (&str, Vec<_>)| (name.to_owned(), Recovery::of(&own, has_standby(name)));
+    struck.into_iter().map(recovery).collect()
 }
 
 impl Recovery {
@@ -67,18 +69,20 @@ impl Recovery {
         for ms in faults.iter().filter_map(|fault| fault.recovered_ms) {
             times.saturating_record((ms * NS_PER_MS) as u64);
         }
-        let [mut without_output, mut without_output_machine_late] = [BTreeMap::new(), BTreeMap::new()];
+        let mut without_output = BTreeMap::new();
         for fault in faults.iter().filter(|_| has_standby) {
             let missed = fault.survivors_missed_by.get(&standby_of(&fault.process)).copied().unwrap_or(0);
-            let counts = match fault.machine_late_ms {
-                0.0 => &mut without_output,
-                _ => &mut without_output_machine_late,
-            };
-            *counts.entry(missed).or_default() += 1;
+            *without_output.entry(missed).or_default() += 1;
         }
         let count = faults.len() as u64;
-        let (recovered, lost) = (percentiles(&times), count - times.len());
-        Self { count, recovered, lost, without_output, without_output_machine_late }
+        let others_missed_none = faults.iter().filter(|fault| fault.survivors_missed == 0).count() as u64;
+        Self {
+            count,
+            recovered: percentiles(&times),
+            lost: count - times.len(),
+            others_missed_none,
+            without_output,
+        }
     }
 }
 
@@ -108,17 +112,27 @@ mod tests {
 
     #[test]
     fn percentiles_are_those_of_what_recovered_and_what_did_not_is_told() {
-        let stalled = FaultReport { machine_late_ms: 7.5, ..fault(None, 8) };
         let faults: Vec<_> =
-            (1..=100).map(|ms| fault(Some(f64::from(ms)), 0)).chain([fault(None, 2), stalled]).collect();
+            (1..=100).map(|ms| fault(Some(f64::from(ms)), 0)).chain([fault(None, 2)]).collect();
         let recovery = Recovery::of(&faults.iter().collect::<Vec<_>>(), true);
-        assert_eq!((recovery.count, recovery.lost, recovery.recovered.count), (102, 2, 100));
+        assert_eq!((recovery.count, recovery.lost, recovery.recovered.count), (101, 1, 100));
         // The histogram has three digits.
         let ms = |ns: u64| (ns as f64 / NS_PER_MS).round();
         let Percentiles { p50, p99, max, .. } = recovery.recovered;
         assert_eq!([p50, p99, max].map(ms), [50.0, 99.0, 100.0]);
         assert_eq!(recovery.without_output, BTreeMap::from([(0, 100), (2, 1)]));
-        assert_eq!(recovery.without_output_machine_late, BTreeMap::from([(8, 1)]));
+        assert_eq!(recovery.others_missed_none, 100);
         assert_eq!(Recovery::of(&[], true), Recovery::default());
+    }
+
+    #[test]
+    fn each_process_has_its_own_row() {
+        let control = FaultReport { process: "control".into(), ..fault(Some(3.0), 0) };
+        let faults = [fault(Some(7.0), 0), control, fault(None, 1)];
+        let rows = by_process(faults.iter(), |process| process == "fields");
+        let counts: Vec<_> =
+            rows.iter().map(|(process, row)| (process.as_str(), row.count, row.lost)).collect();
+        assert_eq!(counts, [("control", 1, 0), ("fields", 2, 1)]);
+        assert!(rows["control"].without_output.is_empty(), "it has no standby");
     }
 }

@@ -10,7 +10,6 @@ use coact_run_records::{Percentiles, Summary};
 use coact_supervisor::{Ending, Fault, Launch};
 use coact_table_edit::TableEdit;
 use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -72,7 +71,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
         bail!("interrupted");
     }
     let report = RecoveryReport::new(args.fault.name(), &Summary::read(&out)?);
-    ensure!(report.faults > 0, "the monitor has seen no {}; expected one of each stage", args.fault.name());
+    ensure!(
+        !report.processes.is_empty(),
+        "the monitor has seen no {}; expected one of each stage",
+        args.fault.name()
+    );
     let json = serde_json::to_string_pretty(&report)?;
     let path = out.join("recovery.json");
     std::fs::write(&path, &json).with_context(|| format!("{}: cannot be written", path.display()))?;
@@ -106,50 +109,47 @@ fn prepare(args: &Args, out: &Path) -> Result<Launch> {
 }
 
 fn text(report: &RecoveryReport, out: &Path) -> String {
-    let mut rows = Table::new();
-    rows.load_style(UTF8_HORIZONTAL_ONLY);
-    rows.set_header([
-        report.fault,
-        "count",
-        "p50 ms",
-        "p99 ms",
-        "max ms",
-        "never",
-        "cycles without output: faults",
-        "the same beside a late machine",
-    ]);
-    for (process, recovery) in &report.processes {
-        let Recovery { count, recovered: Percentiles { p50, p99, max, .. }, lost, without_output, .. } =
-            recovery;
-        let list = |counts: &BTreeMap<u64, u64>| {
-            let counts: Vec<_> =
-                counts.iter().map(|(cycles, faults)| format!("{cycles}: {faults}")).collect();
-            counts.join(", ")
-        };
-        let [p50, p99, max] = [p50, p99, max].map(|ns| format!("{:.1}", *ns as f64 / 1e6));
-        rows.add_row([
-            process,
-            &count.to_string(),
-            &p50,
-            &p99,
-            &max,
-            &lost.to_string(),
-            &list(without_output),
-            &list(&recovery.without_output_machine_late),
-        ]);
-    }
     let late = report.machine_late.map_or_else(String::new, |late| {
         format!("the idle thread woke up late by a period {late} times meanwhile\n")
     });
     let outage = &report.command_outage;
     let judged = if report.work.passes() { "pass".to_owned() } else { format!("{:?}", report.work) };
     format!(
-        "{rows}\nothers missed no cycle in {} of {} faults\nno timely command in {} of {} cycles, {} in a row at most\n{late}work {judged}\nreport {}",
-        report.others_missed_none,
-        report.faults,
+        "{}\nno timely command in {} of {} cycles, {} in a row at most\n{late}work {judged}\nreport {}",
+        table(report),
         outage.without_output,
         outage.due,
         outage.longest,
         out.display()
     )
+}
+
+fn table(report: &RecoveryReport) -> Table {
+    let mut rows = Table::new();
+    rows.load_style(UTF8_HORIZONTAL_ONLY);
+    let columns = [
+        "count",
+        "p50 ms",
+        "p99 ms",
+        "max ms",
+        "never",
+        "others missed none",
+        "cycles without output: faults",
+    ];
+    rows.set_header([report.fault].into_iter().chain(columns));
+    for (machine, processes) in [("", &report.processes), (", machine in time", &report.machine_in_time)] {
+        for (process, recovery) in processes {
+            rows.add_row([format!("{process}{machine}")].into_iter().chain(cells(recovery)));
+        }
+    }
+    rows
+}
+
+fn cells(recovery: &Recovery) -> [String; 7] {
+    let Recovery { count, recovered, lost, others_missed_none, without_output } = recovery;
+    let Percentiles { p50, p99, max, .. } = recovered;
+    let [p50, p99, max] = [p50, p99, max].map(|ns| format!("{:.1}", *ns as f64 / 1e6));
+    let missing: Vec<_> =
+        without_output.iter().map(|(cycles, faults)| format!("{cycles}: {faults}")).collect();
+    [count.to_string(), p50, p99, max, lost.to_string(), others_missed_none.to_string(), missing.join(", ")]
 }
