@@ -160,6 +160,7 @@ impl Control {
         let halted = drive.is_some_and(holds);
         let before = self.servo.position();
         let inputs = Inputs::new(&self.limits.stale, tick, sample, percept, frame);
+        inputs.scene().into_iter().for_each(|scene| self.state.seen.see(scene));
         if !inputs.blind() && !halted {
             self.pursue(&inputs);
             self.decide(&inputs);

@@ -1,6 +1,6 @@
 use crate::person_capsules::PersonCapsules;
 use crate::sighting_frame::{SHORTEST, frame_of};
-use coact_messages::{ARM_JOINTS, Decision, FieldFrame, Percept, PersonArm, ROBOT, SensorSample, Sighting};
+use coact_messages::{ARM_JOINTS, Decision, FieldFrame, Percept, PersonArm, ROBOT, SceneView, SensorSample};
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
 use coact_robot::HAND_JOINTS;
@@ -175,9 +175,9 @@ impl<'a> Inputs<'a> {
         Some((scene.captured_cycle, frame_of(sighting)?))
     }
 
-    /// All parts in sight.
-    pub fn parts_in_sight(&self) -> &'a [Sighting] {
-        self.sample.map_or(&[], |sample| sample.scene.sightings())
+    /// What the recogniser sees.
+    pub fn scene(&self) -> Option<&'a SceneView> {
+        Some(&self.sample?.scene)
     }
 
     /// All occluders in sight: centre and half extents, m.

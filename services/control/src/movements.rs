@@ -185,7 +185,7 @@ impl Control {
             held: hand.held().map(|kind| (kind, hand.in_palm.isometry())),
             held_in: self.held_in(),
             person: inputs.person(&self.model.part_capsules, &self.limits),
-            in_sight: InSight::of(inputs.parts_in_sight(), inputs.occluders()),
+            in_sight: InSight::of(self.state.seen.all(), inputs.occluders()),
         }
     }
 

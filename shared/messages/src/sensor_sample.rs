@@ -102,7 +102,7 @@ pub struct SceneView {
 
 /// One recognised part. The recogniser names the kind, not the individual.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, Default, Pod, Zeroable, ZeroCopySend)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable, ZeroCopySend)]
 pub struct Sighting {
     /// Kind of part: index into the task's part kinds.
     pub kind: u32,

@@ -50,9 +50,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         seconds(largest as u64)
     );
     let joints = motion.report();
+    let (speed_at, acceleration_at) = (joints.speed_at, joints.acceleration_at);
     println!(
-        "joints: at most {:.3} of the speed and {:.3} of the acceleration limit",
-        joints.speed, joints.acceleration
+        "joints: at most {:.3} of the speed (joint {} at {:.3} s) and {:.3} of the acceleration limit (joint {} at {:.3} s)",
+        joints.speed,
+        speed_at.joint,
+        speed_at.s,
+        joints.acceleration,
+        acceleration_at.joint,
+        acceleration_at.s
     );
     println!("{} ms in {elapsed:.2} s: {:.1} times real time", ticks, seconds(ticks) / elapsed);
     Ok(())

@@ -1,6 +1,6 @@
 use coact_messages::{MAX_PARTS, Sighting};
 
-/// What the camera shows beside the person: of fixed size.
+/// What the camera has shown beside the person: of fixed size.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct InSight {
     parts: [Sighting; MAX_PARTS],
@@ -13,7 +13,7 @@ pub(crate) struct InSight {
 const MOST_OCCLUDERS: usize = 4;
 
 impl InSight {
-    /// These parts and occluders, as many as there is room for.
+    /// These parts, those of the newest camera frame first, and occluders, as many as there is room for.
     pub fn of(parts: &[Sighting], occluders: &[[f64; 6]]) -> Self {
         let mut in_sight = Self {
             parts: [bytemuck::Zeroable::zeroed(); MAX_PARTS],

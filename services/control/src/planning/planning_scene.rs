@@ -101,7 +101,7 @@ impl PlanningScene {
         inflated.map(|limb| Obstacle::moving(PERSON, limb))
     }
 
-    /// The parts in sight, but for what is in a hand or about to come into the robot's; the one that is meant stands where it
+    /// The parts, but for what is in a hand or about to come into the robot's; the one that is meant stands where it
     /// is believed to stand.
     fn parts(&self, query: &PlanningQuery) -> Vec<Obstacle> {
         let palm = self.mechanism.arm.palm(&query.start.map(|state| state.position));

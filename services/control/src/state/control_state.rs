@@ -1,6 +1,6 @@
 use super::{
-    ArmState, DecisionState, FINGER_JOINTS, FingerState, HandState, MovementQuery, PlanningState, Skill,
-    SkillPhase, SkillState,
+    ArmState, DecisionState, FINGER_JOINTS, FingerState, HandState, MovementQuery, PlanningState, SeenParts,
+    Skill, SkillPhase, SkillState,
 };
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::{ARM_JOINTS, JOINTS};
@@ -17,19 +17,21 @@ pub(crate) struct ControlState {
     pub hand: HandState,
     pub planning: PlanningState,
     pub decisions: DecisionState,
+    pub seen: SeenParts,
 }
 
 impl StageState for ControlState {
     const STAGE: &'static str = "control";
-    const LAYOUT: u32 = 6;
+    const LAYOUT: u32 = 7;
 
     fn check(&self) -> Result<(), Implausible> {
-        let Self { arm, fingers, skill, hand, planning, decisions: _ } = self;
+        let Self { arm, fingers, skill, hand, planning, decisions: _, seen } = self;
         arm.check()?;
         fingers.check()?;
         skill.check()?;
         hand.check()?;
-        planning.check()
+        planning.check()?;
+        seen.check()
     }
 }
 
