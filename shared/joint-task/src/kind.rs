@@ -38,6 +38,14 @@ impl Shape {
         }
     }
 
+    /// The same shape, as high, but so much wider on every side, m.
+    pub fn widened(self, by: f64) -> Self {
+        match self {
+            Self::Cylinder { radius, height } => Self::Cylinder { radius: radius + by, height },
+            Self::Box { size: [x, y, z] } => Self::Box { size: [x + 2.0 * by, y + 2.0 * by, z] },
+        }
+    }
+
     /// Height above its frame, m.
     pub fn height(&self) -> f64 {
         self.extents()[2]
