@@ -120,8 +120,8 @@ impl Topics {
         let Self { pulses, truth, sensors, fields, command, speech } = self;
         let mut events = Vec::new();
         warn_once(monitor.read_supervisor(), refused)?;
-        for (process, input) in pulses {
-            input.each(|pulse| monitor.pulse(process, pulse))?;
+        for (process, pulse) in in_order(pulses)? {
+            monitor.pulse(process, &pulse);
         }
         truth.each(|truth| monitor.truth(truth, &mut events))?;
         sensors.each(|sample| monitor.sample(sample))?;
@@ -130,4 +130,16 @@ impl Topics {
         speech.each(|speech| monitor.speech(speech, &mut events))?;
         warn_once(monitor.record(now(), events), refused)
     }
+}
+
+/// The new pulses of all processes in the order of the outputs that they tell of: where a stage and its standby have both sent for a
+/// cycle, their readers have taken the first message, and so does the account.
+fn in_order(inputs: &mut [(String, Input<Pulse>)]) -> Result<Vec<(&str, Pulse)>, PortError> {
+    let mut pulses = Vec::new();
+    for (process, input) in inputs {
+        let process = process.as_str();
+        input.each(|pulse| pulses.push((process, *pulse)))?;
+    }
+    pulses.sort_by_key(|(_, pulse)| pulse.header.published_ns);
+    Ok(pulses)
 }

@@ -46,7 +46,7 @@ impl Metrics {
     }
 
     /// Adds one cycle of a process and gives what it tells; nothing for one that was added before. Of a standby only what its
-    /// stage's readers got by it, and its own counters: to be added after the pulses of its stage.
+    /// stage's readers got by it, and its own counters. To be added in the order of the outputs that they tell of.
     pub fn pulse(&mut self, process: &str, pulse: &Pulse) -> CycleFindings {
         if self.counters.get(process).is_some_and(|counters| !counters.is_new(pulse)) {
             return CycleFindings::default();

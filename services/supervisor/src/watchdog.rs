@@ -18,11 +18,11 @@ pub(crate) struct Silence {
 const COMPUTES: Duration = Duration::from_millis(10);
 /// How long one at least that is stopped. Chosen by hand: it has missed a cycle, and nothing but somebody else's signal lets it do
 /// another.
-const STOPPED: Duration = Duration::from_millis(2);
-/// They are killed after these parts of their limit. Chosen by hand: 10 ms and 2 ms of the shipped table's 100. A table that is
+const STOPPED: Duration = Duration::from_millis(1);
+/// They are killed after these parts of their limit. Chosen by hand: 10 ms and 1 ms of the shipped table's 100. A table that is
 /// patient, because somebody looks into its processes with a debugger, stays so.
 const COMPUTES_PART: u32 = 10;
-const STOPPED_PART: u32 = 50;
+const STOPPED_PART: u32 = 100;
 
 /// How long a process with this limit may be silent that computes without end.
 pub(crate) fn computes(limit: Duration) -> Duration {
@@ -94,7 +94,7 @@ mod tests {
         let beginning = Silence { is_steady: false, ..computing(11) };
         assert_eq!(hung(&[beginning, waits(1)]), [Some(COMPUTES), None]);
         let stands = |ms| Silence { limit, certain: Some(stopped(limit)), ..silent(ms) };
-        assert_eq!(hung(&[stands(2), stands(3), waits(99)]), [None, Some(STOPPED), None]);
+        assert_eq!(hung(&[stands(1), stands(2), waits(99)]), [None, Some(STOPPED), None]);
     }
 
     #[test]
@@ -104,7 +104,7 @@ mod tests {
         assert_eq!(hung(&[patient(1900), patient(2001)]), [None, Some(limit)]);
         assert_eq!(hung(&[patient(2001), patient(2001)]), [Some(limit), Some(limit)]);
         let stands = |ms| Silence { certain: Some(stopped(limit)), ..patient(ms) };
-        assert_eq!(hung(&[stands(39), stands(41)]), [None, Some(limit / STOPPED_PART)]);
+        assert_eq!(hung(&[stands(19), stands(21)]), [None, Some(limit / STOPPED_PART)]);
         assert_eq!(computes(LIMIT / 2), LIMIT / 2, "certainty makes nobody more patient");
     }
 }

@@ -56,6 +56,7 @@ struct GuardTable {
 struct PlannerTable {
     path_clearance_m: Spanned<f64>,
     goal_clearance_m: Spanned<f64>,
+    insertion_clearance_m: Spanned<f64>,
     beyond_guard_m: Spanned<f64>,
     person_ahead_ms: Spanned<u64>,
     withdraw_within_m: Spanned<f64>,
@@ -147,6 +148,7 @@ impl PlannerTable {
         Ok(PlannerLimits {
             path_clearance: within("path_clearance_m", &self.path_clearance_m, 0.0..=0.5)?,
             goal_clearance: within("goal_clearance_m", &self.goal_clearance_m, 0.0..=0.5)?,
+            insertion_clearance: within("insertion_clearance_m", &self.insertion_clearance_m, 0.0..=0.5)?,
             beyond_guard: within("beyond_guard_m", &self.beyond_guard_m, 0.0..=0.5)?,
             person_ahead: milliseconds("person_ahead_ms", &self.person_ahead_ms, 0..=2000)?,
             withdraw_within: within("withdraw_within_m", &self.withdraw_within_m, 0.0..=1.0)?,

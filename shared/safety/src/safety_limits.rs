@@ -80,6 +80,8 @@ pub struct PlannerLimits {
     pub path_clearance: f64,
     /// From everything, at the goal.
     pub goal_clearance: f64,
+    /// The same where a part is brought into its place.
+    pub insertion_clearance: f64,
     /// By how much more than the guard a path keeps clear of the person.
     pub beyond_guard: f64,
     /// The person's arm is kept clear of where it is, and where it will be after this time.

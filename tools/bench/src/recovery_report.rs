@@ -10,7 +10,8 @@ pub struct RecoveryReport {
     pub fault: &'static str,
     /// Of each process that was struck: all faults.
     pub processes: BTreeMap<String, Recovery>,
-    /// The same without those during which the machine itself was late by half a period, or more.
+    /// The same without those during which the machine itself was late: the idle thread by half a period or more, or the stage that
+    /// starts the chain, which nobody strikes, by a cycle.
     pub machine_in_time: BTreeMap<String, Recovery>,
     /// Cycles without a timely command, over the whole run.
     pub command_outage: OutageReport,
@@ -37,10 +38,10 @@ pub struct Recovery {
 }
 
 impl RecoveryReport {
-    /// Of a run in which this `fault` was injected.
-    pub fn new(fault: &'static str, summary: &Summary) -> Self {
+    /// Of a run in which this `fault` was injected into processes other than `first`, the stage that starts the chain.
+    pub fn new(fault: &'static str, first: &str, summary: &Summary) -> Self {
         let struck = summary.faults.iter().filter(|report| report.fault == fault);
-        let in_time = struck.clone().filter(|report| report.machine_late_ms == 0.0);
+        let in_time = struck.clone().filter(|report| machine_in_time(report, first));
         let has_standby = |process: &str| summary.processes.contains_key(&standby_of(process));
         Self {
             fault,
@@ -51,6 +52,10 @@ impl RecoveryReport {
             work: summary.work.clone(),
         }
     }
+}
+
+fn machine_in_time(report: &FaultReport, first: &str) -> bool {
+    report.machine_late_ms == 0.0 && report.survivors_missed_by.get(first).is_none_or(|missed| *missed == 0)
 }
 
 fn by_process<'a>(
@@ -123,6 +128,14 @@ mod tests {
         assert_eq!(recovery.without_output, BTreeMap::from([(0, 100), (2, 1)]));
         assert_eq!(recovery.others_missed_none, 100);
         assert_eq!(Recovery::of(&[], true), Recovery::default());
+    }
+
+    #[test]
+    fn a_fault_that_met_a_late_machine_says_so() {
+        let late = FaultReport { machine_late_ms: 0.6, ..fault(None, 0) };
+        assert!(machine_in_time(&fault(None, 2), "world"), "the standby alone missed cycles");
+        assert!(!machine_in_time(&late, "world"));
+        assert!(!machine_in_time(&fault(None, 2), "fields-standby"), "the first stage itself missed cycles");
     }
 
     #[test]

@@ -133,11 +133,13 @@ impl SkillPlanner {
             _ => 0.0,
         };
         let next = query.next_place.map(|next| next * query.place.inverse());
+        let problem = self.problem(attempt.model, attempt.scene, query.start, goal);
         let problem = Problem {
             leave: attempt.leave,
             next_displacements: next.into_iter().collect(),
             insertion_depth,
-            ..self.problem(attempt.model, attempt.scene, query.start, goal)
+            min_clearance: MinClearance { goal: self.goal_clearance(query.skill), ..problem.min_clearance },
+            ..problem
         };
         problem.plan_within(match query.is_in_motion() {
             true => SEARCH_IN_MOTION,
@@ -183,6 +185,10 @@ impl SkillPlanner {
         let problem = Problem::new(&self.models.mechanism, collision_model, scene, start, goal);
         let min_clearance = MinClearance { path: path_clearance, goal: goal_clearance };
         Problem { min_clearance, ..problem }
+    }
+
+    fn goal_clearance(&self, skill: Skill) -> f64 {
+        if skill == Skill::Insert { self.limits.insertion_clearance } else { self.limits.goal_clearance }
     }
 }
 

@@ -5,7 +5,7 @@ use coact::installation::Installation;
 use coact::report_folder::unused_report_folder;
 use coact_bench::{Recovery, RecoveryReport, random_faults};
 use coact_joint_task::NetworkPlan;
-use coact_pipeline::{Pipeline, RunSettings, WorldMode};
+use coact_pipeline::{Pipeline, RunSettings, Trigger, WorldMode};
 use coact_run_records::{Percentiles, Summary};
 use coact_supervisor::{Ending, Fault, Launch};
 use coact_table_edit::TableEdit;
@@ -20,6 +20,9 @@ use std::time::Duration;
   coact bench recovery                          a hundred SIGKILLs; replacements wait, loaded
   coact bench recovery --faults 1000 --standby  a thousand; each stage has a standby
   coact bench recovery --fault stop-for-good    SIGSTOPs that nothing ends
+
+Rows \"machine in time\" leave out faults during which the machine was late: an idle thread by half a
+period or more, or the stage that starts the chain, which nobody strikes, by a cycle.
 
 The arm is watched as in every run: its verdict on the work is told, too.
 
@@ -67,10 +70,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let out = absolute(args.out.clone().unwrap_or_else(|| unused_report_folder(Path::new("reports"))))?;
     std::fs::create_dir_all(&out)
         .with_context(|| format!("--out {}: expected a folder that can be written to", out.display()))?;
-    if let Ending::Interrupted = prepare(&args, &out)?.run()? {
+    let launch = prepare(&args, &out)?;
+    let first = launch.pipeline.processes.iter().find(|process| process.trigger == Trigger::Timer);
+    let first = first.context("the process table has no process with trigger = \"timer\"")?.name.clone();
+    if let Ending::Interrupted = launch.run()? {
         bail!("interrupted");
     }
-    let report = RecoveryReport::new(args.fault.name(), &Summary::read(&out)?);
+    let report = RecoveryReport::new(args.fault.name(), &first, &Summary::read(&out)?);
     ensure!(
         !report.processes.is_empty(),
         "the monitor has seen no {}; expected one of each stage",
