@@ -235,7 +235,12 @@ impl Control {
         let held = hand.held().and_then(|kind| self.model.part_capsules.get(kind));
         let held = held.map(|part| part.within(&hand.in_palm.isometry()));
         self.guard.see_hand(&self.fingers(inputs), held);
-        inputs.person(&self.model.part_capsules, &self.limits)
+        self.person(inputs)
+    }
+
+    /// The person with what the hand holds, as far as she was ever seen.
+    pub(crate) fn person(&self, inputs: &Inputs) -> Option<PersonCapsules> {
+        inputs.person(&self.state.seen, &self.model.part_capsules, &self.limits)
     }
 
     /// Where the fingers are, rad, within their limits: parts keep them from their setpoints.

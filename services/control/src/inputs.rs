@@ -1,5 +1,6 @@
 use crate::person_capsules::PersonCapsules;
 use crate::sighting_frame::{SHORTEST, frame_of};
+use crate::state::SeenParts;
 use coact_messages::{ARM_JOINTS, Decision, FieldFrame, Percept, PersonArm, ROBOT, SceneView, SensorSample};
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
@@ -138,18 +139,22 @@ impl<'a> Inputs<'a> {
         })
     }
 
-    /// The person with what the hand holds, where she was seen last; none when she never was. `part_capsules`: around each
-    /// kind of part.
-    pub fn person(&self, part_capsules: &[Capsule], limits: &SafetyLimits) -> Option<PersonCapsules> {
-        let scene = &self.sample?.scene;
-        let held =
-            scene.sightings().iter().enumerate().filter(|(_, seen)| self.in_person_hand(seen.kind as usize));
-        let capsules = held.filter_map(|(index, seen)| {
-            Some((index, part_capsules.get(seen.kind as usize)?.within(&frame_of(seen)?)))
+    /// The person with whichever of the `parts` the hand holds, where she was seen last; none when she never was.
+    /// `part_capsules`: around each kind of part.
+    pub fn person(
+        &self,
+        parts: &SeenParts,
+        part_capsules: &[Capsule],
+        limits: &SafetyLimits,
+    ) -> Option<PersonCapsules> {
+        let held = parts.with_cycles().enumerate();
+        let held = held.filter(|(_, (part, _))| self.in_person_hand(part.kind as usize));
+        let capsules = held.filter_map(|(index, (part, seen))| {
+            let capsule = part_capsules.get(part.kind as usize)?.within(&frame_of(part)?);
+            Some((index, capsule, seconds(self.tick.saturating_sub(seen))))
         });
-        let ago = seconds(self.tick.saturating_sub(scene.captured_cycle));
         let person = PersonCapsules::of(&self.percept?.arm, &limits.person, &limits.stale)?;
-        Some(person.holding(capsules, ago, limits.person.carried_within))
+        Some(person.holding(capsules, limits.person.carried_within))
     }
 
     /// Force with which somebody pulls or pushes at the hand and what it holds, N; `None` when it is not measured.

@@ -2,7 +2,7 @@
 
 use crate::Control;
 use crate::inputs::Inputs;
-use crate::planning::{INSERTION_DEPTH, InSight, PlanningQuery};
+use crate::planning::{INSERTION_DEPTH, PlanningQuery, Surroundings};
 use crate::state::{MovementQuery, Skill, SkillPhase};
 use coact_joint_task::ActionType;
 use coact_period::seconds;
@@ -184,8 +184,8 @@ impl Control {
             leave: self.leave(start),
             held: hand.held().map(|kind| (kind, hand.in_palm.isometry())),
             held_in: self.held_in(),
-            person: inputs.person(&self.model.part_capsules, &self.limits),
-            in_sight: InSight::of(self.state.seen.all(), inputs.occluders()),
+            person: self.person(inputs),
+            surroundings: Surroundings::of(self.state.seen, inputs.occluders()),
         }
     }
 

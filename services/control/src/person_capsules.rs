@@ -12,7 +12,7 @@ use nalgebra::{Point3, Vector3};
 pub(crate) struct PersonCapsules {
     /// Upper arm, forearm, hand.
     limbs: [BodyPart; 3],
-    /// What is in the hand: index of its sighting, and a capsule around it.
+    /// What is in the hand: its index among the parts that were seen, and a capsule around it.
     held: Option<(usize, BodyPart)>,
     head: BodyPart,
 }
@@ -91,12 +91,12 @@ impl PersonCapsules {
         Some(Self { limbs: [upper_arm, forearm, hand], held: None, head })
     }
 
-    /// The same with whichever of these parts is nearest to the hand in it, if it is nearer than `within` m. Each part: index
-    /// of its sighting, and a capsule around where it was seen `ago` s before now. It moves along with the wrist.
-    pub fn holding(mut self, seen: impl Iterator<Item = (usize, Capsule)>, ago: f64, within: f64) -> Self {
+    /// The same with whichever of these parts is nearest to the hand in it, if it is nearer than `within` m. Each part: its index, a
+    /// capsule around where it was seen last, and for how long that is ago, s. It moves along with the wrist.
+    pub fn holding(mut self, seen: impl Iterator<Item = (usize, Capsule, f64)>, within: f64) -> Self {
         let [.., hand] = self.limbs;
         let [wrist, _] = hand.velocities;
-        let parts = seen.map(|(index, part)| {
+        let parts = seen.map(|(index, part, ago)| {
             let then = BodyPart { now: part, velocities: [wrist; 2], ..hand };
             (index, BodyPart { now: then.after(ago), ..then })
         });
@@ -106,7 +106,7 @@ impl PersonCapsules {
         self
     }
 
-    /// Index of the sighting of what is in the hand.
+    /// Index, among the parts that were seen, of what is in the hand.
     pub fn held(&self) -> Option<usize> {
         self.held.map(|(index, _)| index)
     }
@@ -225,11 +225,19 @@ mod tests {
     use super::*;
     use coact_safety::SafetyLimits;
 
+    fn safety_limits() -> SafetyLimits {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/safety.toml");
+        SafetyLimits::load(file.as_ref()).unwrap()
+    }
+
+    fn point() -> TrackedPoint {
+        bytemuck::Zeroable::zeroed()
+    }
+
     /// A hand that was seen `age` cycles ago at this speed, m/s.
     fn hand(speed: f64, age: u64) -> BodyPart {
-        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/safety.toml");
-        let SafetyLimits { person, stale, .. } = SafetyLimits::load(file.as_ref()).unwrap();
-        let point = TrackedPoint { velocity: [speed, 0.0, 0.0], age, ..bytemuck::Zeroable::zeroed() };
+        let SafetyLimits { person, stale, .. } = safety_limits();
+        let point = TrackedPoint { velocity: [speed, 0.0, 0.0], age, ..point() };
         BodyPart::between(&point, &point, &person, &stale)
     }
 
@@ -241,6 +249,32 @@ mod tests {
         // Of what it was faster by when it was seen, and of what it may have become faster by since then.
         let (before, after) = (acceleration * lag * since, 0.5 * acceleration * since * since);
         assert!(lag > 0.0 && (hand.growth(0.1) - before - after).abs() < 1e-12, "{}", hand.growth(0.1));
+    }
+
+    #[test]
+    fn a_part_that_a_frame_missed_has_gone_on_with_the_hand() {
+        let limits = safety_limits();
+        let moving = |x| TrackedPoint { position: [x, 0.0, 0.0], velocity: [1.0, 0.0, 0.0], ..point() };
+        let arm = PersonArm {
+            shoulder: moving(-0.6),
+            elbow: moving(-0.3),
+            wrist: moving(0.0),
+            fingertip: moving(0.2),
+            ..bytemuck::Zeroable::zeroed()
+        };
+        let part = |x: f64, ago| {
+            let at = Point3::new(x, 0.0, 0.0);
+            (0, Capsule { start: at, end: at, radius: 0.02 }, ago)
+        };
+        let held = |part| {
+            let person = PersonCapsules::of(&arm, &limits.person, &limits.stale).unwrap();
+            person.holding([part].into_iter(), limits.person.carried_within).held.map(|(_, held)| held.now.start.x)
+        };
+        // Beyond what the hand may have in it; and as near as what was seen farther back while the hand was, too.
+        let ahead = 0.2 + limits.person.radii[2] + 0.02 + limits.person.carried_within + 0.01;
+        assert_eq!(held(part(ahead, 0.0)), None);
+        let before = held(part(ahead - 0.05, 0.0)).unwrap();
+        assert!((held(part(ahead - 0.1, 0.05)).unwrap() - before).abs() < 1e-12);
     }
 
     #[test]

@@ -1,7 +1,6 @@
 //! Movements for control's skills: what is asked of the planner, where the hand goes, what it keeps clear of.
 
 mod hand_goals;
-mod in_sight;
 #[cfg(test)]
 mod modelled;
 mod planner_link;
@@ -12,9 +11,9 @@ mod planning_scene;
 mod planning_thread;
 mod skill_planner;
 mod slots;
+mod surroundings;
 
 pub(crate) use hand_goals::HandGoals;
-pub(crate) use in_sight::InSight;
 pub(crate) use planner_link::PlannerLink;
 use planner_watch::PlannerWatch;
 pub(crate) use planning_query::PlanningQuery;
@@ -22,3 +21,4 @@ pub(crate) use planning_result::PlanningResult;
 use planning_scene::PlanningScene;
 pub use planning_thread::PlanningThread;
 pub(crate) use skill_planner::{INSERTION_DEPTH, SkillPlanner};
+pub(crate) use surroundings::Surroundings;

@@ -1,4 +1,4 @@
-use super::InSight;
+use super::Surroundings;
 use crate::person_capsules::PersonCapsules;
 use crate::state::Skill;
 use coact_robot::{HAND_JOINTS, MotionState, NextUse};
@@ -31,7 +31,7 @@ pub(crate) struct PlanningQuery {
     /// Kind of the held part, and its frame in the palm's; and in which grip it is held.
     pub held: Option<(usize, Isometry3<f64>)>,
     pub held_in: Option<usize>,
-    pub in_sight: InSight,
+    pub surroundings: Surroundings,
     /// The person's arm, when it is tracked.
     pub person: Option<PersonCapsules>,
 }

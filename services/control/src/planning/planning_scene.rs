@@ -51,7 +51,7 @@ impl PlanningScene {
         let mut obstacles = self.fixtures.clone();
         obstacles.extend(self.parts(query));
         obstacles.extend(self.awaited(query));
-        for [x, y, z, half_x, half_y, half_z] in query.in_sight.occluders() {
+        for [x, y, z, half_x, half_y, half_z] in query.surroundings.occluders() {
             let edges = 2.0 * Vector3::new(*half_x, *half_y, *half_z);
             obstacles.push(Obstacle::new("occluder", Solid::Box(edges), &Isometry3::translation(*x, *y, *z)));
         }
@@ -114,7 +114,7 @@ impl PlanningScene {
         let received = query.kind.filter(|_| query.receives()).map(|kind| (kind, query.place));
         let in_person_hand = query.person.and_then(|arm| arm.held());
         let mut parts = Vec::new();
-        for (index, sighting) in query.in_sight.parts().iter().enumerate() {
+        for (index, sighting) in query.surroundings.parts.all().iter().enumerate() {
             let kind = sighting.kind as usize;
             let (Some(frame), Some(shape)) = (frame_of(sighting), self.shapes.get(kind)) else { continue };
             let is = |other: &Option<(usize, Isometry3<f64>)>| is_same(kind, &frame, other.as_ref());

@@ -49,6 +49,11 @@ impl SeenParts {
         &self.parts[..(self.count as usize).min(MAX_PARTS)]
     }
 
+    /// The same, each with the cycle of the frame that showed it last.
+    pub fn with_cycles(&self) -> impl Iterator<Item = (&Sighting, u64)> {
+        self.all().iter().zip(self.seen)
+    }
+
     pub fn check(&self) -> Result<(), Implausible> {
         ensure(self.count <= MAX_PARTS as u64, "seen.count", "a number of parts")
     }
@@ -99,6 +104,16 @@ mod tests {
         assert_eq!(after(&[(33, all), (66, &[other, third])]), [(0, 0.1), (1, 0.0), (0, 0.0)]);
         assert_eq!(after(&[(33, all), (66, &[]), (99, &[])]), [(0, 0.0), (0, 0.1), (1, 0.0)]);
         assert_eq!(after(&[(33, all), (66, &[other]), (99, all)]), [(0, 0.0), (0, 0.1), (1, 0.0)]);
+    }
+
+    #[test]
+    fn each_has_the_cycle_of_the_frame_that_showed_it_last() {
+        let [one, other] = [sighting(0, 0.0), sighting(1, 0.1)];
+        let mut seen = SeenParts::zeroed();
+        seen.see(&frame(33, &[one, other]));
+        seen.see(&frame(66, &[other]));
+        let cycles: Vec<_> = seen.with_cycles().map(|(part, cycle)| (part.kind, cycle)).collect();
+        assert_eq!(cycles, [(1, 66), (0, 33)]);
     }
 
     #[test]
