@@ -34,7 +34,7 @@ import tempfile
 import time
 from pathlib import Path
 
-LAYOUT = 8
+LAYOUT = 9
 MAX_LAYERS, MAX_POPULATIONS, MAX_SITES = 16, 1024, 10240
 NONE = 0xFFFF_FFFF
 LAYERS = ["AOL", "OML-robot", "OML-person", "CSGL-achieved", "CSGL-available", "ASL", "IL", "EML", "AEL"]
@@ -95,6 +95,7 @@ class FieldFrame(ctypes.Structure):
         ("resting", ctypes.c_double * MAX_POPULATIONS),
         ("signal", ctypes.c_double * MAX_POPULATIONS),
         ("since", ctypes.c_uint64 * MAX_POPULATIONS),
+        ("checksum", ctypes.c_uint64),
     ]
 
     @staticmethod

@@ -1,5 +1,6 @@
 use crate::{Machine, Seen};
-use coact_messages::{Command, FieldFrame, Percept, Pulse, SensorSample, Truth, topic};
+use coact_messages::{Command, FieldFrame, Percept, SensorSample, Truth, topic};
+use coact_monitor::PulseInputs;
 use coact_pipeline::{Pipeline, Trigger};
 use coact_realtime::{Bus, Input, PortError};
 
@@ -10,7 +11,7 @@ pub struct LiveTopics {
     frames: Input<FieldFrame>,
     commands: Input<Command>,
     truth: Input<Truth>,
-    pulses: Vec<(String, Input<Pulse>)>,
+    pulses: PulseInputs,
 }
 
 impl LiveTopics {
@@ -19,17 +20,14 @@ impl LiveTopics {
     /// # Errors
     /// [`PortError`].
     pub fn open(bus: &Bus, pipeline: &Pipeline) -> Result<Self, PortError> {
-        let mut pulses = Vec::new();
-        for entry in pipeline.processes.iter().filter(|entry| entry.trigger != Trigger::None) {
-            pulses.push((entry.name.clone(), bus.input(&topic::pulse(&entry.name))?));
-        }
+        let with_cycles = pipeline.processes.iter().filter(|entry| entry.trigger != Trigger::None);
         Ok(Self {
             samples: bus.input(topic::SENSORS)?,
             percepts: bus.input(topic::PERCEPT)?,
             frames: bus.input(topic::FIELDS)?,
             commands: bus.input(topic::COMMAND)?,
             truth: bus.input(topic::TRUTH)?,
-            pulses,
+            pulses: PulseInputs::open(bus, with_cycles.map(|entry| entry.name.clone()))?,
         })
     }
 
@@ -43,10 +41,7 @@ impl LiveTopics {
         self.frames.refresh()?;
         self.commands.refresh()?;
         self.truth.refresh()?;
-        for (process, input) in &mut self.pulses {
-            input.each(|pulse| machine.pulse(process, pulse))?;
-        }
-        Ok(())
+        self.pulses.each(|process, pulse| machine.pulse(process, pulse))
     }
 
     /// The newest messages.

@@ -125,7 +125,12 @@ impl<'a> Inputs<'a> {
     /// The person's arm, where perception tracks it and a camera frame has shown the hand recently enough.
     fn arm(&self) -> Option<&'a PersonArm> {
         let arm = self.percept.map(|percept| &percept.arm);
-        arm.filter(|arm| arm.is_tracked() && arm.age <= self.hand_after)
+        arm.filter(|arm| arm.is_tracked() && arm.age.saturating_add(self.percept_age()) <= self.hand_after)
+    }
+
+    /// Cycles since perception made the newest percept: one that is late, or the last one, tells of the past.
+    fn percept_age(&self) -> u64 {
+        self.percept.map_or(0, |percept| self.tick.saturating_sub(percept.header.cycle))
     }
 
     /// Whether the person's hand waits at `place`.
@@ -153,7 +158,8 @@ impl<'a> Inputs<'a> {
             let capsule = part_capsules.get(part.kind as usize)?.within(&frame_of(part)?);
             Some((index, capsule, seconds(self.tick.saturating_sub(seen))))
         });
-        let person = PersonCapsules::of(&self.percept?.arm, &limits.person, &limits.stale)?;
+        let person =
+            PersonCapsules::of(&self.percept?.arm, self.percept_age(), &limits.person, &limits.stale)?;
         Some(person.holding(capsules, limits.person.carried_within))
     }
 

@@ -53,18 +53,18 @@ struct Growth {
 const SHORTEST: f64 = 1e-6;
 
 impl PersonCapsules {
-    /// Around the arm that perception has estimated, as it was seen last; none when it never was, or when its numbers are not
-    /// finite. A hand whose end was never seen goes on along the forearm.
-    pub fn of(arm: &PersonArm, limits: &PersonLimits, stale: &StaleLimits) -> Option<Self> {
+    /// Around the arm that perception estimated `since` cycles ago, as it was seen last; none when it never was, or when its numbers
+    /// are not finite. A hand whose end was never seen goes on along the forearm.
+    pub fn of(arm: &PersonArm, since: u64, limits: &PersonLimits, stale: &StaleLimits) -> Option<Self> {
         let points = arm.points();
         let mut numbers = points.iter().flat_map(|point| point.position.iter().chain(&point.velocity));
         if arm.age == u64::MAX || !numbers.all(|number| number.is_finite()) {
             return None;
         }
         // A joint that was never seen is put where the others suggest: it is as old as they are.
-        let [shoulder, elbow, wrist, fingertip] = points.map(|point| TrackedPoint {
-            age: if point.age == u64::MAX { arm.age } else { point.age },
-            ..*point
+        let [shoulder, elbow, wrist, fingertip] = points.map(|point| {
+            let age = if point.age == u64::MAX { arm.age } else { point.age };
+            later(&TrackedPoint { age, ..*point }, since)
         });
         let part = |from: &TrackedPoint, to: &TrackedPoint| BodyPart::between(from, to, limits, stale);
         let [mut upper_arm, mut forearm, mut hand] =
@@ -182,6 +182,12 @@ impl Growth {
     }
 }
 
+/// A joint so many cycles later: it has gone on as it moved, and nobody has seen it since.
+fn later(joint: &TrackedPoint, since: u64) -> TrackedPoint {
+    let position = std::array::from_fn(|axis| joint.position[axis] + joint.velocity[axis] * seconds(since));
+    TrackedPoint { position, age: joint.age.saturating_add(since), ..*joint }
+}
+
 /// Whether a joint has been where it is for long enough to be sure that it rests.
 fn rests(joint: &TrackedPoint, limits: &PersonLimits) -> bool {
     joint.still >= cycles(limits.rests_after)
@@ -252,6 +258,30 @@ mod tests {
     }
 
     #[test]
+    fn what_was_estimated_some_cycles_ago_has_gone_on_and_grown() {
+        let (limits, coming) = (safety_limits(), TrackedPoint { velocity: [0.0, 1.0, 0.0], ..point() });
+        let arm = PersonArm {
+            shoulder: coming,
+            elbow: coming,
+            wrist: coming,
+            fingertip: coming,
+            ..bytemuck::Zeroable::zeroed()
+        };
+        let hand = |since| {
+            let person = PersonCapsules::of(&arm, since, &limits.person, &limits.stale).unwrap();
+            let [.., hand] = person.limbs;
+            hand
+        };
+        let (now, later) = (hand(0), hand(40));
+        assert!((later.now.end.y - now.now.end.y - 0.04).abs() < 1e-12);
+        assert!((later.growth(0.1) - now.growth(0.14)).abs() < 1e-12 && later.growth(0.1) > now.growth(0.1));
+        assert!(
+            now.is_seen && !hand(cycles(limits.stale.hand_after) + 1).is_seen,
+            "nobody has seen it since"
+        );
+    }
+
+    #[test]
     fn a_part_that_a_frame_missed_has_gone_on_with_the_hand() {
         let limits = safety_limits();
         let moving = |x| TrackedPoint { position: [x, 0.0, 0.0], velocity: [1.0, 0.0, 0.0], ..point() };
@@ -267,8 +297,11 @@ mod tests {
             (0, Capsule { start: at, end: at, radius: 0.02 }, ago)
         };
         let held = |part| {
-            let person = PersonCapsules::of(&arm, &limits.person, &limits.stale).unwrap();
-            person.holding([part].into_iter(), limits.person.carried_within).held.map(|(_, held)| held.now.start.x)
+            let person = PersonCapsules::of(&arm, 0, &limits.person, &limits.stale).unwrap();
+            person
+                .holding([part].into_iter(), limits.person.carried_within)
+                .held
+                .map(|(_, held)| held.now.start.x)
         };
         // Beyond what the hand may have in it; and as near as what was seen farther back while the hand was, too.
         let ahead = 0.2 + limits.person.radii[2] + 0.02 + limits.person.carried_within + 0.01;

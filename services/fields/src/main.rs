@@ -39,11 +39,11 @@ fn main() -> anyhow::Result<()> {
     let percept = process.bus().trigger(topic::PERCEPT)?;
     let mut frame: StandIn<FieldFrame> = process.stand_in(topic::FIELDS)?;
     let start = match process.checkpoint(frame.output())? {
-        Some(last) if network.fits(&last) => last,
+        Some(last) if network.fits(&last) && last.is_whole() => last,
         Some(last) => {
             let cycle = last.header.cycle;
             tracing::warn!(
-                "fields begins at rest: its checkpoint of cycle {cycle} is of another task or network"
+                "fields begins at rest: its checkpoint of cycle {cycle} is damaged, or of another task or network"
             );
             at_rest(&network)
         }

@@ -71,6 +71,7 @@ impl Network {
             out.activity[first..last].fill(layer.resting);
             out.resting[layer.populations.clone()].fill(layer.resting);
         }
+        out.seal();
     }
 
     /// Whether `frame` is a state of this network, so that it can be resumed from.
@@ -113,6 +114,7 @@ impl Network {
             };
         }
         out.decision = self.decision(out);
+        out.seal();
     }
 
     /// Fills the parts of the frame that never change.

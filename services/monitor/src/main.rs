@@ -2,8 +2,10 @@
 
 use anyhow::Context;
 use coact_joint_task::NetworkPlan;
-use coact_messages::{ARM_JOINTS, Command, FieldFrame, Pulse, SensorSample, Speech, Truth, topic};
-use coact_monitor::{Intentions, Monitor, MonitorError, PipelineNode, Rules, Watched, environment};
+use coact_messages::{ARM_JOINTS, Command, FieldFrame, SensorSample, Speech, Truth, topic};
+use coact_monitor::{
+    Intentions, Monitor, MonitorError, PipelineNode, PulseInputs, Rules, Watched, environment,
+};
 use coact_realtime::{Bus, Input, LatencyProbe, PortError, Process, Schedule, handles_left, now};
 use coact_robot::Robot;
 use coact_run_records::Environment;
@@ -90,7 +92,7 @@ fn warn_once(result: Result<(), MonitorError>, refused: &mut Option<MonitorError
 
 /// All that the monitor listens to.
 struct Topics {
-    pulses: Vec<(String, Input<Pulse>)>,
+    pulses: PulseInputs,
     truth: Input<Truth>,
     sensors: Input<SensorSample>,
     fields: Input<FieldFrame>,
@@ -100,14 +102,9 @@ struct Topics {
 
 impl Topics {
     fn open(bus: &Bus, processes: Vec<String>) -> Result<Self, PortError> {
-        let mut pulses = Vec::new();
-        for process in processes {
-            let input = bus.input(&topic::pulse(&process))?;
-            pulses.push((process, input));
-        }
         let (truth, fields) = (bus.input(topic::TRUTH)?, bus.input(topic::FIELDS)?);
         Ok(Self {
-            pulses,
+            pulses: PulseInputs::open(bus, processes)?,
             truth,
             sensors: bus.input(topic::SENSORS)?,
             fields,
@@ -120,9 +117,7 @@ impl Topics {
         let Self { pulses, truth, sensors, fields, command, speech } = self;
         let mut events = Vec::new();
         warn_once(monitor.read_supervisor(), refused)?;
-        for (process, pulse) in in_order(pulses)? {
-            monitor.pulse(process, &pulse);
-        }
+        pulses.each(|process, pulse| monitor.pulse(process, pulse))?;
         truth.each(|truth| monitor.truth(truth, &mut events))?;
         sensors.each(|sample| monitor.sample(sample))?;
         fields.each(|frame| monitor.frame(frame, &mut events))?;
@@ -130,16 +125,4 @@ impl Topics {
         speech.each(|speech| monitor.speech(speech, &mut events))?;
         warn_once(monitor.record(now(), events), refused)
     }
-}
-
-/// The new pulses of all processes in the order of the outputs that they tell of: where a stage and its standby have both sent for a
-/// cycle, their readers have taken the first message, and so does the account.
-fn in_order(inputs: &mut [(String, Input<Pulse>)]) -> Result<Vec<(&str, Pulse)>, PortError> {
-    let mut pulses = Vec::new();
-    for (process, input) in inputs {
-        let process = process.as_str();
-        input.each(|pulse| pulses.push((process, *pulse)))?;
-    }
-    pulses.sort_by_key(|(_, pulse)| pulse.header.published_ns);
-    Ok(pulses)
 }

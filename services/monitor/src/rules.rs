@@ -23,6 +23,8 @@ pub struct Rules {
     /// For how long the robot may have come nearer, by its own motion, to a person who was nearer than the protective
     /// separation, outside handovers, ms.
     pub robot_closing_ms: u64,
+    /// Greatest speed of a part of the robot that touches the person, outside handovers, m/s.
+    pub contact_speed_mps: f64,
     /// For how long the monitor may have seen nothing, s.
     pub blind_s: f64,
     /// Greatest fraction of cycles without timely output, of a process under SCHED_FIFO and of the command, beyond those at

@@ -109,6 +109,12 @@ fn separation(separation: &SeparationReport, rules: &Rules, reasons: &mut Vec<St
             rules.robot_closing_ms
         ));
     }
+    if separation.contact_speed_mps > rules.contact_speed_mps {
+        reasons.push(format!(
+            "the robot touched the person, outside a handover, at {:.2} m/s; at most {:.2} m/s are allowed",
+            separation.contact_speed_mps, rules.contact_speed_mps
+        ));
+    }
 }
 
 /// Outputs may be missing as often as the machine itself was late, and a little more often; never for long at a time.

@@ -200,6 +200,11 @@ impl RunningChild {
         ProcessStat::of(self.pid()).is_ok_and(|stat| stat.is_runnable)
     }
 
+    /// Whether its main thread waits for something: a message, a timer, a lock, a file.
+    pub(crate) fn waits(&self) -> bool {
+        ProcessStat::of(self.pid()).is_ok_and(|stat| !stat.is_runnable && !stat.is_stopped)
+    }
+
     /// The time that its main thread has computed for, to some milliseconds; `None` when it is dead, or the kernel does not tell.
     ///
     /// Not the process's: a background thread that computes says nothing about the one that pulses.

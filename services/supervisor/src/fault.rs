@@ -15,6 +15,8 @@ pub enum Fault {
     StopShort,
     /// SIGSTOP, and no SIGCONT.
     StopForGood,
+    /// Its main thread waits for what never comes.
+    Block,
     /// SIGABRT: the process ends as by `abort`.
     Abort,
     /// Its main thread panics.
@@ -64,11 +66,12 @@ pub(crate) enum Means {
 
 impl Fault {
     /// Every fault, in the order in which messages name them.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Kill,
         Self::Stop,
         Self::StopShort,
         Self::StopForGood,
+        Self::Block,
         Self::Abort,
         Self::Panic,
         Self::ExitSuccess,
@@ -94,6 +97,7 @@ impl Fault {
             Self::Stop => "stop",
             Self::StopShort => "stop-50ms",
             Self::StopForGood => "stop-for-good",
+            Self::Block => "block",
             Self::Abort => "abort",
             Self::Panic => "panic",
             Self::ExitSuccess => "exit-0",
@@ -120,6 +124,7 @@ impl Fault {
             Self::Stop => "stands still for two seconds, or until it is replaced as hung",
             Self::StopShort => "stands still for 50 ms, or until it is replaced as hung",
             Self::StopForGood => "stands still until it is replaced as hung",
+            Self::Block => "waits for what never comes, until it is replaced as hung",
             Self::Abort => "SIGABRT",
             Self::Panic => "its main thread panics",
             Self::ExitSuccess => "ends with exit status 0",
@@ -148,6 +153,7 @@ impl Fault {
             Self::StopForGood => Means::Signal(Signal::STOP),
             Self::Stop => Means::Pause(Duration::from_secs(2)),
             Self::StopShort => Means::Pause(Duration::from_millis(50)),
+            Self::Block => Means::Request(RequestedFault::Block),
             Self::Panic => Means::Request(RequestedFault::Panic),
             Self::ExitSuccess => Means::Request(RequestedFault::ExitSuccess),
             Self::ExitFailure => Means::Request(RequestedFault::ExitFailure),

@@ -22,6 +22,8 @@ pub(crate) struct Running {
     pub(crate) has_pulsed: bool,
     /// Since when it has been watched more closely because it is silent: by the watch clock, and the time that it had computed for.
     watched_closely: Option<(Duration, Duration)>,
+    /// Since when it was found waiting at each look, because it is silent: by the watch clock.
+    waits_since: Option<Duration>,
     /// It has real-time scheduling, by its own report.
     pub(crate) is_realtime: bool,
     /// Its newest heartbeat, if it has any.
@@ -46,6 +48,7 @@ impl Running {
             last_sign: Duration::ZERO,
             has_pulsed: false,
             watched_closely: None,
+            waits_since: None,
             is_realtime: false,
             heartbeat: None,
             computed_by_heartbeat: None,
@@ -59,7 +62,7 @@ impl Running {
     pub(crate) fn pulse(&mut self, watched: Duration) {
         self.last_sign = watched;
         self.has_pulsed = true;
-        self.watched_closely = None;
+        (self.watched_closely, self.waits_since) = (None, None);
     }
 
     /// Its heartbeat is a new one.
@@ -97,6 +100,23 @@ impl Running {
         let (since, before) = *self.watched_closely.get_or_insert((watched, computed));
         let (span, busy) = (watched.saturating_sub(since), computed.saturating_sub(before));
         self.has_pulsed && span >= computes / 2 && busy >= span.mul_f64(BUSY)
+    }
+
+    /// Whether it has waited for some milliseconds, at each look: for what never comes, if its core goes on. One that goes on as well is
+    /// woken in each period, by its input or by its timer.
+    pub(crate) fn waits_without_end(
+        &mut self,
+        silence: Duration,
+        limit: Duration,
+        watched: Duration,
+    ) -> bool {
+        let within = watchdog::waits(limit);
+        if silence < within / 2 || !self.child.waits() {
+            self.waits_since = None;
+            return false;
+        }
+        let since = *self.waits_since.get_or_insert(watched);
+        self.has_pulsed && watched.saturating_sub(since) >= within / 2
     }
 
     /// Kills it, once, for this reason.

@@ -236,6 +236,7 @@ impl Supervised {
             limit,
             is_steady: running.has_pulsed && running.is_realtime,
             certain: running.certain_limit(for_time, limit, watched),
+            waits: running.waits_without_end(for_time, limit, watched),
         })
     }
 

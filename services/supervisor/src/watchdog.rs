@@ -11,6 +11,8 @@ pub(crate) struct Silence {
     pub(crate) is_steady: bool,
     /// How long it may be when no late machine explains it: it is stopped, or computes without end.
     pub(crate) certain: Option<Duration>,
+    /// It waits, and has for a while: if its core goes on, then for what never comes.
+    pub(crate) waits: bool,
 }
 
 /// How long a process may be silent at least that computes without end. Chosen by hand: more than the longest cycle that a
@@ -19,10 +21,13 @@ const COMPUTES: Duration = Duration::from_millis(10);
 /// How long one at least that is stopped. Chosen by hand: it has missed a cycle, and nothing but somebody else's signal lets it do
 /// another.
 const STOPPED: Duration = Duration::from_millis(1);
-/// They are killed after these parts of their limit. Chosen by hand: 10 ms and 1 ms of the shipped table's 100. A table that is
+/// How long one at least that waits while most others go on. Chosen by hand: in each period it would have been woken.
+const WAITS: Duration = Duration::from_millis(4);
+/// They are killed after these parts of their limit. Chosen by hand: 10, 1 and 4 ms of the shipped table's 100. A table that is
 /// patient, because somebody looks into its processes with a debugger, stays so.
 const COMPUTES_PART: u32 = 10;
 const STOPPED_PART: u32 = 100;
+const WAITS_PART: u32 = 25;
 
 /// How long a process with this limit may be silent that computes without end.
 pub(crate) fn computes(limit: Duration) -> Duration {
@@ -34,18 +39,25 @@ pub(crate) fn stopped(limit: Duration) -> Duration {
     (limit / STOPPED_PART).max(STOPPED).min(limit)
 }
 
+/// How long one that waits, while most others go on.
+pub(crate) fn waits(limit: Duration) -> Duration {
+    (limit / WAITS_PART).max(WAITS).min(limit)
+}
+
 /// How long a process may be silent that is not real time, has not sent its first pulse yet, or is silent together with all
 /// others: then the machine may be late. Chosen by hand.
 pub(crate) const MACHINE_LATE: Duration = Duration::from_millis(500);
 
 /// Which of the watched processes hang, with the limit that each has exceeded.
 ///
-/// One that certainly hangs is not waited for. One that is silent while another one goes on, hangs. When all are silent together, their core stands still, or one
+/// One that certainly hangs is not waited for, and so is one that waits while all others go on, for then its core does. One that is silent while another one goes on, hangs. When all are silent together, their core stands still, or one
 /// keeps it from the others: that is waited for as long as machines are late.
 pub(crate) fn hung(watched: &[Silence]) -> Vec<Option<Duration>> {
     let all_silent = watched.len() > 1 && watched.iter().all(|silence| silence.for_time > silence.limit);
+    let going_on = watched.iter().filter(|silence| silence.for_time < waits(silence.limit)).count();
     let limit = |silence: &Silence| match (silence.certain, silence.is_steady && !all_silent) {
         (Some(limit), _) => limit,
+        (None, true) if silence.waits && 2 * going_on >= watched.len() => waits(silence.limit),
         (None, true) => silence.limit,
         (None, false) => silence.limit.max(MACHINE_LATE),
     };
@@ -59,7 +71,13 @@ mod tests {
     const LIMIT: Duration = Duration::from_millis(10);
 
     fn silent(ms: u64) -> Silence {
-        Silence { for_time: Duration::from_millis(ms), limit: LIMIT, is_steady: true, certain: None }
+        Silence {
+            for_time: Duration::from_millis(ms),
+            limit: LIMIT,
+            is_steady: true,
+            certain: None,
+            waits: false,
+        }
     }
 
     #[test]
@@ -95,6 +113,17 @@ mod tests {
         assert_eq!(hung(&[beginning, waits(1)]), [Some(COMPUTES), None]);
         let stands = |ms| Silence { limit, certain: Some(stopped(limit)), ..silent(ms) };
         assert_eq!(hung(&[stands(1), stands(2), waits(99)]), [None, Some(STOPPED), None]);
+    }
+
+    #[test]
+    fn one_that_waits_while_most_go_on_waits_for_what_never_comes() {
+        let limit = Duration::from_millis(100);
+        let (goes_on, silent) = (Silence { limit, ..silent(1) }, Silence { limit, ..silent(5) });
+        let waits = Silence { waits: true, ..silent };
+        assert_eq!(hung(&[waits, goes_on]), [Some(WAITS), None]);
+        assert_eq!(hung(&[silent, goes_on]), [None, None], "it runs, or has no core");
+        assert_eq!(hung(&[waits, waits, goes_on]), [None; 3], "their core may stand still");
+        assert_eq!(hung(&[Silence { is_steady: false, ..waits }, goes_on]), [None, None]);
     }
 
     #[test]

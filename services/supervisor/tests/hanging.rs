@@ -32,7 +32,7 @@ fn a_stopped_process_is_killed_as_hung_and_replaced_at_once_and_a_silent_one_aft
         trial.until(&mut (), |trial| trial.count(SupervisorEventKind::Ready, "a") == 2).unwrap();
         let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
         // The script does not say that it is real time: silent, it gets as long as machines are late.
-        let within = if fault.is_some() { "2 ms" } else { "500 ms" };
+        let within = if fault.is_some() { "1 ms" } else { "500 ms" };
         assert_eq!(died.reason.as_deref(), Some(&*format!("hung: no pulse for more than {within}")));
         assert_eq!(died.fault.as_deref(), fault.map(|fault| fault.name()));
     }

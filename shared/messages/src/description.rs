@@ -158,7 +158,9 @@ described! {
     TrackedPoint { position, velocity, deviation, age, still }
     HandPercept { aperture, reaching, reserved, since_onset }
     WorkspacePercept { seen, gone, position, orientation }
-    FieldFrame { header, task, noise_seed, layers, decision, activity, input, resting, signal, since }
+    FieldFrame {
+        header, task, noise_seed, layers, decision, activity, input, resting, signal, since, checksum
+    }
     LayerTable { count, reserved, kind, first_site, sites, first_population, populations }
     Decision { action, reserved, since }
     Command {

@@ -32,9 +32,36 @@ pub struct FieldFrame {
     pub signal: [f64; MAX_POPULATIONS],
     /// Cycle at which the population's present peak crossed threshold; 0 when it holds no peak.
     pub since: [u64; MAX_POPULATIONS],
+    /// Of what the next frame is computed from: see [`FieldFrame::is_whole`].
+    pub checksum: u64,
 }
 
 impl FieldFrame {
+    /// Writes the checksum; for the stage, once the frame is complete.
+    pub fn seal(&mut self) {
+        self.checksum = self.state_checksum();
+    }
+
+    /// Whether activity, resting levels, signals and peaks are as they were when the frame was sealed: no word of them is another one.
+    pub fn is_whole(&self) -> bool {
+        self.checksum == self.state_checksum()
+    }
+
+    /// Sums of the words, one for each row: they are computed in each cycle, and as fast as the rows can be read.
+    fn state_checksum(&self) -> u64 {
+        let (sites, populations) = (self.layers.used_sites(), self.layers.used_populations());
+        let bits = |row: &[f64]| row.iter().fold(0, |sum: u64, value| sum.wrapping_add(value.to_bits()));
+        let peaks = self.since[..populations].iter().fold(0, |sum: u64, since| sum.wrapping_add(*since));
+        let rows = [
+            bits(&self.activity[..sites]),
+            bits(&self.resting[..populations]),
+            bits(&self.signal[..populations]),
+            peaks,
+        ];
+        // Odd factors: what changes in one row cannot be made good in another by chance alone.
+        rows.iter().fold(self.task, |sum, row| sum.wrapping_mul(0x100_0000_01b3).wrapping_add(*row))
+    }
+
     /// Populations of the first layer of this kind, as indices into [`signal`](Self::signal) and
     /// [`since`](Self::since); empty when the network has no such layer.
     pub fn populations(&self, kind: LayerKind) -> std::ops::Range<usize> {

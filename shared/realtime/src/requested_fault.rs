@@ -24,11 +24,13 @@ pub enum RequestedFault {
     DropOut,
     /// Its cameras show nothing for ten seconds.
     DropOutLong,
+    /// Its main thread waits for what never comes.
+    Block,
 }
 
 impl RequestedFault {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Panic,
         Self::ExitSuccess,
         Self::ExitFailure,
@@ -39,6 +41,7 @@ impl RequestedFault {
         Self::DropOutShort,
         Self::DropOut,
         Self::DropOutLong,
+        Self::Block,
     ];
 
     /// The fault of this number; 0 is none.
@@ -72,9 +75,12 @@ impl RequestedFault {
         }
     }
 
-    /// Ends the process as requested; returns where the process is to live on.
+    /// Ends the process as requested, or its thread's work; returns where that is to go on.
     pub(crate) fn end(self) {
         match self {
+            Self::Block => loop {
+                std::thread::park();
+            },
             Self::Panic => panic!("injected fault: panic"),
             Self::ExitSuccess => std::process::exit(0),
             Self::ExitFailure => std::process::exit(1),

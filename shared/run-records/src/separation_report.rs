@@ -13,8 +13,8 @@ pub struct SeparationReport {
     /// both. Below 0 the robot might not stand in time; none when it closed on nobody. Contact apart.
     #[serde(default)]
     pub smallest_margin_m: Option<f64>,
-    /// Time in which they were nearer than the protective separation, but did not touch, and the robot came nearer by its own motion, ms. None is
-    /// allowed.
+    /// Time in which some link and some limb were nearer to each other than the protective separation, but did not touch, and the link came
+    /// nearer by its own motion, ms. None is allowed.
     pub robot_closing_ms: u64,
     /// The same by the person's own motion.
     pub person_closing_ms: u64,

@@ -4,25 +4,28 @@ use coact_motion::{Capsule, Mechanism, MovingCapsules};
 use coact_period::PERIOD_S;
 use coact_robot::{Robot, RobotError};
 use coact_run_records::SeparationReport;
-use coact_safety::SafetyLimits;
-use nalgebra::Point3;
+use coact_safety::{PersonLimits, SafetyLimits};
+use nalgebra::{Point3, Vector3};
 
 /// Measures the distance of robot and person, tick by tick.
 #[derive(Debug, Clone)]
 pub struct SeparationMeter {
     mechanism: Mechanism,
     capsules: MovingCapsules,
-    /// Radii of the person's upper arm, forearm and hand, m.
-    radii: [f64; 3],
+    /// How wide arm and head are.
+    person: PersonLimits,
     /// Protective separation, m.
     protective: f64,
-    /// The tick before: its cycle, and the person's arm. Where the links were then, and are now.
-    before: Option<(u64, [Capsule; 3])>,
+    /// The tick before: its cycle, and the person. Where the links were then, and are now.
+    before: Option<(u64, Person)>,
     links_before: Vec<Capsule>,
     links: Vec<Capsule>,
     fingers: Vec<Capsule>,
     report: SeparationReport,
 }
+
+/// Upper arm, forearm, hand and head.
+type Person = [Capsule; 4];
 
 /// Who comes nearer by less than this in a tick stands, m: 15 mm/s. A simulated arm that has braked yields by up to half a millimetre,
 /// at up to 13 mm/s, while its servos take up what the other joints leave.
@@ -39,11 +42,10 @@ impl SeparationMeter {
     pub fn new(robot: &Robot, limits: &SafetyLimits) -> Result<Self, RobotError> {
         let mechanism = Mechanism::of(robot)?;
         let capsules = MovingCapsules::of(&mechanism, &robot.hand)?;
-        let radii = limits.person.radii;
-        let protective = limits.guard.protective_separation;
+        let (person, protective) = (limits.person, limits.guard.protective_separation);
         let (before, report) = (None, SeparationReport::default());
         let [links_before, links, fingers] = std::array::from_fn(|_| Vec::with_capacity(capsules.most()));
-        Ok(Self { mechanism, capsules, radii, protective, before, links_before, links, fingers, report })
+        Ok(Self { mechanism, capsules, person, protective, before, links_before, links, fingers, report })
     }
 
     /// Goes on from what was measured before.
@@ -57,11 +59,7 @@ impl SeparationMeter {
             self.before = None;
             return;
         }
-        let person: [Capsule; 3] = std::array::from_fn(|limb| Capsule {
-            start: Point3::from(truth.arm[limb]),
-            end: Point3::from(truth.arm[limb + 1]),
-            radius: self.radii[limb],
-        });
+        let person = self.person_of(truth);
         std::mem::swap(&mut self.links, &mut self.links_before);
         self.place_links(&truth.joints);
         self.count_speed(command);
@@ -70,6 +68,20 @@ impl SeparationMeter {
             self.count_distance(cycle, &person);
         }
         self.before = Some((cycle, person));
+    }
+
+    /// The arm as it is, and the head, which stands above its shoulder.
+    fn person_of(&self, truth: &Truth) -> Person {
+        let PersonLimits { radii: [upper_arm, forearm, hand], head_radius, head_height, .. } = self.person;
+        let [shoulder, elbow, wrist, fingertip] = truth.arm.map(Point3::from);
+        let crown = shoulder + head_height * Vector3::z();
+        let line = |start, end, radius| Capsule { start, end, radius };
+        [
+            line(shoulder, elbow, upper_arm),
+            line(elbow, wrist, forearm),
+            line(wrist, fingertip, hand),
+            line(shoulder, crown, head_radius),
+        ]
     }
 
     /// What was measured so far.
@@ -83,7 +95,7 @@ impl SeparationMeter {
         self.report.stopped_ms += u64::from(command.speed_override < STOPPED);
     }
 
-    fn count_distance(&mut self, cycle: u64, person: &[Capsule; 3]) {
+    fn count_distance(&mut self, cycle: u64, person: &Person) {
         let now = distance(&self.links, person);
         let nearest = self.report.nearest_m.get_or_insert(now);
         *nearest = nearest.min(now);
@@ -95,16 +107,32 @@ impl SeparationMeter {
         }
         if now <= 0.0 {
             self.count_contact(person, span);
-            return;
         }
-        let robot_closes = now < distance(&self.links_before, person) - STANDING;
-        let person_closes = now < distance(&self.links, &theirs_before) - STANDING;
+        self.count_closing(person, &theirs_before);
+    }
+
+    /// Whether some link, or some limb, came nearer by its own motion to what is nearer than the protective separation: each pair is held
+    /// to that, not only the nearest one.
+    fn count_closing(&mut self, person: &Person, theirs_before: &Person) {
+        let (mut robot_closes, mut person_closes) = (false, false);
+        for (link, own_before) in self.links.iter().zip(&self.links_before) {
+            for (limb, limb_before) in person.iter().zip(theirs_before) {
+                if link.least_distance(limb) >= self.protective {
+                    continue;
+                }
+                let now = link.distance(limb);
+                if now > 0.0 && now < self.protective {
+                    robot_closes |= now < own_before.distance(limb) - STANDING;
+                    person_closes |= now < link.distance(limb_before) - STANDING;
+                }
+            }
+        }
         self.report.robot_closing_ms += u64::from(robot_closes);
         self.report.person_closing_ms += u64::from(person_closes);
     }
 
     /// What is left of each distance beyond what both need, where the robot's link closes.
-    fn count_margin(&mut self, person: &[Capsule; 3], theirs_before: &[Capsule; 3], span: f64) {
+    fn count_margin(&mut self, person: &Person, theirs_before: &Person, span: f64) {
         for (link, own_before) in self.links.iter().zip(&self.links_before) {
             for (limb, limb_before) in person.iter().zip(theirs_before) {
                 if link.least_distance(limb) > NEAR {
@@ -123,7 +151,7 @@ impl SeparationMeter {
     }
 
     /// Where capsules overlap, no distance tells any more who closes: it is least where their axes cross.
-    fn count_contact(&mut self, person: &[Capsule; 3], span: f64) {
+    fn count_contact(&mut self, person: &Person, span: f64) {
         let touches = |link: &Capsule| person.iter().any(|limb| link.distance(limb) <= 0.0);
         let touching = self.links_before.iter().zip(&self.links).filter(|(_, link)| touches(link));
         let way = touching.fold(0.0, |way: f64, (before, link)| {
@@ -141,8 +169,8 @@ impl SeparationMeter {
     }
 }
 
-/// Distance of arm and hand from the person's arm, m.
-fn distance(links: &[Capsule], person: &[Capsule; 3]) -> f64 {
+/// Distance of arm and hand from the person, m.
+fn distance(links: &[Capsule], person: &Person) -> f64 {
     let pairs = links.iter().flat_map(|link| person.iter().map(move |limb| (link, limb)));
     pairs.fold(f64::INFINITY, |nearest, (link, limb)| {
         if link.least_distance(limb) < nearest { nearest.min(link.distance(limb)) } else { nearest }

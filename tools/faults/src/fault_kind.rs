@@ -37,6 +37,7 @@ impl FaultKind {
                 Fault::Stop
                     | Fault::StopShort
                     | Fault::StopForGood
+                    | Fault::Block
                     | Fault::SlowByHalf
                     | Fault::Slow
                     | Fault::SlowByFive

@@ -30,12 +30,12 @@ pub(crate) fn judge(record: &Record, evidence: &Evidence, rules: &Rules, alone: 
     }
     let case = Case { cell: &record.cell, record, evidence, rules };
     let mut reasons = case.motion(&record.motion);
-    reasons.extend(case.rest());
     reasons.extend(case.bystanders());
     reasons.extend(case.recovery());
     reasons.extend(case.lost());
     reasons.extend(case.refused());
     let mut of_the_run = case.end();
+    of_the_run.extend(case.rest());
     of_the_run.extend(case.forgotten());
     of_the_run.extend(case.progress());
     of_the_run.extend(case.separation());
@@ -104,10 +104,12 @@ impl Case<'_> {
             .then(|| format!("the robot closed on the person for {found} ms, at most {most} may be"))
     }
 
-    /// Whoever drives the joints brings them to rest before it ends.
+    /// Whoever drives the joints brings them to rest before it ends, however the set ends; who is struck dead then cannot.
     fn rest(&self) -> Option<String> {
-        let speed = self.evidence.last_speed;
-        (self.cell.kills_supervisor() && speed > STANDING)
+        let (cell, speed) = (self.cell, self.evidence.last_speed);
+        let ends_with_it = cell.moment == Moment::Shutdown || cell.fault.ends_the_set();
+        let is_dead = cell.struck().contains(&"world") && ends_with_it;
+        (!is_dead && speed > STANDING)
             .then(|| format!("the arm still moved at {speed:.2} rad/s when the last sample came"))
     }
 

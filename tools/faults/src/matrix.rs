@@ -94,6 +94,7 @@ pub fn quick() -> Vec<Cell> {
         message(MessageFault::NotANumber, "control", Moment::Moving),
         moving(Fault::SlowByFive, "control"),
         moving(Fault::StopForGood, "fields"),
+        moving(Fault::Block, "perception"),
         moving(Fault::FreezePlanner, "control"),
         moving(Fault::Panic, "control"),
         moving(Fault::ExitSuccess, "world"),

@@ -3,10 +3,9 @@
 use super::{report, show, write};
 use crate::living_runs;
 use anyhow::Context;
-use coact_messages::{Pulse, topic};
-use coact_monitor::{Metrics, PipelineNode};
+use coact_monitor::{Metrics, PipelineNode, PulseInputs};
 use coact_pipeline::{Pipeline, Run};
-use coact_realtime::{Bus, Input};
+use coact_realtime::Bus;
 use coact_safety::SafetyLimits;
 use std::io::IsTerminal;
 use std::sync::Arc;
@@ -26,10 +25,7 @@ pub(super) fn run(id: Option<&str>, json: bool) -> anyhow::Result<()> {
     let pipeline = Pipeline::of_run(run.settings())?;
     let bus = Bus::open(&run, "latency", 0)?;
     let nodes = PipelineNode::all(&pipeline);
-    let mut inputs: Vec<(String, Input<Pulse>)> = Vec::new();
-    for node in &nodes {
-        inputs.push((node.process.clone(), bus.input(&topic::pulse(&node.process))?));
-    }
+    let mut pulses = PulseInputs::open(&bus, nodes.iter().map(|node| node.process.clone()))?;
     let fresh = SafetyLimits::load(&run.settings().safety)?.stale.input_after;
     let mut metrics = Metrics::new(nodes, fresh);
     let stop = Arc::new(AtomicBool::new(false));
@@ -38,11 +34,9 @@ pub(super) fn run(id: Option<&str>, json: bool) -> anyhow::Result<()> {
     let mut shown = Instant::now();
     while !stop.load(Ordering::Relaxed) && run.owner_lives() && run.directory().exists() {
         std::thread::sleep(DRAIN_EVERY);
-        for (process, input) in &mut inputs {
-            input.each(|pulse| {
-                metrics.pulse(process, pulse);
-            })?;
-        }
+        pulses.each(|process, pulse| {
+            metrics.pulse(process, pulse);
+        })?;
         if shown.elapsed() >= SHOW_EVERY {
             shown = Instant::now();
             if !print(&run, &metrics, json)? {

@@ -215,4 +215,14 @@ fn the_arm_stands_when_the_last_sample_of_a_dead_set_comes() {
     };
     assert_eq!(judge(&killed, &ending(0.0), &rules(), true), Outcome::Green);
     assert!(red(&killed, &ending(0.7)).contains("still moved at 0.70 rad/s"));
+    // However it ends, unless who drives the joints is dead then.
+    let moving = changed(|it| it.last_speed = 0.7);
+    let at_shutdown = |process| {
+        let mut record = record(fault, Target::Process(process));
+        record.cell.moment = Moment::Shutdown;
+        record
+    };
+    assert!(red(&record(fault, Target::Process("fields")), &moving).contains("still moved"));
+    assert!(red(&at_shutdown("fields"), &moving).contains("still moved"));
+    assert_eq!(judge(&at_shutdown("world"), &moving, &rules(), true), Outcome::Green);
 }
