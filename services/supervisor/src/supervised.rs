@@ -43,7 +43,7 @@ pub(crate) enum Lifecycle {
     /// Not started yet: processes of a lower order are not ready.
     Waiting,
     /// Running, ready or not.
-    Running(Running),
+    Running(Box<Running>),
     /// Dead; its replacement is to be started at this time.
     RestartDue(Duration),
     /// Ended, and not to be started again.
@@ -147,7 +147,7 @@ impl Supervised {
         std::fs::remove_file(&self.spec.heartbeat_file).ok();
         let at_start = self.start_fault.map(|fault| (now + Self::START_FAULT_AFTER, fault));
         self.start_fault = self.start_fault.filter(|fault| fault.is_repeated());
-        self.lifecycle = Lifecycle::Running(Running::new(child, now, at_start));
+        self.lifecycle = Lifecycle::Running(Box::new(Running::new(child, now, at_start)));
     }
 
     /// Enters a process of a dead supervisor's set, which reported `ready` to that one. `watched` is the time of the watch clock.
@@ -155,7 +155,7 @@ impl Supervised {
         let mut running = Running::new(child, now, None);
         (running.ready, running.last_sign, running.is_realtime) = (true, watched, ready.priority > 0);
         self.generation = ready.generation;
-        self.lifecycle = Lifecycle::Running(running);
+        self.lifecycle = Lifecycle::Running(Box::new(running));
     }
 
     /// Its death, if it died; its replacement is due from then on.
@@ -166,7 +166,7 @@ impl Supervised {
         else {
             return None;
         };
-        Some(Death::new(running, status, now))
+        Some(Death::new(*running, status, now))
     }
 
     /// True once, when its ready file has appeared. `watched` is the time of the watch clock.

@@ -2,6 +2,7 @@
 
 use crate::root::{Root, contains};
 use crate::{Finding, Level};
+use std::io::Read;
 
 /// A core that takes longer to wake up delays a cycle by a tenth of the period, µs.
 const SLOW_WAKE_UP_US: u64 = 100;
@@ -18,31 +19,34 @@ pub(crate) fn number(root: &Root<'_>) -> Finding {
     )
 }
 
-pub(crate) fn governor(root: &Root<'_>) -> Finding {
-    let found = root.text("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
-    let steady = found.as_deref().is_none_or(|governor| governor == "performance");
+/// Of the chain's cores.
+pub(crate) fn governor(root: &Root<'_>, cores: &[usize]) -> Finding {
+    let of = |core| root.text(&format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_governor"));
+    let unsteady =
+        cores.iter().find_map(|&core| Some((core, of(core)?)).filter(|(_, name)| name != "performance"));
+    let steady = cores.iter().find_map(|&core| of(core)).unwrap_or_else(|| "none".into());
+    let (level, found) = match unsteady {
+        None => (Level::Green, steady),
+        Some((core, name)) => (Level::Yellow, format!("{name} on core {core}")),
+    };
     Finding::new(
         "governor",
-        if steady { Level::Green } else { Level::Yellow },
-        found.unwrap_or_else(|| "none".into()),
+        level,
+        found,
         "performance, or none",
         "sudo cpupower frequency-set --governor performance",
     )
 }
 
-pub(crate) fn idle_states(root: &Root<'_>) -> Finding {
-    const STATES: &str = "/sys/devices/system/cpu/cpu0/cpuidle";
-    let number = |state: &str, file: &str| -> Option<u64> {
-        root.text(&format!("{STATES}/{state}/{file}"))?.parse().ok()
-    };
-    let names = root.names(STATES);
-    let enabled = names.iter().filter(|state| number(state, "disable").unwrap_or(0) == 0);
-    let slowest = enabled.filter_map(|state| number(state, "latency")).max().unwrap_or(0);
-    let held = std::fs::OpenOptions::new().write(true).open(root.path("/dev/cpu_dma_latency")).is_ok();
-    let device = if held { "" } else { ", and /dev/cpu_dma_latency is not writable" };
-    let (level, found) = match slowest <= SLOW_WAKE_UP_US {
-        true => (Level::Green, format!("a core wakes up within {slowest} µs")),
-        false => (Level::Yellow, format!("a core may take {slowest} µs to wake up{device}")),
+/// How long the chain's cores may take to wake up: as their idle states say, and what is held of them in `/dev/cpu_dma_latency`.
+pub(crate) fn idle_states(root: &Root<'_>, cores: &[usize]) -> Finding {
+    let slowest = cores.iter().map(|&core| slowest_wake_up(root, core)).max().unwrap_or(0);
+    let held = held_latency(root).filter(|held| *held < slowest);
+    let takes = held.unwrap_or(slowest);
+    let (level, found) = match (takes <= SLOW_WAKE_UP_US, held) {
+        (true, None) => (Level::Green, format!("a core wakes up within {takes} µs")),
+        (true, Some(_)) => (Level::Green, format!("/dev/cpu_dma_latency is held at {takes} µs")),
+        (false, _) => (Level::Yellow, format!("a core may take {takes} µs to wake up")),
     };
     Finding::new(
         "idle states",
@@ -51,6 +55,25 @@ pub(crate) fn idle_states(root: &Root<'_>) -> Finding {
         "100 µs at most",
         "add processor.max_cstate=1 to the kernel's command line, or keep /dev/cpu_dma_latency open with 0 written to it",
     )
+}
+
+/// Of the idle states that are not disabled, µs.
+fn slowest_wake_up(root: &Root<'_>, core: usize) -> u64 {
+    let states = format!("/sys/devices/system/cpu/cpu{core}/cpuidle");
+    let number = |state: &str, file: &str| -> Option<u64> {
+        root.text(&format!("{states}/{state}/{file}"))?.parse().ok()
+    };
+    let names = root.names(&states);
+    let enabled = names.iter().filter(|state| number(state, "disable").unwrap_or(0) == 0);
+    enabled.filter_map(|state| number(state, "latency")).max().unwrap_or(0)
+}
+
+/// What somebody keeps the wake-up latency of all cores below, µs: the device tells it as four bytes.
+fn held_latency(root: &Root<'_>) -> Option<u64> {
+    let mut bytes = [0; 4];
+    let mut device = std::fs::File::open(root.path("/dev/cpu_dma_latency")).ok()?;
+    device.read_exact(&mut bytes).ok()?;
+    u64::try_from(i32::from_ne_bytes(bytes)).ok()
 }
 
 /// Whether a core of the chain is left alone by the scheduler and by interrupts.

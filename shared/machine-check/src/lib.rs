@@ -35,8 +35,8 @@ pub fn check(root: &Path, demand: &Demand) -> Vec<Finding> {
         kernel::throttling(&root),
         kernel::clock_source(&root),
         cores::number(&root),
-        cores::governor(&root),
-        cores::idle_states(&root),
+        cores::governor(&root, &demand.cores),
+        cores::idle_states(&root, &demand.cores),
     ];
     findings.extend(demand.cores.iter().flat_map(|&core| cores::isolation(&root, core)));
     findings.extend([

@@ -18,8 +18,8 @@ fn judged(changes: &[(&str, Option<&str>)]) -> Vec<Finding> {
         ("proc/sys/kernel/sched_rt_period_us", Some("1000000\n")),
         ("sys/devices/system/clocksource/clocksource0/current_clocksource", Some("tsc\n")),
         ("proc/cpuinfo", Some("processor\t: 0\nmodel: x\nprocessor\t: 1\n")),
-        ("sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", Some("performance\n")),
-        ("sys/devices/system/cpu/cpu0/cpuidle/state1/latency", Some("2\n")),
+        ("sys/devices/system/cpu/cpu1/cpufreq/scaling_governor", Some("performance\n")),
+        ("sys/devices/system/cpu/cpu1/cpuidle/state1/latency", Some("2\n")),
         ("sys/devices/system/cpu/isolated", Some("1\n")),
         ("proc/irq/7/smp_affinity_list", Some("0\n")),
         ("proc/swaps", Some("Filename Type Size\n")),
@@ -61,7 +61,7 @@ fn a_machine_that_suits_is_green_and_needs_nothing() {
 #[test]
 fn each_obstacle_is_found_alone_with_what_to_do() {
     let few = "Max open files 64 64 files\nMax locked memory 65536 65536 bytes\nMax realtime priority 0 0\n";
-    let states = "sys/devices/system/cpu/cpu0/cpuidle/state3/latency";
+    let states = "sys/devices/system/cpu/cpu1/cpuidle/state3/latency";
     for (path, text, expected) in [
         ("proc/version", "Linux 6.1 #1 SMP PREEMPT_DYNAMIC Mon", vec![("preemption", Level::Yellow)]),
         (
@@ -78,7 +78,7 @@ fn each_obstacle_is_found_alone_with_what_to_do() {
         ),
         ("proc/cpuinfo", "processor\t: 0\n", vec![("cores", Level::Red)]),
         (
-            "sys/devices/system/cpu/cpu0/cpufreq/scaling_governor",
+            "sys/devices/system/cpu/cpu1/cpufreq/scaling_governor",
             "powersave",
             vec![("governor", Level::Yellow)],
         ),
@@ -92,6 +92,16 @@ fn each_obstacle_is_found_alone_with_what_to_do() {
         assert_eq!(faults(path, Some(text)), expected, "{path}: {text}");
     }
     assert!(judged(&[(states, Some("300"))]).iter().any(|finding| finding.remedy.is_some()));
+    // What is held, as the device tells it: four bytes, here of 0x31 and of zeros, µs.
+    let with_held = |held| judged(&[(states, Some("300")), ("dev/cpu_dma_latency", Some(held))]);
+    assert!(
+        with_held("1111")
+            .iter()
+            .any(|finding| finding.subject == "idle states" && finding.level == Level::Yellow)
+    );
+    assert!(with_held("\0\0\0\0").iter().all(|finding| finding.level == Level::Green));
+    // The other cores may sleep.
+    assert_eq!(faults("sys/devices/system/cpu/cpu0/cpuidle/state3/latency", Some("300")), []);
 }
 
 #[test]

@@ -54,7 +54,7 @@ fn after_help() -> String {
 Ctrl-C ends it after the present run, with all that was judged by then.";
     let not_covered = matrix::NOT_COVERED.map(|(fault, why)| format!("\n  {fault}: {why}")).concat();
     format!(
-        "{examples}\n\nNot covered yet:{not_covered}\n\nExit status: 0, 1 when a cell is red, 2 bad usage or configuration."
+        "{examples}\n\nNot covered yet:{not_covered}\n\nExit status: 0 all green, 1 when a cell is red or unknown, 2 bad usage or configuration."
     )
 }
 
