@@ -4,7 +4,7 @@ use crate::configuration::{learned, taken};
 use crate::scratch::Scratch;
 use coact_monitor::{IntervalLog, Metrics};
 use coact_pipeline::Run;
-use coact_recordings::{Order, read_file};
+use coact_recordings::{ArmRecording, ArmSide, Order, read_file};
 use coact_run_records::{Event, Record, RunLog, Snapshot, Summary, SupervisorEvent};
 use std::path::Path;
 
@@ -20,6 +20,14 @@ fn is_recording(path: &Path) -> bool {
     taken(read_file(path)).is_some_and(|reaches| {
         Order::Trial { seed: 1 }.people(&reaches);
         true
+    })
+}
+
+pub(crate) fn motion_capture(bytes: &[u8]) -> bool {
+    Scratch::with("arms.csv", bytes, |path| {
+        let arms = [ArmSide::Left, ArmSide::Right].map(|side| taken(ArmRecording::read(path, side)));
+        arms.iter().flatten().for_each(|arm| assert!(arm.seen() <= arm.duration, "{arm:?}"));
+        arms.iter().any(Option::is_some)
     })
 }
 

@@ -7,6 +7,7 @@ use crate::assembly::{INSTANTS, Instant};
 use crate::messages::Stages;
 use crate::patch::{patched, which};
 use bytemuck::Pod;
+use coact_messages::{FieldFrame, Plausible};
 use coact_stage_state::seal_words;
 
 /// How many cycles a stage goes on from what it has taken up.
@@ -27,6 +28,37 @@ fn damaged<T: Pod>(
     crate::patch::apply(bytemuck::cast_slice_mut(changed), bytes);
     seal_words(state, end);
     (instant, message)
+}
+
+/// A frame is the network's state itself, with a checksum of its own.
+pub(crate) fn fields(bytes: &[u8]) -> bool {
+    let instant = &INSTANTS[which(bytes, INSTANTS.len())];
+    let mut frame = patched(&*instant.frame, bytes);
+    assert!(
+        !frame.is_whole() || rows(&frame) == rows(&instant.frame),
+        "a frame that was changed counts as whole"
+    );
+    frame.seal();
+    Stages::with(|stages| {
+        let resumed = stages.network.fits(&frame) && frame.check().is_ok();
+        let ticks = instant.tick + 1..=instant.tick + GOES_ON;
+        for tick in ticks.filter(|_| resumed) {
+            let previous = frame.clone();
+            stages.network.step(tick, Some(&instant.percept), &previous, &mut frame);
+        }
+        resumed
+    })
+}
+
+/// The bits of what the next frame is computed from.
+fn rows(frame: &FieldFrame) -> [&[u64]; 4] {
+    let (sites, populations) = (frame.layers.used_sites(), frame.layers.used_populations());
+    [
+        bytemuck::cast_slice(&frame.activity[..sites]),
+        bytemuck::cast_slice(&frame.resting[..populations]),
+        bytemuck::cast_slice(&frame.signal[..populations]),
+        &frame.since[..populations],
+    ]
 }
 
 pub(crate) fn perception(bytes: &[u8]) -> bool {

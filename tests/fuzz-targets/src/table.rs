@@ -10,7 +10,7 @@ const fn target(
 }
 
 /// Every target.
-pub const TARGETS: [Target; 47] = [
+pub const TARGETS: [Target; 49] = [
     target("process-table", Input::Text, &["rt-config/pipeline.toml"], configuration::process_table),
     target("safety-limits", Input::Text, &["rt-config/safety.toml"], configuration::safety_limits),
     target("verdict-rules", Input::Text, &["rt-config/verdict.toml"], configuration::verdict_rules),
@@ -35,6 +35,7 @@ pub const TARGETS: [Target; 47] = [
     target("mesh-collada", Input::Text, &[], robots::mesh_collada),
     target("recording", Input::Text, &[], records::recording),
     target("compressed-recording", Input::Bytes, &[], records::compressed_recording),
+    target("motion-capture", Input::Text, &[], records::motion_capture),
     target("run-recording", Input::Patch, &[], run_recordings::run_recording),
     target("event-log", Input::Text, &[], records::event_log),
     target("supervisor-log", Input::Text, &[], records::supervisor_log),
@@ -61,6 +62,7 @@ pub const TARGETS: [Target; 47] = [
     target("message-hand", Input::Patch, &[], messages::hand),
     target("message-pulse", Input::Patch, &[], messages::pulse),
     target("state-perception", Input::Patch, &[], states::perception),
+    target("state-fields", Input::Patch, &[], states::fields),
     target("state-control", Input::Patch, &[], states::control),
     target("state-world", Input::Patch, &[], states::world),
 ];
