@@ -10,6 +10,8 @@ use coact_pipeline::{Pipeline, ProcessEntry, Run, RunSettings, Trigger};
 use coact_run_records::{Event, RunLog, Summary, TaskReport};
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use std::ffi::OsString;
+use std::fs::DirBuilder;
+use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -160,11 +162,12 @@ impl Launch {
         }
     }
 
-    /// Makes the report directory with an empty log, and without a summary of an earlier run.
+    /// Makes the report directory, closed to others whatever the umask, with an empty log, and without a summary of an earlier run.
     fn open_report(&self) -> Result<SupervisorLog, LaunchError> {
         let report = &self.settings.report;
         let file_error = |path: &Path, cause| LaunchError::File { path: path.to_owned(), cause };
-        std::fs::create_dir_all(report).map_err(|error| file_error(report, error))?;
+        let folder = DirBuilder::new().recursive(true).mode(0o700).create(report);
+        folder.map_err(|error| file_error(report, error))?;
         Summary::remove(report).map_err(LaunchError::Record)?;
         SupervisorLog::create(report).map_err(LaunchError::Record)
     }

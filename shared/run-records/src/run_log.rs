@@ -2,6 +2,7 @@ use crate::{Record, RecordError};
 use coact_input_file::{LONGEST_LOG, read_text_within};
 use std::fs::{File, OpenOptions};
 use std::io::Write;
+use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 
 /// A file of JSON lines: every record is on disk as soon as it was made, and is read back after a restart.
@@ -19,7 +20,8 @@ impl<R: Record> RunLog<R> {
     /// The file cannot be written.
     pub fn create(report: &Path) -> Result<Self, RecordError> {
         let path = report.join(R::FILE);
-        let file = File::create(&path).map_err(|cause| RecordError::File { path: path.clone(), cause })?;
+        let file = private().write(true).truncate(true).open(&path);
+        let file = file.map_err(|cause| RecordError::File { path: path.clone(), cause })?;
         Ok(Self { path, file, records: Vec::new() })
     }
 
@@ -31,7 +33,7 @@ impl<R: Record> RunLog<R> {
     pub fn open(report: &Path) -> Result<Self, RecordError> {
         let path = report.join(R::FILE);
         let error = |cause| RecordError::File { path: path.clone(), cause };
-        let file = OpenOptions::new().create(true).append(true).open(&path).map_err(error)?;
+        let file = private().append(true).open(&path).map_err(error)?;
         let text = read_text_within(&path, LONGEST_LOG).map_err(error)?;
         let whole = whole_lines(&text);
         if whole.len() < text.len() {
@@ -76,6 +78,13 @@ impl<R: Record> RunLog<R> {
             .and_then(|text| self.file.write_all(text.as_bytes()))
             .map_err(|cause| RecordError::File { path: self.path.clone(), cause })
     }
+}
+
+/// A file is made, if there is none, that nobody else can open, whatever the umask.
+fn private() -> OpenOptions {
+    let mut options = OpenOptions::new();
+    options.create(true).mode(0o600);
+    options
 }
 
 /// Without a last line that its writer has not finished.
