@@ -2,7 +2,7 @@ use crate::braking_path::BrakingPath;
 use crate::guard::{Guard, Moving};
 use crate::inputs::Inputs;
 use crate::moving_fingers::MovingFingers;
-use crate::person_capsules::PersonCapsules;
+use crate::person::PersonCapsules;
 use crate::planning::{HandGoals, PlannerLink, PlanningThread, SkillPlanner};
 use crate::resynchronise::{holds, report_of};
 use crate::robot::{CollisionModels, RobotModel};

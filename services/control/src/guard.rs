@@ -1,6 +1,6 @@
 use crate::braking_path::{BrakingPath, BrakingPoint};
 use crate::moving_fingers::MovingFingers;
-use crate::person_capsules::{BodyPart, PersonCapsules};
+use crate::person::{BodyPart, PersonCapsules};
 use crate::robot::RobotModel;
 use crate::state::ControlState;
 use coact_motion::{Capsule, Mechanism, MovingCapsules};

@@ -1,4 +1,4 @@
-use crate::person_capsules::PersonCapsules;
+use crate::person::PersonCapsules;
 use crate::sighting_frame::{SHORTEST, frame_of};
 use crate::state::SeenParts;
 use coact_messages::{ARM_JOINTS, Decision, FieldFrame, Percept, PersonArm, ROBOT, SceneView, SensorSample};

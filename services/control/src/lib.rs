@@ -45,7 +45,7 @@ mod guard;
 mod inputs;
 mod movements;
 mod moving_fingers;
-mod person_capsules;
+mod person;
 mod planning;
 mod pursue;
 mod reachability;

@@ -1,5 +1,5 @@
 use super::Surroundings;
-use crate::person_capsules::PersonCapsules;
+use crate::person::PersonCapsules;
 use crate::state::Skill;
 use coact_robot::{HAND_JOINTS, MotionState, NextUse};
 use nalgebra::{Isometry3, Vector3};

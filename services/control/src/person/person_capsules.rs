@@ -1,8 +1,10 @@
+use super::BodyPart;
+use super::arm_bound::ArmBound;
 use coact_messages::{PersonArm, TrackedPoint};
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
 use coact_safety::{PersonLimits, StaleLimits};
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 
 /// Head, upper arm, forearm and hand of the person, and what the hand holds, as bounding capsules; how they move, and how
 /// far they may be from there.
@@ -15,38 +17,6 @@ pub(crate) struct PersonCapsules {
     /// What is in the hand: its index among the parts that were seen, and a capsule around it.
     held: Option<(usize, BodyPart)>,
     head: BodyPart,
-}
-
-/// A part of the person's body, or what the hand holds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BodyPart {
-    now: Capsule,
-    /// Velocities of its ends, m/s.
-    velocities: [Vector3<f64>; 2],
-    /// For how long it is taken to go on as it moves, s.
-    extrapolated: f64,
-    /// Whether it was seen recently.
-    pub is_seen: bool,
-    /// Its speed, m/s, as far as it is known.
-    speed: f64,
-    growth: Growth,
-    /// Where the arm's length binds it to, while the shoulder is seen and it is not.
-    bound: Option<ArmBound>,
-    /// Whether it may take or give a part in a handover.
-    pub hands_over: bool,
-}
-
-/// How far something may be from where it is expected.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Growth {
-    /// Time since it was seen, s.
-    age: f64,
-    /// What it may accelerate with, m/s².
-    acceleration: f64,
-    /// By how much its velocity is older than its position, s.
-    velocity_lag: f64,
-    /// Its greatest possible speed, m/s.
-    most_speed: f64,
 }
 
 /// Shorter than this, a forearm has no direction, m.
@@ -95,11 +65,7 @@ impl PersonCapsules {
     /// capsule around where it was seen last, and for how long that is ago, s. It moves along with the wrist.
     pub fn holding(mut self, seen: impl Iterator<Item = (usize, Capsule, f64)>, within: f64) -> Self {
         let [.., hand] = self.limbs;
-        let [wrist, _] = hand.velocities;
-        let parts = seen.map(|(index, part, ago)| {
-            let then = BodyPart { now: part, velocities: [wrist; 2], ..hand };
-            (index, BodyPart { now: then.after(ago), ..then })
-        });
+        let parts = seen.map(|(index, part, ago)| (index, hand.carrying(part, ago)));
         let gaps = parts.map(|(index, part)| (hand.now.distance(&part.now), (index, part)));
         let nearest = gaps.filter(|(gap, _)| *gap < within).min_by(|one, other| one.0.total_cmp(&other.0));
         self.held = nearest.map(|(_, part)| part);
@@ -123,105 +89,10 @@ impl PersonCapsules {
     }
 }
 
-impl BodyPart {
-    /// The line between two joints.
-    fn between(from: &TrackedPoint, to: &TrackedPoint, limits: &PersonLimits, stale: &StaleLimits) -> Self {
-        let age = from.age.max(to.age);
-        let is_seen = age <= cycles(stale.hand_after);
-        let velocities =
-            [from, to].map(|point| if is_seen { Vector3::from(point.velocity) } else { Vector3::zeros() });
-        let known = velocities.iter().map(Vector3::norm).fold(0.0, f64::max);
-        let speed = if is_seen { known } else { limits.hand_speed };
-        let rests = is_seen && rests(from, limits) && rests(to, limits);
-        Self {
-            now: Capsule { start: Point3::from(from.position), end: Point3::from(to.position), radius: 0.0 },
-            velocities,
-            extrapolated: limits.extrapolated.as_secs_f64(),
-            is_seen,
-            speed,
-            growth: Growth {
-                age: seconds(age),
-                acceleration: limits.acceleration(rests, speed),
-                velocity_lag: limits.velocity_lag.as_secs_f64(),
-                most_speed: limits.hand_speed.max(speed),
-            },
-            bound: None,
-            hands_over: false,
-        }
-    }
-
-    /// Where it is `ahead` s from now, if it goes on as it moves.
-    pub fn after(&self, ahead: f64) -> Capsule {
-        let time = ahead.min(self.extrapolated);
-        let [start, end] = self.velocities;
-        Capsule { start: self.now.start + start * time, end: self.now.end + end * time, ..self.now }
-    }
-
-    /// How far it may be from where it is now in so many seconds, m.
-    pub fn reach(&self, ahead: f64) -> f64 {
-        self.growth(ahead) + self.speed * ahead
-    }
-
-    /// How far it may be from there, m.
-    pub fn growth(&self, ahead: f64) -> f64 {
-        self.growth.after(ahead)
-    }
-
-    /// Whether it cannot come nearer than `within` m to this capsule at all, because the arm is no longer.
-    pub fn is_bound_away_from(&self, capsule: &Capsule, within: f64, ahead: f64) -> bool {
-        self.bound.is_some_and(|bound| bound.distance(capsule, ahead) > within)
-    }
-}
-
-impl Growth {
-    /// So far `ahead` s from now, m: by what it has accelerated since it was seen, and what it had not yet been seen to be faster
-    /// by then, at its greatest speed at most.
-    fn after(&self, ahead: f64) -> f64 {
-        let time = self.age + ahead;
-        (self.acceleration * time * (0.5 * time + self.velocity_lag)).min(self.most_speed * time)
-    }
-}
-
 /// A joint so many cycles later: it has gone on as it moved, and nobody has seen it since.
 fn later(joint: &TrackedPoint, since: u64) -> TrackedPoint {
     let position = std::array::from_fn(|axis| joint.position[axis] + joint.velocity[axis] * seconds(since));
     TrackedPoint { position, age: joint.age.saturating_add(since), ..*joint }
-}
-
-/// Whether a joint has been where it is for long enough to be sure that it rests.
-fn rests(joint: &TrackedPoint, limits: &PersonLimits) -> bool {
-    joint.still >= cycles(limits.rests_after)
-}
-
-/// Where forearm and hand are bound to be: not farther from the shoulder than the arm is long.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct ArmBound {
-    shoulder: Capsule,
-    /// The shoulder's own, m/s.
-    speed: f64,
-    growth: Growth,
-}
-
-impl ArmBound {
-    fn of(shoulder: &TrackedPoint, limb: &BodyPart, limits: &PersonLimits) -> Self {
-        let (at, speed) = (Point3::from(shoulder.position), Vector3::from(shoulder.velocity).norm());
-        let reached = (limb.now.start - at).norm().max((limb.now.end - at).norm());
-        Self {
-            shoulder: Capsule { start: at, end: at, radius: limits.reach.max(reached) + limb.now.radius },
-            speed,
-            growth: Growth {
-                age: seconds(shoulder.age),
-                acceleration: limits.acceleration(rests(shoulder, limits), speed),
-                velocity_lag: limits.velocity_lag.as_secs_f64(),
-                most_speed: limits.walking_speed.max(speed),
-            },
-        }
-    }
-
-    /// Least distance of the arm from a capsule `ahead` s from now, m, wherever the shoulder goes.
-    fn distance(&self, capsule: &Capsule, ahead: f64) -> f64 {
-        self.shoulder.distance(capsule) - self.growth.after(ahead) - self.speed * ahead
-    }
 }
 
 #[cfg(test)]
@@ -229,7 +100,9 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+    use crate::person::Growth;
     use coact_safety::SafetyLimits;
+    use nalgebra::Point3;
 
     fn safety_limits() -> SafetyLimits {
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/safety.toml");

@@ -1,0 +1,10 @@
+//! The person as the guard and the planner reckon with her: capsules that move, and grow for as long as they are not seen.
+
+mod arm_bound;
+mod body_part;
+mod growth;
+mod person_capsules;
+
+pub(crate) use body_part::BodyPart;
+use growth::Growth;
+pub(crate) use person_capsules::PersonCapsules;
