@@ -209,22 +209,13 @@ impl Approach<'_> {
             let beside = if is_handover { room } else { limits.protective_separation };
             let is_slow = || self.is_slower(hand, &there, beside, limits.contact_speed);
             let here = part.after(0.0);
-            let closes_on = |there: &Capsule, room: f64| {
-                self.nearest(self.links, hand, there, room)
-                    < self.nearest(self.start, hand, there, room) - EXACT
-            };
-            // It may not go away first, and then come nearer to what is near.
-            let returns_to = |there: &Capsule, room: f64| {
-                self.nearest(self.links, hand, there, room)
-                    < self.nearest(self.before, hand, there, room) - EXACT
-            };
-            // From somebody who is not seen nobody knows what leads away.
+            // It may not go away first, and then come nearer to what is near. From somebody who is not seen nobody knows what leads away.
             let closes = || {
+                let mut since = [self.start, self.before].into_iter();
                 !part.is_seen
-                    || closes_on(&there, room)
-                    || closes_on(&here, kept)
-                    || returns_to(&there, room)
-                    || returns_to(&here, kept)
+                    || since.any(|then| {
+                        self.closes_on(then, hand, &there, room) || self.closes_on(then, hand, &here, kept)
+                    })
             };
             let is_bound =
                 || self.near(hand, &there, room).all(|link| part.is_bound_away_from(link, kept, ahead));
@@ -237,6 +228,17 @@ impl Approach<'_> {
         let own = links.iter().zip(self.hands).filter(|(_, of_hand)| **of_hand == hand);
         own.fold(most, |nearest, (link, _)| {
             if link.least_distance(there) < nearest { nearest.min(link.distance(there)) } else { nearest }
+        })
+    }
+
+    /// Whether any link is nearer than `within` m, and nearer than it was then.
+    fn closes_on(&self, then: &[Capsule], hand: bool, there: &Capsule, within: f64) -> bool {
+        let own = then.iter().zip(self.links).zip(self.hands).filter(|(_, of_hand)| **of_hand == hand);
+        own.map(|(links, _)| links).any(|(then, link)| {
+            link.least_distance(there) < within && {
+                let distance = link.distance(there);
+                distance < within && distance < then.distance(there) - EXACT
+            }
         })
     }
 

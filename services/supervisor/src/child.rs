@@ -200,9 +200,9 @@ impl RunningChild {
         ProcessStat::of(self.pid()).is_ok_and(|stat| stat.is_runnable)
     }
 
-    /// Whether its main thread waits for something: a message, a timer, a lock, a file.
-    pub(crate) fn waits(&self) -> bool {
-        ProcessStat::of(self.pid()).is_ok_and(|stat| !stat.is_runnable && !stat.is_stopped)
+    /// Whether its main thread sleeps until something wakes it.
+    pub(crate) fn is_asleep(&self) -> bool {
+        ProcessStat::of(self.pid()).is_ok_and(|stat| stat.is_asleep)
     }
 
     /// The time that its main thread has computed for, to some milliseconds; `None` when it is dead, or the kernel does not tell.

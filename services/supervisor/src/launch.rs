@@ -195,6 +195,7 @@ impl Launch {
             order: entry.order,
             needed: entry.needed,
             realtime: entry.realtime,
+            core: entry.core,
             spare: entry.spare,
             program: self.program(entry),
             arguments: arguments(run, entry),

@@ -158,8 +158,13 @@ impl ProcessSet {
         let due_since = *self.pulses_due_since.get_or_insert(watched);
         let silent =
             |(index, process): (usize, &mut Supervised)| Some((index, process.silence(watched, due_since)?));
-        let (indices, silences): (Vec<_>, Vec<_>) =
+        let (indices, mut silences): (Vec<_>, Vec<_>) =
             self.processes.iter_mut().enumerate().filter_map(silent).unzip();
+        for place in 0..silences.len() {
+            let core_goes_on = watchdog::goes_on(silences[place].core, &silences);
+            let process = &mut self.processes[indices[place]];
+            silences[place].sleeps = process.sleeps_without_end(core_goes_on, &silences[place], watched);
+        }
         for (index, limit) in indices.into_iter().zip(watchdog::hung(&silences)) {
             if let (Some(limit), Some(running)) = (limit, self.processes[index].running_mut()) {
                 running.kill(KillReason::Hung(limit));
@@ -189,7 +194,8 @@ impl ProcessSet {
         let watched = self.watch_clock.watched();
         let running =
             self.processes.iter_mut().find(|p| p.spec.name == process).and_then(Supervised::running_mut);
-        if let Some(running) = running {
+        // What a dead predecessor sent last says nothing of its replacement.
+        if let Some(running) = running.filter(|running| running.ready) {
             running.pulse(watched);
         }
     }

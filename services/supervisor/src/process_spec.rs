@@ -13,6 +13,8 @@ pub struct ProcessSpec {
     pub needed: bool,
     /// Started in the supervisor's scheduling class, before all ordinary load; it changes to its own class when it runs.
     pub realtime: bool,
+    /// The core that it is pinned to, if any.
+    pub core: Option<usize>,
     /// The next one is started ahead, while this one runs.
     pub spare: bool,
     /// The program to run.

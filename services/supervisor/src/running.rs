@@ -22,8 +22,8 @@ pub(crate) struct Running {
     pub(crate) has_pulsed: bool,
     /// Since when it has been watched more closely because it is silent: by the watch clock, and the time that it had computed for.
     watched_closely: Option<(Duration, Duration)>,
-    /// Since when it was found waiting at each look, because it is silent: by the watch clock.
-    waits_since: Option<Duration>,
+    /// Since when it was found asleep at each look, because it is silent while its core goes on: by the watch clock.
+    asleep_since: Option<Duration>,
     /// It has real-time scheduling, by its own report.
     pub(crate) is_realtime: bool,
     /// Its newest heartbeat, if it has any.
@@ -48,7 +48,7 @@ impl Running {
             last_sign: Duration::ZERO,
             has_pulsed: false,
             watched_closely: None,
-            waits_since: None,
+            asleep_since: None,
             is_realtime: false,
             heartbeat: None,
             computed_by_heartbeat: None,
@@ -62,7 +62,7 @@ impl Running {
     pub(crate) fn pulse(&mut self, watched: Duration) {
         self.last_sign = watched;
         self.has_pulsed = true;
-        (self.watched_closely, self.waits_since) = (None, None);
+        (self.watched_closely, self.asleep_since) = (None, None);
     }
 
     /// Its heartbeat is a new one.
@@ -102,20 +102,21 @@ impl Running {
         self.has_pulsed && span >= computes / 2 && busy >= span.mul_f64(BUSY)
     }
 
-    /// Whether it has waited for some milliseconds, at each look: for what never comes, if its core goes on. One that goes on as well is
-    /// woken in each period, by its input or by its timer.
-    pub(crate) fn waits_without_end(
+    /// Whether it has slept for some milliseconds, at each look, while its `core_goes_on`: for what never comes. One that goes on as well
+    /// is woken in each period, by its input or by its timer.
+    pub(crate) fn sleeps_without_end(
         &mut self,
+        core_goes_on: bool,
         silence: Duration,
         limit: Duration,
         watched: Duration,
     ) -> bool {
-        let within = watchdog::waits(limit);
-        if silence < within / 2 || !self.child.waits() {
-            self.waits_since = None;
+        let within = watchdog::sleeps(limit);
+        if !core_goes_on || silence < within / 2 || !self.child.is_asleep() {
+            self.asleep_since = None;
             return false;
         }
-        let since = *self.waits_since.get_or_insert(watched);
+        let since = *self.asleep_since.get_or_insert(watched);
         self.has_pulsed && watched.saturating_sub(since) >= within / 2
     }
 

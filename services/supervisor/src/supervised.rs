@@ -236,7 +236,20 @@ impl Supervised {
             limit,
             is_steady: running.has_pulsed && running.is_realtime,
             certain: running.certain_limit(for_time, limit, watched),
-            waits: running.waits_without_end(for_time, limit, watched),
+            core: self.spec.core,
+            sleeps: false,
+        })
+    }
+
+    /// Whether it sleeps for what never comes, though its core goes on.
+    pub(crate) fn sleeps_without_end(
+        &mut self,
+        core_goes_on: bool,
+        silence: &Silence,
+        watched: Duration,
+    ) -> bool {
+        self.running_mut().is_some_and(|running| {
+            running.sleeps_without_end(core_goes_on, silence.for_time, silence.limit, watched)
         })
     }
 

@@ -11,8 +11,10 @@ pub(crate) struct Silence {
     pub(crate) is_steady: bool,
     /// How long it may be when no late machine explains it: it is stopped, or computes without end.
     pub(crate) certain: Option<Duration>,
-    /// It waits, and has for a while: if its core goes on, then for what never comes.
-    pub(crate) waits: bool,
+    /// The core that it is pinned to.
+    pub(crate) core: Option<usize>,
+    /// It sleeps, and has for a while in which its core went on: for what never comes.
+    pub(crate) sleeps: bool,
 }
 
 /// How long a process may be silent at least that computes without end. Chosen by hand: more than the longest cycle that a
@@ -21,13 +23,13 @@ const COMPUTES: Duration = Duration::from_millis(10);
 /// How long one at least that is stopped. Chosen by hand: it has missed a cycle, and nothing but somebody else's signal lets it do
 /// another.
 const STOPPED: Duration = Duration::from_millis(1);
-/// How long one at least that waits while most others go on. Chosen by hand: in each period it would have been woken.
-const WAITS: Duration = Duration::from_millis(4);
+/// How long one at least that sleeps while its core goes on. Chosen by hand: in each period it would have been woken.
+const SLEEPS: Duration = Duration::from_millis(4);
 /// They are killed after these parts of their limit. Chosen by hand: 10, 1 and 4 ms of the shipped table's 100. A table that is
 /// patient, because somebody looks into its processes with a debugger, stays so.
 const COMPUTES_PART: u32 = 10;
 const STOPPED_PART: u32 = 100;
-const WAITS_PART: u32 = 25;
+const SLEEPS_PART: u32 = 25;
 
 /// How long a process with this limit may be silent that computes without end.
 pub(crate) fn computes(limit: Duration) -> Duration {
@@ -39,9 +41,16 @@ pub(crate) fn stopped(limit: Duration) -> Duration {
     (limit / STOPPED_PART).max(STOPPED).min(limit)
 }
 
-/// How long one that waits, while most others go on.
-pub(crate) fn waits(limit: Duration) -> Duration {
-    (limit / WAITS_PART).max(WAITS).min(limit)
+/// How long one that sleeps while its core goes on.
+pub(crate) fn sleeps(limit: Duration) -> Duration {
+    (limit / SLEEPS_PART).max(SLEEPS).min(limit)
+}
+
+/// Whether at least half of those that are watched on a core have lately sent pulses: then it runs what is due.
+pub(crate) fn goes_on(core: Option<usize>, watched: &[Silence]) -> bool {
+    let on_core = || watched.iter().filter(|silence| silence.core == core);
+    let going_on = on_core().filter(|silence| silence.for_time < sleeps(silence.limit)).count();
+    2 * going_on >= on_core().count()
 }
 
 /// How long a process may be silent that is not real time, has not sent its first pulse yet, or is silent together with all
@@ -50,14 +59,14 @@ pub(crate) const MACHINE_LATE: Duration = Duration::from_millis(500);
 
 /// Which of the watched processes hang, with the limit that each has exceeded.
 ///
-/// One that certainly hangs is not waited for, and so is one that waits while all others go on, for then its core does. One that is silent while another one goes on, hangs. When all are silent together, their core stands still, or one
-/// keeps it from the others: that is waited for as long as machines are late.
+/// One that certainly hangs is not waited for, nor is one that sleeps though its core goes on. One that is silent while another one goes
+/// on, hangs. When all are silent together, their core stands still, or one keeps it from the others: that is waited for as long as
+/// machines are late.
 pub(crate) fn hung(watched: &[Silence]) -> Vec<Option<Duration>> {
     let all_silent = watched.len() > 1 && watched.iter().all(|silence| silence.for_time > silence.limit);
-    let going_on = watched.iter().filter(|silence| silence.for_time < waits(silence.limit)).count();
     let limit = |silence: &Silence| match (silence.certain, silence.is_steady && !all_silent) {
         (Some(limit), _) => limit,
-        (None, true) if silence.waits && 2 * going_on >= watched.len() => waits(silence.limit),
+        (None, true) if silence.sleeps => sleeps(silence.limit),
         (None, true) => silence.limit,
         (None, false) => silence.limit.max(MACHINE_LATE),
     };
@@ -116,14 +125,25 @@ mod tests {
     }
 
     #[test]
-    fn one_that_waits_while_most_go_on_waits_for_what_never_comes() {
+    fn one_that_sleeps_while_its_core_goes_on_sleeps_for_what_never_comes() {
         let limit = Duration::from_millis(100);
         let (goes_on, silent) = (Silence { limit, ..silent(1) }, Silence { limit, ..silent(5) });
-        let waits = Silence { waits: true, ..silent };
-        assert_eq!(hung(&[waits, goes_on]), [Some(WAITS), None]);
+        let sleeps = Silence { sleeps: true, ..silent };
+        assert_eq!(hung(&[sleeps, goes_on]), [Some(SLEEPS), None]);
         assert_eq!(hung(&[silent, goes_on]), [None, None], "it runs, or has no core");
-        assert_eq!(hung(&[waits, waits, goes_on]), [None; 3], "their core may stand still");
-        assert_eq!(hung(&[Silence { is_steady: false, ..waits }, goes_on]), [None, None]);
+        assert_eq!(hung(&[Silence { is_steady: false, ..sleeps }, goes_on]), [None, None]);
+    }
+
+    #[test]
+    fn a_core_goes_on_when_half_of_those_on_it_do() {
+        let limit = Duration::from_millis(100);
+        let on = |core, ms| Silence { limit, core: Some(core), ..silent(ms) };
+        let core_goes_on = |watched: &[Silence]| goes_on(Some(1), watched);
+        assert!(
+            core_goes_on(&[on(1, 5), on(1, 1)]) && core_goes_on(&[on(1, 9), on(1, 9), on(1, 1), on(1, 2)])
+        );
+        assert!(!core_goes_on(&[on(1, 5), on(1, 5), on(1, 1)]));
+        assert!(!core_goes_on(&[on(1, 5), on(1, 5), on(0, 1), on(0, 1)]), "another core does");
     }
 
     #[test]

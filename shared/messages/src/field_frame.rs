@@ -1,6 +1,7 @@
 use crate::plausible::{bounded, ensure, index, not_after, optional};
 use crate::{Flaw, Header, MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, Plausible};
 use bytemuck::{Pod, Zeroable};
+use coact_stage_state::checksum;
 use iceoryx2::prelude::ZeroCopySend;
 
 /// The integrator's own state: the whole network of dynamic neural fields at one tick (1 kHz).
@@ -42,24 +43,21 @@ impl FieldFrame {
         self.checksum = self.state_checksum();
     }
 
-    /// Whether activity, resting levels, signals and peaks are as they were when the frame was sealed: no word of them is another one.
+    /// Whether activity, resting levels, signals and peaks are as they were when the frame was sealed.
     pub fn is_whole(&self) -> bool {
         self.checksum == self.state_checksum()
     }
 
-    /// Sums of the words, one for each row: they are computed in each cycle, and as fast as the rows can be read.
     fn state_checksum(&self) -> u64 {
         let (sites, populations) = (self.layers.used_sites(), self.layers.used_populations());
-        let bits = |row: &[f64]| row.iter().fold(0, |sum: u64, value| sum.wrapping_add(value.to_bits()));
-        let peaks = self.since[..populations].iter().fold(0, |sum: u64, since| sum.wrapping_add(*since));
-        let rows = [
-            bits(&self.activity[..sites]),
-            bits(&self.resting[..populations]),
-            bits(&self.signal[..populations]),
-            peaks,
+        let rows: [&[u64]; 4] = [
+            bytemuck::cast_slice(&self.activity[..sites]),
+            bytemuck::cast_slice(&self.resting[..populations]),
+            bytemuck::cast_slice(&self.signal[..populations]),
+            &self.since[..populations],
         ];
-        // Odd factors: what changes in one row cannot be made good in another by chance alone.
-        rows.iter().fold(self.task, |sum, row| sum.wrapping_mul(0x100_0000_01b3).wrapping_add(*row))
+        let [activity, resting, signal, since] = rows.map(checksum);
+        checksum(&[self.task, sites as u64, populations as u64, activity, resting, signal, since])
     }
 
     /// Populations of the first layer of this kind, as indices into [`signal`](Self::signal) and

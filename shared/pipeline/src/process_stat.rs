@@ -13,6 +13,8 @@ pub struct ProcessStat {
     pub is_stopped: bool,
     /// Whether its main thread runs, or would if it had a core.
     pub is_runnable: bool,
+    /// Whether its main thread sleeps until a message, a timer or a lock wakes it.
+    pub is_asleep: bool,
     /// Whether it waits for something within the kernel, memory or a file, and no signal wakes it.
     pub is_in_kernel: bool,
     /// For how long it has computed, to some hundredths of a second.
@@ -58,9 +60,9 @@ impl ProcessStat {
         let started = fields.nth(6)?.parse().ok()?;
         // Field 52.
         let exit_code = fields.nth(29).and_then(|code| code.parse().ok()).unwrap_or(0);
-        let [is_runnable, is_in_kernel] = ["R", "D"].map(|letter| state == letter);
+        let [is_runnable, is_asleep, is_in_kernel] = ["R", "S", "D"].map(|letter| state == letter);
         let is_stopped = matches!(state, "T" | "t");
-        Some(Self { started, is_stopped, is_runnable, is_in_kernel, computed, exit_code })
+        Some(Self { started, is_stopped, is_runnable, is_asleep, is_in_kernel, computed, exit_code })
     }
 }
 
@@ -76,6 +78,7 @@ mod tests {
             started: 98765,
             is_stopped: true,
             is_runnable: false,
+            is_asleep: false,
             is_in_kernel: false,
             computed: Duration::from_secs(50) / clock_ticks_per_second() as u32,
             exit_code: 0,
@@ -83,6 +86,8 @@ mod tests {
         assert_eq!(ProcessStat::parse(text), Some(expected));
         let running = ProcessStat { is_stopped: false, is_runnable: true, ..expected };
         assert_eq!(ProcessStat::parse(&text.replacen(") T 1", ") R 1", 1)), Some(running));
+        let asleep = ProcessStat { is_runnable: false, is_asleep: true, ..running };
+        assert_eq!(ProcessStat::parse(&text.replacen(") T 1", ") S 1", 1)), Some(asleep));
         expected.exit_code = 9;
         assert_eq!(ProcessStat::parse(&format!("{text}{} 9\n", " 5".repeat(26))), Some(expected));
         for bad in ["", "7 (a", "7 (a) R 1 2", "7 (a) R 1 7 7 0 -1 4 1 0 0 0 0 0 0 0 20 0 1 0 soon 1"] {

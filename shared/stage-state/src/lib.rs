@@ -70,5 +70,5 @@ mod state_error;
 pub use blank::Blank;
 pub use flag::Flag;
 pub use slot::Slot;
-pub use stage_state::{StageState, bounded, ensure, finite, seal_words};
+pub use stage_state::{StageState, bounded, checksum, ensure, finite, seal_words};
 pub use state_error::{Implausible, StateError};

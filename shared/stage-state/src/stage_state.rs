@@ -119,7 +119,7 @@ const fn mark<S: StageState>() -> u64 {
 
 /// FNV-1a by words. In four strands, so that the processor mixes four words in the time of one: a state of 2000 words is stored
 /// in each cycle.
-fn checksum(words: &[u64]) -> u64 {
+pub fn checksum(words: &[u64]) -> u64 {
     let mut strands = [1_u64, 2, 3, 4].map(|strand| mixed(BASIS, strand));
     let (fours, rest) = words.as_chunks::<4>();
     for four in fours {

@@ -18,10 +18,6 @@ const STAMPED_WITHIN_S: f64 = 1.0;
 /// An arm that is slower than this stands, rad/s: far above the encoders' scatter of 0.001. Chosen by hand.
 const STANDING: f64 = Moment::STANDING;
 
-/// A machine that wakes up a thread of the highest priority so late may let a process hang for as long as the watchdog waits,
-/// ns: half of its 100 ms, for the probe is one thread on one core.
-const MACHINE_STANDS: u64 = 50_000_000;
-
 /// Whether every rule was kept in the cell. Of a run with several cells, a rule that was broken by none of them in particular
 /// makes all of them unknown: they are to be done `alone`.
 pub(crate) fn judge(record: &Record, evidence: &Evidence, rules: &Rules, alone: bool) -> Outcome {
@@ -98,10 +94,14 @@ impl Case<'_> {
 
     /// The robot does not come nearer, by its own motion, to a person who is near already.
     fn separation(&self) -> Option<String> {
-        let summary = self.evidence.summary.as_ref()?;
-        let (found, most) = (summary.separation.robot_closing_ms, self.rules.robot_closing_ms);
+        let separation = &self.evidence.summary.as_ref()?.separation;
+        let (found, most) = (separation.robot_closing_ms, self.rules.robot_closing_ms);
+        if found > most {
+            return Some(format!("the robot closed on the person for {found} ms, at most {most} may be"));
+        }
+        let (found, most) = (separation.contact_speed_mps, self.rules.contact_speed_mps);
         (found > most)
-            .then(|| format!("the robot closed on the person for {found} ms, at most {most} may be"))
+            .then(|| format!("the robot touched the person at {found:.2} m/s, at most {most:.2} may be"))
     }
 
     /// Whoever drives the joints brings them to rest before it ends, however the set ends; who is struck dead then cannot.
@@ -158,8 +158,9 @@ impl Case<'_> {
     /// Whether it may have hung because the machine did: then nobody can say why it died.
     fn hung_with_the_machine(&self, event: &SupervisorEvent) -> bool {
         let machine = self.evidence.summary.as_ref().and_then(|summary| summary.environment.machine);
-        let stood_still = machine.is_some_and(|machine| machine.longest_ns >= MACHINE_STANDS);
-        stood_still && event.reason.as_deref().is_some_and(|reason| reason.starts_with("hung"))
+        // Half of it is enough, for the probe is one thread on one core.
+        let limit_ns = event.reason.as_deref().and_then(hung_after_ms).map(|ms| ms * NS_PER_MS / 2);
+        machine.zip(limit_ns).is_some_and(|(machine, limit)| machine.longest_ns >= limit)
     }
 
     /// Nobody else dies, and the set is not given up.
@@ -325,6 +326,13 @@ impl Case<'_> {
         let injected: usize = kinds.map(|kind| self.noted(kind).count()).iter().sum();
         (by_supervisor && injected == 0).then(|| "the supervisor noted no injection".to_owned())
     }
+}
+
+const NS_PER_MS: u64 = 1_000_000;
+
+/// For how long a process was silent at least that was killed as hung, ms, by the reason that is told.
+fn hung_after_ms(reason: &str) -> Option<u64> {
+    reason.strip_prefix("hung: ")?.split_ascii_whitespace().find_map(|word| word.parse().ok())
 }
 
 fn died(event: &SupervisorEvent) -> String {

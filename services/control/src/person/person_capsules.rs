@@ -34,7 +34,7 @@ impl PersonCapsules {
         // A joint that was never seen is put where the others suggest: it is as old as they are.
         let [shoulder, elbow, wrist, fingertip] = points.map(|point| {
             let age = if point.age == u64::MAX { arm.age } else { point.age };
-            later(&TrackedPoint { age, ..*point }, since)
+            later(&TrackedPoint { age, ..*point }, since, cycles(stale.hand_after))
         });
         let part = |from: &TrackedPoint, to: &TrackedPoint| BodyPart::between(from, to, limits, stale);
         let [mut upper_arm, mut forearm, mut hand] =
@@ -89,10 +89,13 @@ impl PersonCapsules {
     }
 }
 
-/// A joint so many cycles later: it has gone on as it moved, and nobody has seen it since.
-fn later(joint: &TrackedPoint, since: u64) -> TrackedPoint {
-    let position = std::array::from_fn(|axis| joint.position[axis] + joint.velocity[axis] * seconds(since));
-    TrackedPoint { position, age: joint.age.saturating_add(since), ..*joint }
+/// A joint so many cycles later: nobody has seen it since, and it has gone on as it moved, unless it is where it was seen last, more than
+/// `seen_within` cycles ago.
+fn later(joint: &TrackedPoint, since: u64, seen_within: u64) -> TrackedPoint {
+    let age = joint.age.saturating_add(since);
+    let time = if age <= seen_within { seconds(since) } else { 0.0 };
+    let position = std::array::from_fn(|axis| joint.position[axis] + joint.velocity[axis] * time);
+    TrackedPoint { position, age, ..*joint }
 }
 
 #[cfg(test)]

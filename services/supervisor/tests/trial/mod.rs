@@ -58,6 +58,7 @@ pub fn script(folder: &Path, name: &str, script: &str) -> ProcessSpec {
         order: 0,
         needed: true,
         realtime: false,
+        core: None,
         spare: false,
         ready_directory: folder.to_owned(),
         stop_grace: Duration::from_millis(300),
