@@ -85,7 +85,8 @@ mod tests {
             limit: LIMIT,
             is_steady: true,
             certain: None,
-            waits: false,
+            core: None,
+            sleeps: false,
         }
     }
 
