@@ -38,16 +38,18 @@ fn a_stopped_process_is_killed_as_hung_and_replaced_at_once_and_a_silent_one_aft
     }
 }
 
-/// Reports that it has real-time scheduling, as services do that were granted it.
-const REALTIME_READY_AND_RUN: &str = r#"cat > "$READY" <<END
+/// Reports that it has real-time scheduling, as services do that were granted it: all at once.
+const REALTIME_READY_AND_RUN: &str = r#"cat > "$READY.new" <<END
 {"process": "a", "generation": 0, "pid": 1, "scheduler": "SCHED_FIFO", "priority": 80, "core": null,
  "memory_locked": false, "why_not": [], "resumed": false}
 END
+mv "$READY.new" "$READY"
 exec sleep 600"#;
 
 #[test]
-fn a_real_time_process_that_is_silent_while_another_goes_on_is_replaced_within_milliseconds() {
-    let limit = Duration::from_millis(10);
+fn a_real_time_process_that_sleeps_while_another_goes_on_is_replaced_within_milliseconds() {
+    // What sleeps may be silent for a 25th of it.
+    let (limit, within) = (Duration::from_millis(250), Duration::from_millis(10));
     let scripts = [("a", REALTIME_READY_AND_RUN), ("b", REALTIME_READY_AND_RUN)];
     let mut trial = Trial::with(&scripts, |spec| spec.hung_after = Some(limit));
     trial.run_until_ready();
@@ -69,10 +71,10 @@ fn a_real_time_process_that_is_silent_while_another_goes_on_is_replaced_within_m
     }
     let died = trial.events.iter().find(|event| event.event == SupervisorEventKind::Died).unwrap();
     // A machine that is late itself gets more time.
-    assert!(died.process == "a" && died.reason.as_deref().is_some_and(|reason| reason.starts_with("hung: ")));
+    assert_eq!((&*died.process, died.reason.as_deref()), ("a", Some("hung: no pulse for more than 10 ms")));
     // A pulse counts from the look before it, which is 4 ms ago at most.
     let silent = last_pulse.elapsed();
-    assert!(silent > limit - Duration::from_millis(4), "killed after {silent:?}");
+    assert!(silent > within - Duration::from_millis(4), "killed after {silent:?}");
 }
 
 /// What the test below supervises.
