@@ -22,8 +22,9 @@ pub(crate) struct Running {
     pub(crate) has_pulsed: bool,
     /// Since when it has been watched more closely because it is silent: by the watch clock, and the time that it had computed for.
     watched_closely: Option<(Duration, Duration)>,
-    /// Since when it was found asleep at each look, because it is silent while its core goes on: by the watch clock.
-    asleep_since: Option<Duration>,
+    /// Since when it was found asleep at each look, because it is silent while its core goes on: by the watch clock, and the time that it
+    /// had computed for.
+    asleep_since: Option<(Duration, Duration)>,
     /// It has real-time scheduling, by its own report.
     pub(crate) is_realtime: bool,
     /// Its newest heartbeat, if it has any.
@@ -102,8 +103,8 @@ impl Running {
         self.has_pulsed && span >= computes / 2 && busy >= span.mul_f64(BUSY)
     }
 
-    /// Whether it has slept for some milliseconds, at each look, while its `core_goes_on`: for what never comes. One that goes on as well
-    /// is woken in each period, by its input or by its timer.
+    /// Whether it has slept for some milliseconds, without running at all, while its `core_goes_on`: for what never comes. One that goes on
+    /// as well is woken in each period, by its input or by its timer.
     pub(crate) fn sleeps_without_end(
         &mut self,
         core_goes_on: bool,
@@ -112,12 +113,12 @@ impl Running {
         watched: Duration,
     ) -> bool {
         let within = watchdog::sleeps(limit);
-        if !core_goes_on || silence < within / 2 || !self.child.is_asleep() {
-            self.asleep_since = None;
-            return false;
-        }
-        let since = *self.asleep_since.get_or_insert(watched);
-        self.has_pulsed && watched.saturating_sub(since) >= within / 2
+        let is_watched = core_goes_on && silence >= within / 2 && self.child.is_asleep();
+        let computed = self.child.computed().filter(|_| is_watched);
+        let same = self.asleep_since.filter(|(_, before)| computed == Some(*before));
+        self.asleep_since = same.or(computed.map(|computed| (watched, computed)));
+        let slept = self.asleep_since.map_or(Duration::ZERO, |(since, _)| watched.saturating_sub(since));
+        self.has_pulsed && slept >= within / 2
     }
 
     /// Kills it, once, for this reason.

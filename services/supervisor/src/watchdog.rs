@@ -23,13 +23,14 @@ const COMPUTES: Duration = Duration::from_millis(10);
 /// How long one at least that is stopped. Chosen by hand: it has missed a cycle, and nothing but somebody else's signal lets it do
 /// another.
 const STOPPED: Duration = Duration::from_millis(1);
-/// How long one at least that sleeps while its core goes on. Chosen by hand: in each period it would have been woken.
-const SLEEPS: Duration = Duration::from_millis(4);
-/// They are killed after these parts of their limit. Chosen by hand: 10, 1 and 4 ms of the shipped table's 100. A table that is
+/// How long one at least that sleeps while its core goes on. Chosen by hand: in half of it, in which it is seen not to have run at all, it
+/// would have been woken several times. Half as long, a stage was killed that several sets kept from their core.
+const SLEEPS: Duration = Duration::from_millis(10);
+/// They are killed after these parts of their limit. Chosen by hand: 10, 1 and 10 ms of the shipped table's 100. A table that is
 /// patient, because somebody looks into its processes with a debugger, stays so.
 const COMPUTES_PART: u32 = 10;
 const STOPPED_PART: u32 = 100;
-const SLEEPS_PART: u32 = 25;
+const SLEEPS_PART: u32 = 10;
 
 /// How long a process with this limit may be silent that computes without end.
 pub(crate) fn computes(limit: Duration) -> Duration {
@@ -49,7 +50,7 @@ pub(crate) fn sleeps(limit: Duration) -> Duration {
 /// Whether at least half of those that are watched on a core have lately sent pulses: then it runs what is due.
 pub(crate) fn goes_on(core: Option<usize>, watched: &[Silence]) -> bool {
     let on_core = || watched.iter().filter(|silence| silence.core == core);
-    let going_on = on_core().filter(|silence| silence.for_time < sleeps(silence.limit)).count();
+    let going_on = on_core().filter(|silence| silence.for_time < sleeps(silence.limit) / 2).count();
     2 * going_on >= on_core().count()
 }
 
@@ -128,7 +129,7 @@ mod tests {
     #[test]
     fn one_that_sleeps_while_its_core_goes_on_sleeps_for_what_never_comes() {
         let limit = Duration::from_millis(100);
-        let (goes_on, silent) = (Silence { limit, ..silent(1) }, Silence { limit, ..silent(5) });
+        let (goes_on, silent) = (Silence { limit, ..silent(1) }, Silence { limit, ..silent(11) });
         let sleeps = Silence { sleeps: true, ..silent };
         assert_eq!(hung(&[sleeps, goes_on]), [Some(SLEEPS), None]);
         assert_eq!(hung(&[silent, goes_on]), [None, None], "it runs, or has no core");
