@@ -55,7 +55,7 @@ pub(crate) struct RunLoop<'a> {
 
 /// A death wakes the supervisor at once; everything else is looked at this often. A trade-off between how soon a hang is found and
 /// the supervisor's load.
-const POLL_INTERVAL: Duration = Duration::from_millis(1);
+const POLL_INTERVAL: Duration = Duration::from_millis(2);
 /// The same while a process starts: so long at most it waits for its checkpoint, once it can take it. Chosen by hand.
 const POLL_WHILE_STARTING: Duration = Duration::from_micros(500);
 /// From "all are ready" to tick 0. Every process polls for the start once in a millisecond: all have seen it by then, also

@@ -9,7 +9,7 @@ pub(crate) struct WatchClock {
 }
 
 impl WatchClock {
-    /// The most that one look adds: a running supervisor looks each millisecond, and may be late by some. Chosen by hand.
+    /// The most that one look adds: twice the interval at which a running supervisor looks (2 ms).
     const LONGEST_STEP: Duration = Duration::from_millis(4);
 
     /// The supervisor looks at `now`, of a monotonic clock.
