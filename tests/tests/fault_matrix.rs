@@ -12,19 +12,19 @@ fn faults(arguments: &[&str]) -> Output {
 }
 
 #[test]
-fn the_quick_part_is_green_and_nothing_is_left_of_what_broke() {
+fn the_quick_part_is_safe_and_nothing_is_left_of_what_broke() {
     let out = tempfile::tempdir().unwrap();
     let output = faults(&["--quick", "--json", "--out", out.path().to_str().unwrap()]);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     let report: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{said}"));
     let cells = report["cells"].as_array().unwrap();
-    let not_green: Vec<_> = cells.iter().filter(|cell| cell["outcome"] != "green").collect();
-    // A slow machine has no time for all of them; what is done is green.
-    let was_done = |cell: &&&Value| cell["reasons"] != "there was no time left";
-    assert_eq!(not_green.iter().filter(was_done).count(), 0, "{not_green:#?}\n{said}");
-    let green = cells.len() - not_green.len();
+    // A slow machine recovers late, and has no time for all of them; what is done is safe, and the work goes on.
+    let are = |outcome: &str| cells.iter().filter(|cell| cell["outcome"] == outcome).count();
+    let not_done = cells.iter().filter(|cell| cell["reasons"] == "there was no time left").count();
+    let (green, late) = (are("green"), are("late"));
+    assert_eq!(green + late + not_done, cells.len(), "{said}");
     assert!(green > 20, "{green} of {}\n{said}", cells.len());
-    assert_eq!(output.status.code(), Some(i32::from(!not_green.is_empty())), "{said}");
+    assert_eq!(output.status.code(), Some(i32::from(not_done > 0)), "{said}");
     let page = std::fs::read_to_string(out.path().join("faults.html")).unwrap();
     assert_eq!(page.matches("<td class=\"green\">").count(), green, "{page}");
     let written = std::fs::read_to_string(out.path().join("faults.json")).unwrap();

@@ -119,7 +119,7 @@ fn what_is_not_good_is_counted_and_the_assembly_goes_on() {
     for process in ["world", "perception", "fields", "control", "monitor"] {
         let refused = summary.refused.get(process).unwrap_or_else(|| panic!("{process}: {summary:?}"));
         for reason in ["other layout", "from the future", "unknown writer", "too old"] {
-            assert!(refused.get(reason).is_some_and(|count| *count > 10), "{process}, {reason}: {refused:?}");
+            assert!(refused.get(reason).is_some_and(|count| *count > 0), "{process}, {reason}: {refused:?}");
         }
     }
     let heard = &summary.refused["world"];

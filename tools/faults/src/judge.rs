@@ -18,8 +18,8 @@ const STAMPED_WITHIN_S: f64 = 1.0;
 /// An arm that is slower than this stands, rad/s: far above the encoders' scatter of 0.001. Chosen by hand.
 const STANDING: f64 = Moment::STANDING;
 
-/// Whether every rule was kept in the cell. Of a run with several cells, a rule that was broken by none of them in particular
-/// makes all of them unknown: they are to be done `alone`.
+/// Whether every rule was kept in the cell. Rules of the work come before those of time, as in the verdicts of a run. Of a run with
+/// several cells, a rule that was broken by none of them in particular makes all of them unknown: they are to be done `alone`.
 pub(crate) fn judge(record: &Record, evidence: &Evidence, rules: &Rules, alone: bool) -> Outcome {
     if let Some(trouble) = &record.trouble {
         return Outcome::Unknown(trouble.to_string());
@@ -45,7 +45,10 @@ pub(crate) fn judge(record: &Record, evidence: &Evidence, rules: &Rules, alone: 
         _ if !reasons.is_empty() => Outcome::Red(reasons),
         (Some(why), _) => Outcome::Unknown(why),
         (None, Some(why)) => Outcome::Unknown(format!("by one of several cells: {why}")),
-        (None, None) => Outcome::Green,
+        (None, None) => match case.late() {
+            late if late.is_empty() => Outcome::Green,
+            late => Outcome::Late(late),
+        },
     }
 }
 
@@ -175,37 +178,52 @@ impl Case<'_> {
         reasons
     }
 
-    fn recovery(&self) -> Vec<String> {
-        if !self.goes_on() || self.cell.moment == Moment::StartUp {
-            return Vec::new();
+    /// Those that are to recover, and whose recovery is to be seen.
+    fn recovering(&self) -> Vec<&'static str> {
+        match self.goes_on() && self.cell.moment != Moment::StartUp {
+            true => self.cell.struck(),
+            false => Vec::new(),
         }
-        let processes = self.cell.struck();
-        processes.into_iter().flat_map(|process| self.recovery_of(process)).collect()
     }
 
-    fn recovery_of(&self, process: &'static str) -> Vec<String> {
-        let died = self.noted(SupervisorEventKind::Died).any(|event| event.process == process);
-        let expected_to_die = !self.cell.fault.may_be_survived();
-        if !died && expected_to_die {
-            return vec![format!("{process} was not replaced")];
-        }
-        // Of what has no cycles and was not replaced, nothing tells the recovery.
+    fn died(&self, process: &str) -> bool {
+        self.noted(SupervisorEventKind::Died).any(|event| event.process == process)
+    }
+
+    /// Whether the summary is to tell its recovery: of what has no cycles and was not replaced, nothing does.
+    fn is_told(&self, process: &str) -> bool {
         let is_interrupted = self.is_injected() && !self.cell.fault.keeps_output();
-        let is_told = died || CHAIN.contains(&process) && is_interrupted;
-        if !is_told {
-            return Vec::new();
+        self.died(process) || CHAIN.contains(&process) && is_interrupted
+    }
+
+    /// Whoever cannot have lived through it was replaced, and did its work again.
+    fn recovery(&self) -> Vec<String> {
+        self.recovering().into_iter().filter_map(|process| self.unrecovered(process)).collect()
+    }
+
+    fn unrecovered(&self, process: &str) -> Option<String> {
+        if !self.cell.fault.may_be_survived() && !self.died(process) {
+            return Some(format!("{process} was not replaced"));
+        }
+        if !self.is_told(process) {
+            return None;
         }
         let Some(fault) = self.report_of(process) else {
-            return vec![format!("the summary has no fault of {process}")];
+            return Some(format!("the summary has no fault of {process}"));
         };
-        let mut reasons = Vec::new();
-        match fault.recovered_ms {
-            Some(ms) if ms <= self.rules.recovered_within_ms => {}
-            Some(ms) => reasons.push(format!("{process} took {ms:.0} ms to recover")),
-            None => reasons.push(format!("{process} did not recover")),
-        }
-        reasons.extend(self.survivors(fault));
-        reasons
+        fault.recovered_ms.is_none().then(|| format!("{process} did not recover"))
+    }
+
+    /// Whoever recovered did so within the time allowed, and the others did their work meanwhile.
+    fn late(&self) -> Vec<String> {
+        let told = self.recovering().into_iter().filter(|process| self.is_told(process));
+        let faults = told.filter_map(|process| self.report_of(process));
+        faults.flat_map(|fault| self.slow_recovery(fault).into_iter().chain(self.survivors(fault))).collect()
+    }
+
+    fn slow_recovery(&self, fault: &FaultReport) -> Option<String> {
+        let ms = fault.recovered_ms.filter(|ms| *ms > self.rules.recovered_within_ms)?;
+        Some(format!("{} took {ms:.0} ms to recover", fault.process))
     }
 
     fn is_injected(&self) -> bool {

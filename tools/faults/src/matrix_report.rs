@@ -29,16 +29,21 @@ impl MatrixReport {
         Self { cells, not_covered: matrix::NOT_COVERED.to_vec(), duration_s }
     }
 
-    /// Whether every cell is green: what is unknown does not pass.
-    pub fn passes(&self) -> bool {
-        self.cells.iter().all(|cell| matches!(cell.outcome, Outcome::Green))
+    /// Whether the work was done safely in every cell, and with `strict` in time as well: what is unknown does not pass.
+    pub fn passes(&self, strict: bool) -> bool {
+        self.cells.iter().all(|cell| match cell.outcome {
+            Outcome::Green => true,
+            Outcome::Late(_) => !strict,
+            Outcome::Red(_) | Outcome::Unknown(_) => false,
+        })
     }
 
-    /// How many cells are green, red and unknown.
-    pub fn counts(&self) -> [usize; 3] {
+    /// How many cells are green, late, red and unknown.
+    pub fn counts(&self) -> [usize; 4] {
         let count = |is: fn(&Outcome) -> bool| self.cells.iter().filter(|cell| is(&cell.outcome)).count();
         [
             count(|outcome| matches!(outcome, Outcome::Green)),
+            count(|outcome| matches!(outcome, Outcome::Late(_))),
             count(|outcome| matches!(outcome, Outcome::Red(_))),
             count(|outcome| matches!(outcome, Outcome::Unknown(_))),
         ]

@@ -9,6 +9,8 @@ pub enum Outcome {
     Green,
     /// Rules were broken: one sentence for each.
     Red(Vec<String>),
+    /// The robot did its work safely, and this machine took longer than allowed to recover: one sentence for each.
+    Late(Vec<String>),
     /// Nobody can say: why.
     Unknown(String),
 }

@@ -6,17 +6,17 @@ const HEAD: &str =
 body { font: 15px/1.5 sans-serif; margin: 2em; color: #222 }
 table { border-collapse: collapse }
 th, td { padding: .2em .7em; border: 1px solid #ddd; text-align: left }
-td.green { background: #cfe8cf } td.red { background: #f2c4c0 } td.unknown { background: #ddd }
+td.green { background: #cfe8cf } td.late { background: #f5e3b3 } td.red { background: #f2c4c0 } td.unknown { background: #ddd }
 </style></head><body>\n";
 
 /// The matrix as a page of HTML.
 pub fn page(report: &MatrixReport) -> String {
-    let [green, red, unknown] = report.counts();
+    let [green, late, red, unknown] = report.counts();
     let mut page = format!("{HEAD}<h1>Fault matrix</h1>\n");
     // Writing into a string cannot fail.
     _ = writeln!(
         page,
-        "<p>{green} cells green, {red} red, {unknown} unknown, in {:.0} s.</p>\n<table><tr><th>fault</th><th>target</th>{}</tr>",
+        "<p>{green} cells green, {late} late, {red} red, {unknown} unknown, in {:.0} s.</p>\n<table><tr><th>fault</th><th>target</th>{}</tr>",
         report.duration_s,
         Moment::ALL.map(|moment| format!("<th>{moment}</th>")).concat()
     );
@@ -28,7 +28,7 @@ pub fn page(report: &MatrixReport) -> String {
     for judged in &report.cells {
         let reasons = match &judged.outcome {
             Outcome::Green => continue,
-            Outcome::Red(reasons) => reasons.join("; "),
+            Outcome::Red(reasons) | Outcome::Late(reasons) => reasons.join("; "),
             Outcome::Unknown(reason) => format!("unknown: {reason}"),
         };
         _ = writeln!(page, "<li><b>{}</b> {}</li>", judged.cell, escaped(&reasons));
@@ -44,6 +44,7 @@ pub fn page(report: &MatrixReport) -> String {
 fn cell(outcome: &Outcome) -> String {
     let class = match outcome {
         Outcome::Green => "green",
+        Outcome::Late(_) => "late",
         Outcome::Red(_) => "red",
         Outcome::Unknown(_) => "unknown",
     };
