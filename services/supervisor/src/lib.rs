@@ -42,6 +42,7 @@ mod supervised;
 mod supervisor_log;
 mod terminal;
 mod topic_reader;
+mod watch;
 mod watch_clock;
 mod watchdog;
 

@@ -1,11 +1,9 @@
 use crate::death::Death;
 use crate::fault::Means;
-use crate::kill_reason::KillReason;
 use crate::operator::Operator;
 use crate::start_fault::StartFault;
 use crate::supervised::{Lifecycle, Supervised};
-use crate::watch_clock::WatchClock;
-use crate::watchdog;
+use crate::watch::Watch;
 use crate::{Checkpoints, Fault, GaveUp, InjectionRefusal, ProcessSpec, RunningChild, SupervisorLog};
 use coact_pipeline::{Ready, RestartPolicy};
 use coact_realtime::monotonic_time;
@@ -25,13 +23,7 @@ pub struct ProcessSet {
     policy: RestartPolicy,
     log: SupervisorLog,
     new_events: Vec<SupervisorEvent>,
-    /// From when on pulses are expected; none while the run's clock does not run yet.
-    pulses_from: Option<Duration>,
-    /// The same by the watch clock, once that time has come.
-    pulses_due_since: Option<Duration>,
-    watch_clock: WatchClock,
-    /// When heartbeats are looked at next, by the watch clock.
-    heartbeats_at: Duration,
+    watch: Watch,
     /// Called with process name and line for each line that a process writes to standard error.
     on_line: LineSink,
 }
@@ -42,9 +34,6 @@ pub type LineSink = std::sync::Arc<dyn Fn(&str, &str) + Send + Sync>;
 impl ProcessSet {
     /// How often a stopping set is looked at when no process ends. Chosen by hand; not sensitive.
     const STOP_POLL: Duration = Duration::from_millis(3);
-
-    /// How often heartbeats are looked at; they come as often. Chosen by hand; not sensitive.
-    const HEARTBEAT_POLL: Duration = Duration::from_millis(100);
     /// Shortest pause before a replacement that found no place is started again. Chosen by hand: long enough to leave the
     /// core to the survivors.
     const PLACE_POLL: Duration = Duration::from_millis(10);
@@ -58,17 +47,7 @@ impl ProcessSet {
     ) -> Self {
         let mut processes: Vec<_> = specs.into_iter().map(Supervised::new).collect();
         processes.sort_by_key(|process| process.spec.order);
-        Self {
-            processes,
-            policy,
-            log,
-            new_events: Vec::new(),
-            pulses_from: None,
-            pulses_due_since: None,
-            watch_clock: WatchClock::default(),
-            heartbeats_at: Duration::ZERO,
-            on_line,
-        }
+        Self { processes, policy, log, new_events: Vec::new(), watch: Watch::default(), on_line }
     }
 
     /// Takes over what a dead supervisor has started: `newest` is what each process reported last. Those that have died since are
@@ -81,7 +60,7 @@ impl ProcessSet {
             let sink = self.on_line.clone();
             match RunningChild::adopt(&ready, move |line| sink(&name, line)) {
                 Some(child) => {
-                    let watched = self.watch_clock.watched();
+                    let watched = self.watch.watched();
                     self.processes[index].adopted(child, &ready, monotonic_time(), watched);
                 }
                 None => self.found_dead(index, &ready),
@@ -131,53 +110,21 @@ impl ProcessSet {
     pub fn advance(&mut self, checkpoints: &mut dyn Checkpoints) -> Result<(), GaveUp> {
         self.replace_dead(checkpoints)?;
         for index in 0..self.processes.len() {
-            if self.processes[index].becomes_ready(monotonic_time(), self.watch_clock.watched()) {
+            if self.processes[index].becomes_ready(monotonic_time(), self.watch.watched()) {
                 self.on_ready(index, checkpoints);
             }
             self.processes[index].look(monotonic_time());
         }
-        self.watch();
+        let looked_at_all = self.watch.look(&mut self.processes);
+        if looked_at_all && self.watch.run_has_begun() {
+            self.keep_spares();
+        }
         Ok(())
     }
 
-    /// Kills what hangs: of the chain, by its pulses; of the others, by their heartbeats.
-    fn watch(&mut self) {
-        self.watch_clock.look(monotonic_time());
-        let watched = self.watch_clock.watched();
-        if watched >= self.heartbeats_at {
-            self.heartbeats_at = watched + Self::HEARTBEAT_POLL;
-            self.keep_spares();
-            for process in self.processes.iter_mut().filter(|process| process.spec.hung_after.is_none()) {
-                process.take_heartbeat(watched);
-                process.watch_heartbeat(watched);
-            }
-        }
-        if self.pulses_from.is_none_or(|from| monotonic_time() < from) {
-            return;
-        }
-        let due_since = *self.pulses_due_since.get_or_insert(watched);
-        let silent =
-            |(index, process): (usize, &mut Supervised)| Some((index, process.silence(watched, due_since)?));
-        let (indices, mut silences): (Vec<_>, Vec<_>) =
-            self.processes.iter_mut().enumerate().filter_map(silent).unzip();
-        for place in 0..silences.len() {
-            let core_goes_on = watchdog::goes_on(silences[place].core, &silences);
-            let process = &mut self.processes[indices[place]];
-            silences[place].sleeps = process.sleeps_without_end(core_goes_on, &silences[place], watched);
-        }
-        for (index, limit) in indices.into_iter().zip(watchdog::hung(&silences)) {
-            if let (Some(limit), Some(running)) = (limit, self.processes[index].running_mut()) {
-                running.kill(KillReason::Hung(limit));
-            }
-        }
-    }
-
-    /// Not before the run's clock runs: what is needed first is started first.
+    /// Starts the spares that are missing. Not before the run's clock runs: what is needed first is started first.
     fn keep_spares(&mut self) {
         let now = monotonic_time();
-        if self.pulses_from.is_none_or(|from| now < from) {
-            return;
-        }
         for process in &mut self.processes {
             let (sink, name) = (self.on_line.clone(), process.spec.name.clone());
             process.keep_spare(now, move |line| sink(&name, line));
@@ -186,12 +133,12 @@ impl ProcessSet {
 
     /// The run's clock starts at `from`: pulses are expected from then on.
     pub fn expect_pulses(&mut self, from: Duration) {
-        self.pulses_from = Some(from);
+        self.watch.expect_pulses(from);
     }
 
     /// A process published a pulse: it is not hung.
     pub fn pulse(&mut self, process: &str) {
-        let watched = self.watch_clock.watched();
+        let watched = self.watch.watched();
         let running =
             self.processes.iter_mut().find(|p| p.spec.name == process).and_then(Supervised::running_mut);
         // What a dead predecessor sent last says nothing of its replacement.

@@ -237,7 +237,6 @@ impl Supervised {
             is_steady: running.has_pulsed && running.is_realtime,
             certain: running.certain_limit(for_time, limit, watched),
             core: self.spec.core,
-            sleeps: false,
         })
     }
 

@@ -13,8 +13,6 @@ pub(crate) struct Silence {
     pub(crate) certain: Option<Duration>,
     /// The core that it is pinned to.
     pub(crate) core: Option<usize>,
-    /// It sleeps, and has for a while in which its core went on: for what never comes.
-    pub(crate) sleeps: bool,
 }
 
 /// How long a process may be silent at least that computes without end. Chosen by hand: more than the longest cycle that a
@@ -58,20 +56,25 @@ pub(crate) fn goes_on(core: Option<usize>, watched: &[Silence]) -> bool {
 /// others: then the machine may be late. Chosen by hand.
 pub(crate) const MACHINE_LATE: Duration = Duration::from_millis(500);
 
-/// Which of the watched processes hang, with the limit that each has exceeded.
-///
-/// One that certainly hangs is not waited for, nor is one that sleeps though its core goes on. One that is silent while another one goes
-/// on, hangs. When all are silent together, their core stands still, or one keeps it from the others: that is waited for as long as
-/// machines are late.
-pub(crate) fn hung(watched: &[Silence]) -> Vec<Option<Duration>> {
-    let all_silent = watched.len() > 1 && watched.iter().all(|silence| silence.for_time > silence.limit);
-    let limit = |silence: &Silence| match (silence.certain, silence.is_steady && !all_silent) {
-        (Some(limit), _) => limit,
-        (None, true) if silence.sleeps => sleeps(silence.limit),
-        (None, true) => silence.limit,
-        (None, false) => silence.limit.max(MACHINE_LATE),
-    };
-    watched.iter().map(|silence| Some(limit(silence)).filter(|&limit| silence.for_time > limit)).collect()
+/// Whether all are silent together: their core stands still, or one of them keeps it from the others.
+pub(crate) fn all_silent(watched: &[Silence]) -> bool {
+    watched.len() > 1 && watched.iter().all(|silence| silence.for_time > silence.limit)
+}
+
+impl Silence {
+    /// How long this process may be silent that `sleeps` though its core goes on, or does not, while `all_silent` are together or others
+    /// go on.
+    ///
+    /// One that certainly hangs is not waited for, nor is one that sleeps though its core goes on. One that is silent while another one
+    /// goes on, hangs. When all are silent together, that is waited for as long as machines are late.
+    pub(crate) fn longest(&self, sleeps: bool, all_silent: bool) -> Duration {
+        match (self.certain, self.is_steady && !all_silent) {
+            (Some(limit), _) => limit,
+            (None, true) if sleeps => self::sleeps(self.limit),
+            (None, true) => self.limit,
+            (None, false) => self.limit.max(MACHINE_LATE),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -80,6 +83,15 @@ mod tests {
 
     const LIMIT: Duration = Duration::from_millis(10);
 
+    /// The limit that each has exceeded, of those that hang; none of them sleeps.
+    fn hung(watched: &[Silence]) -> Vec<Option<Duration>> {
+        let all_silent = all_silent(watched);
+        let exceeded = |silence: &Silence| {
+            Some(silence.longest(false, all_silent)).filter(|limit| silence.for_time > *limit)
+        };
+        watched.iter().map(exceeded).collect()
+    }
+
     fn silent(ms: u64) -> Silence {
         Silence {
             for_time: Duration::from_millis(ms),
@@ -87,7 +99,6 @@ mod tests {
             is_steady: true,
             certain: None,
             core: None,
-            sleeps: false,
         }
     }
 
@@ -129,11 +140,11 @@ mod tests {
     #[test]
     fn one_that_sleeps_while_its_core_goes_on_sleeps_for_what_never_comes() {
         let limit = Duration::from_millis(100);
-        let (goes_on, silent) = (Silence { limit, ..silent(1) }, Silence { limit, ..silent(11) });
-        let sleeps = Silence { sleeps: true, ..silent };
-        assert_eq!(hung(&[sleeps, goes_on]), [Some(SLEEPS), None]);
-        assert_eq!(hung(&[silent, goes_on]), [None, None], "it runs, or has no core");
-        assert_eq!(hung(&[Silence { is_steady: false, ..sleeps }, goes_on]), [None, None]);
+        let silent = Silence { limit, ..silent(11) };
+        assert_eq!(silent.longest(true, false), SLEEPS);
+        assert_eq!(silent.longest(false, false), limit, "it runs, or has no core");
+        assert_eq!(silent.longest(true, true), MACHINE_LATE);
+        assert_eq!(Silence { is_steady: false, ..silent }.longest(true, false), MACHINE_LATE);
     }
 
     #[test]

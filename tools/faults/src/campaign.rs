@@ -22,7 +22,8 @@ pub enum Step<'a> {
     Run(&'a [Cell], usize),
     /// A cell was judged.
     Judged(&'a JudgedCell),
-    /// These cells of a run with several could not be judged; they are done again, each alone.
+    /// These cells of a run with several could not be judged; they are done again in two runs, until the one that spoiled the
+    /// others' is alone.
     Again(&'a [Cell]),
 }
 
@@ -51,7 +52,7 @@ impl<'a> Campaign<'a> {
             let again: Vec<_> = unknown.iter().map(|judged| judged.cell.clone()).collect();
             if !again.is_empty() && run.len() > 1 && why_not.is_none() {
                 step(Step::Again(&again));
-                runs.extend(again.into_iter().map(|cell| vec![cell]));
+                runs.extend(again.chunks(again.len().div_ceil(2)).map(<[Cell]>::to_vec));
             } else {
                 told.extend(unknown);
             }

@@ -11,8 +11,9 @@ const BESIDE: [&str; 2] = ["monitor", "voice"];
 const WORKING: [Moment; 4] = [Moment::Idle, Moment::Moving, Moment::Grasping, Moment::HandingOver];
 /// What can be done to a process before it listens, and while it ends.
 const BY_SIGNAL: [Fault; 3] = [Fault::Kill, Fault::Abort, Fault::StopForGood];
-/// Cells of one run at most: the more, the less is to be repeated singly when one of them is not green.
-const CELLS_OF_A_RUN: usize = 8;
+/// Cells of one run at most: each moment comes some four times within two minutes. Chosen by hand: the more, the more is to be
+/// repeated when one of them is not green.
+const CELLS_OF_A_RUN: usize = 16;
 /// So often one process may have to be restarted in a run: the restart policy allows five times in 30 s.
 const RESTARTS_OF_A_RUN: usize = 4;
 

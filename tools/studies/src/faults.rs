@@ -115,7 +115,7 @@ fn show(step: Step<'_>) {
     let names = |cells: &[Cell]| cells.iter().map(Cell::to_string).collect::<Vec<_>>().join(", ");
     match step {
         Step::Run(cells, left) => eprintln!("run: {}; {left} left after it", names(cells)),
-        Step::Again(cells) => eprintln!("again, each alone: {}", names(cells)),
+        Step::Again(cells) => eprintln!("again, in two runs: {}", names(cells)),
         Step::Judged(judged) => eprintln!("  {} {}", judged.cell, word(&judged.outcome)),
     }
 }
