@@ -172,3 +172,15 @@ fn without_real_time_privileges_it_runs_and_says_so() {
         assert!(environment.schedulers.contains_key(process));
     }
 }
+
+#[test]
+fn too_few_open_files_are_said_so_before_anything_starts() {
+    let mut command = Command::new("prlimit");
+    command.arg("--nofile=64").arg(coact());
+    let finished = Launched::start_by(command, &["--duration", "1"]).finish();
+    assert_eq!(finished.code, Some(2), "{}", finished.stderr);
+    for said in ["64 open files", "512", "ulimit -Hn"] {
+        assert!(finished.stderr.contains(said), "{said}: {}", finished.stderr);
+    }
+    assert!(finished.supervisor.is_empty(), "nothing was started");
+}

@@ -101,7 +101,7 @@ impl Launch {
 
     fn prepare(&self) -> Result<(), LaunchError> {
         self.check()?;
-        raise_open_files();
+        raise_open_files()?;
         coact_realtime::exclude_real_time_cores(&self.pipeline);
         remove_dead_runs();
         Ok(())
@@ -219,12 +219,19 @@ fn arguments(run: &Run, entry: &ProcessEntry) -> Vec<OsString> {
     arguments
 }
 
+/// A supervisor of the shipped table opens 290 files, one that is looked at by viewers some more.
+const FEWEST_OPEN_FILES: u64 = 512;
+
 /// Raises the limit of open files as far as that is allowed, for itself and for all that it starts: the usual soft limit of
 /// 1024 is for programs that wait with `select`.
-fn raise_open_files() {
+fn raise_open_files() -> Result<(), LaunchError> {
     let Rlimit { maximum, .. } = getrlimit(Resource::Nofile);
+    if let Some(allowed) = maximum.filter(|allowed| *allowed < FEWEST_OPEN_FILES) {
+        return Err(LaunchError::FewOpenFiles { allowed, needed: FEWEST_OPEN_FILES });
+    }
     // Refused only beyond the hard limit, which is what is asked for.
     setrlimit(Resource::Nofile, Rlimit { current: maximum, maximum }).ok();
+    Ok(())
 }
 
 /// They compete for the cores, and one of them may hold the robot.

@@ -23,6 +23,17 @@ pub enum LaunchError {
         /// Name of the process.
         process: String,
     },
+    /// Less files may be open than a run needs.
+    #[error(
+        "only {allowed} open files are allowed; expected {needed}: raise the hard limit (ulimit -Hn, /etc/security/limits.conf, \
+         or LimitNOFILE of systemd)"
+    )]
+    FewOpenFiles {
+        /// The hard limit.
+        allowed: u64,
+        /// What a run needs.
+        needed: u64,
+    },
     /// An injection names no process of the table.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
