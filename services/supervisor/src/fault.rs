@@ -178,7 +178,7 @@ impl Fault {
 
     /// Whether it takes effect later, when what it breaks is needed.
     pub(crate) fn is_latent(self) -> bool {
-        self == Self::FreezePlanner
+        matches!(self, Self::FreezePlanner | Self::NoHandles)
     }
 
     /// Whether the process does not live on after it; where it may, the watchdog decides.

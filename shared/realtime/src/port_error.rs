@@ -46,9 +46,10 @@ pub enum PortError {
         /// How many read it.
         viewers: usize,
     },
-    /// The process may open nothing any more, and so never again hear a writer that is new. The message contains the cause.
+    /// The process may open nothing any more, and so never again hear a writer that is new, or be heard by a reader that is. The message
+    /// contains the cause.
     #[error(
-        "topic {topic}: its writer cannot be looked up: {cause}; expected file handles to be left (ulimit -n)"
+        "topic {topic}: who is new on it cannot be connected: {cause}; expected file handles to be left (ulimit -n)"
     )]
     NoHandles {
         /// The topic.

@@ -1,9 +1,10 @@
-use crate::PortError;
 use crate::any_topic::{Bytes, NoHeader};
 use crate::port::Writer;
 use crate::run_node::RunNode;
+use crate::{PortError, handles_left};
 use coact_messages::topic;
-use iceoryx2::port::{notifier::Notifier, publisher::Publisher, update_connections::UpdateConnections};
+use iceoryx2::port::update_connections::UpdateConnections;
+use iceoryx2::port::{DegradationAction, notifier::Notifier, publisher::Publisher};
 use iceoryx2::prelude::{BackpressureStrategy, ipc};
 use iceoryx2::sample_mut::SampleMut;
 use iceoryx2::service::static_config::message_type_details::TypeDetail;
@@ -31,9 +32,19 @@ impl ZeroCopyWriter {
             .publisher_builder()
             .max_loaned_samples(1)
             .backpressure_strategy(BackpressureStrategy::DiscardData)
+            .set_degradation_handler(|_, _| unconnected())
             .create()
             .map_err(|error| PortError::refused(topic, "writing", error))?;
         Ok(Self { topic: topic.to_owned(), loaned: None, publisher, notifier })
+    }
+}
+
+impl ZeroCopyWriter {
+    fn failed(&self, operation: &'static str, problem: impl std::fmt::Debug) -> PortError {
+        match handles_left() {
+            Ok(()) => PortError::refused(&self.topic, operation, problem),
+            Err(cause) => PortError::NoHandles { topic: self.topic.clone(), cause },
+        }
     }
 }
 
@@ -53,7 +64,7 @@ impl Writer for ZeroCopyWriter {
 
     fn send(&mut self) -> Result<(), PortError> {
         let Some(sample) = self.loaned.take() else { return Ok(()) };
-        sample.send().map_err(|error| PortError::refused(&self.topic, "sending", error))?;
+        sample.send().map_err(|error| self.failed("sending", error))?;
         Ok(())
     }
 
@@ -66,6 +77,15 @@ impl Writer for ZeroCopyWriter {
 
     fn connect_new_readers(&self) -> Result<(), PortError> {
         let connected = self.publisher.update_connections();
-        connected.map_err(|error| PortError::refused(&self.topic, "connecting readers", error))
+        connected.map_err(|error| self.failed("connecting readers", error))
+    }
+}
+
+/// What becomes of a writer that cannot be connected to a reader. One that has just died is missed by nobody; but iceoryx2 tries only
+/// once, and a reader that was missed for want of a handle would never hear of this writer.
+fn unconnected() -> DegradationAction {
+    match handles_left() {
+        Ok(()) => DegradationAction::Warn,
+        Err(_) => DegradationAction::DegradeAndFail,
     }
 }

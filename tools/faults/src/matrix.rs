@@ -47,10 +47,13 @@ pub fn whole() -> Vec<Cell> {
     }
     let adoption = |moment| Cell { fault: FaultKind::Adoption, target: Target::Supervisor, moment };
     cells.extend(WORKING.map(adoption));
-    for (starved, killed) in
-        [("perception", "world"), ("fields", "perception"), ("control", "fields"), ("world", "control")]
+    for (writer, reader) in
+        [("world", "perception"), ("perception", "fields"), ("fields", "control"), ("control", "world")]
     {
-        cells.push(cell(Fault::NoHandles, Target::Two(starved, killed), Moment::Moving));
+        // Both must be connected to the other's replacement.
+        for (starved, killed) in [(reader, writer), (writer, reader)] {
+            cells.push(cell(Fault::NoHandles, Target::Two(starved, killed), Moment::Moving));
+        }
     }
     cells.push(cell(Fault::NoHandles, Target::Supervisor, Moment::Moving));
     for fault in MessageFault::ALL {
@@ -137,6 +140,10 @@ pub(crate) fn runs(cells: Vec<Cell>) -> Vec<Vec<Cell>> {
 
 fn goes_with(cell: &Cell, run: &[Cell]) -> bool {
     if cell.needs_own_run() || run.iter().any(Cell::needs_own_run) || run.len() >= CELLS_OF_A_RUN {
+        return false;
+    }
+    // Where what was remembered may be lost, nobody can say by whom it was.
+    if run.iter().any(|other| other.fault.spoils_state() != cell.fault.spoils_state()) {
         return false;
     }
     let cells = || run.iter().chain([cell]);

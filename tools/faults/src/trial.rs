@@ -251,7 +251,6 @@ impl<'a> Trial<'a> {
             return self.injure_supervisor(fault);
         }
         if let (Target::Two(starved, killed), Fault::NoHandles) = (&cell.target, fault) {
-            // Who reads the other's messages has to open what its replacement sends.
             self.request(starved, Fault::NoHandles)?;
             return self.request(killed, Fault::Kill);
         }
