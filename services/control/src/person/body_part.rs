@@ -16,6 +16,8 @@ pub(crate) struct BodyPart {
     extrapolated: f64,
     /// Whether it was seen recently.
     pub is_seen: bool,
+    /// Whether it moves, faster than what only seems to.
+    pub moves: bool,
     /// Its speed, m/s, as far as it is known.
     pub(super) speed: f64,
     pub(super) growth: Growth,
@@ -27,7 +29,7 @@ pub(crate) struct BodyPart {
 
 impl BodyPart {
     /// The line between two joints.
-    pub(super) fn between(
+    pub(crate) fn between(
         from: &TrackedPoint,
         to: &TrackedPoint,
         limits: &PersonLimits,
@@ -45,6 +47,7 @@ impl BodyPart {
             velocities,
             extrapolated: limits.extrapolated.as_secs_f64(),
             is_seen,
+            moves: is_seen && !rests && speed >= limits.speeds[0],
             speed,
             growth: Growth {
                 age: seconds(age),
