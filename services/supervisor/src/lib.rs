@@ -13,6 +13,7 @@ mod checkpoints;
 mod child;
 mod control_socket;
 mod death;
+mod empty_files;
 mod ending;
 mod fault;
 mod gave_up;

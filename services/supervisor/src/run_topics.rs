@@ -1,4 +1,5 @@
 use crate::Checkpoints;
+use crate::empty_files::EmptyFiles;
 use coact_messages::topic;
 use coact_pipeline::{MemoryReserve, Pipeline, Run, RunError};
 use coact_realtime::{Bus, CheckpointStore, PortError, Reservation, TopicAnchors, monotonic_time};
@@ -22,6 +23,8 @@ pub(crate) struct RunTopics {
     /// When the remains of the dead are removed.
     clean_at: Option<Duration>,
     failed: bool,
+    /// Declared last: the others still open and clean up while they end.
+    _empty_files: EmptyFiles,
 }
 
 impl RunTopics {
@@ -36,6 +39,8 @@ impl RunTopics {
     /// # Errors
     /// Shared memory refuses it.
     pub(crate) fn create(run: &Run, pipeline: &Pipeline, generation: u32) -> Result<Self, PortError> {
+        let folder = run.directory().parent().unwrap_or(run.directory());
+        let empty_files = EmptyFiles::watch(folder.to_owned(), run.prefix());
         let bus = Bus::open(run, "supervisor", generation)?;
         if generation > 0 {
             // The places of the dead supervisor are needed again.
@@ -54,6 +59,7 @@ impl RunTopics {
             bus,
             clean_at: None,
             failed: false,
+            _empty_files: empty_files,
         };
         topics.reserve()?;
         Ok(topics)

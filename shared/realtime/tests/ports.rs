@@ -330,3 +330,38 @@ fn a_successor_of_the_supervisor_is_heard_and_nobody_who_says_to_be_another_one(
     drop((heard, bus, member));
     adopted.remove().unwrap();
 }
+
+/// Why the supervisor removes what killed processes leave empty. Once iceoryx2 gives such a file up by itself, that is not needed any more.
+#[test]
+fn whoever_opens_memory_that_was_left_without_a_size_waits_until_it_is_removed() {
+    let run = TestRun::started();
+    let writer = Bus::open(&run.0, "perception", 0).unwrap();
+    let before = files(&run.0);
+    let output = writer.output::<Percept>(topic::PERCEPT).unwrap();
+    let made: Vec<_> = files(&run.0).into_iter().filter(|file| !before.contains(file)).collect();
+    // As they are between being named and being given a size. Nobody touches what the writer has mapped of them.
+    made.iter().for_each(|file| std::fs::File::create(file).map(drop).unwrap());
+    let opening = std::thread::spawn({
+        let run = run.0.clone();
+        move || {
+            let bus = Bus::open(&run, "fields", 0).unwrap();
+            bus.input::<Percept>(topic::PERCEPT).map(drop).map_err(|error| error.to_string())
+        }
+    });
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    assert!(!opening.is_finished(), "{made:?}");
+    made.iter().for_each(|file| std::fs::remove_file(file).unwrap());
+    let begin = std::time::Instant::now();
+    while !opening.is_finished() && begin.elapsed() < std::time::Duration::from_secs(60) {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    assert!(opening.is_finished(), "it waits for what is gone");
+    std::mem::forget(output);
+}
+
+/// The run's files in shared memory.
+fn files(run: &Run) -> Vec<std::path::PathBuf> {
+    let entries = std::fs::read_dir(run.directory().parent().unwrap()).unwrap().map(Result::unwrap);
+    let own = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(&run.prefix()));
+    own.filter(|entry| entry.path().is_file()).map(|entry| entry.path()).collect()
+}
