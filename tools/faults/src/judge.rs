@@ -154,8 +154,17 @@ impl Case<'_> {
     fn dead_bystanders(&self) -> impl Iterator<Item = &SupervisorEvent> {
         let struck = self.cell.struck();
         let may_die = self.cell.fault.restarts() > 0;
-        let deaths = self.noted(SupervisorEventKind::Died);
+        let deaths = self.noted(SupervisorEventKind::Died).filter(|event| !self.carried_a_fault(event));
         deaths.filter(move |event| !(may_die && struck.contains(&event.process.as_str())))
+    }
+
+    /// Whether a latent fault of an earlier cell was still in it: that takes effect whenever it does.
+    fn carried_a_fault(&self, death: &SupervisorEvent) -> bool {
+        self.evidence.supervisor.iter().any(|event| {
+            event.event == SupervisorEventKind::InjectedLatent
+                && event.at_ns < death.at_ns
+                && (&event.process, event.generation) == (&death.process, death.generation)
+        })
     }
 
     /// Whether it may have hung because the machine did: then nobody can say why it died.

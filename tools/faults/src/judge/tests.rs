@@ -234,3 +234,19 @@ fn the_arm_stands_when_the_last_sample_of_a_dead_set_comes() {
     let without_deaths = Evidence { supervisor: Vec::new(), ..moving };
     assert_eq!(judge(&at_shutdown("world"), &without_deaths, &rules(), true), Outcome::Green);
 }
+
+#[test]
+fn who_dies_of_an_earlier_cells_latent_fault_is_no_bystander() {
+    let starved = |generation| {
+        changed(|it| {
+            let early = SupervisorEvent {
+                at_ns: START + 5 * S,
+                generation,
+                ..noted(SupervisorEventKind::InjectedLatent, "world", "")
+            };
+            it.supervisor.extend([early, noted(SupervisorEventKind::Died, "world", "no handles")]);
+        })
+    };
+    assert_eq!(judge(&kill(), &starved(0), &rules(), true), Outcome::Green);
+    assert!(red(&kill(), &starved(1)).contains("world died"), "another generation was starved");
+}
