@@ -169,11 +169,10 @@ impl Step<'_> {
         links.filter(|(_, of_hand)| !(touches && **of_hand && part.hands_over)).any(|((now, next), _)| {
             next.least_distance(&here) < room && {
                 let distance = next.distance(&here);
-                let comes_nearer = distance < now.distance(&here) - EXACT;
                 // Nobody knows on which side of it something is that moves farther between two looks than it is away.
-                let is_blurred = part.moves && distance < part.growth(ahead) && has_moved(now, next);
-                let closes = distance < room && (comes_nearer || is_blurred);
-                closes && !part.is_bound_away_from(next, kept, ahead)
+                let is_blurred = || part.moves && distance < part.growth(ahead) && has_moved(now, next);
+                let closes = || distance < now.distance(&here) - EXACT || is_blurred();
+                distance < room && closes() && !part.is_bound_away_from(next, kept, ahead)
             }
         })
     }

@@ -23,7 +23,7 @@ pub enum LaunchError {
         /// Name of the process.
         process: String,
     },
-    /// Less files may be open than a run needs.
+    /// Fewer files may be open than a run needs.
     #[error(
         "only {allowed} open files are allowed; expected {needed}: raise the hard limit (ulimit -Hn, /etc/security/limits.conf, \
          or LimitNOFILE of systemd)"
