@@ -149,16 +149,16 @@ fn stage_of_one_s_own_runs_as_a_process() {
         (percept.arm.tracked, percept.hand.reaching) = (1, 1);
         percept.arm.wrist.velocity = [0.5, 0.0, 0.0];
     };
+    // The shell sends a pulse with each cycle; a reader that is held up loses the oldest ones.
     publish(&run.0, "perception", topic::PERCEPT, reach, || {
         speeds.each(|speed| seen = *speed).unwrap();
         beats += pulses.each(|_| {}).unwrap();
-        seen.now > 0.4
+        seen.now > 0.4 && beats > 20
     });
     kill_process(Pid::from_child(&child), Signal::TERM).unwrap();
     assert!(child.wait().unwrap().success());
     std::fs::remove_file(&table).unwrap();
     assert_eq!((seen.reaches, seen.reaching), (1, 1));
-    assert!(beats > 20, "{beats} pulses: the shell sends one with each cycle");
 }
 
 #[test]
