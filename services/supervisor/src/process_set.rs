@@ -186,9 +186,17 @@ impl ProcessSet {
         Ok(())
     }
 
-    /// True while a process runs that is not ready yet.
-    pub(crate) fn anyone_starts(&self) -> bool {
-        self.processes.iter().filter_map(Supervised::running).any(|running| !running.ready)
+    /// True while a process runs that is not ready yet, or may hang.
+    pub(crate) fn anyone_starts_or_is_suspected(&self) -> bool {
+        self.processes
+            .iter()
+            .filter_map(Supervised::running)
+            .any(|running| !running.ready || running.is_suspected())
+    }
+
+    /// True while a process is stopped, by a signal.
+    pub(crate) fn anyone_stands(&self) -> bool {
+        self.processes.iter().filter_map(Supervised::running).any(|running| running.child.is_stopped())
     }
 
     /// True while every process is ready.

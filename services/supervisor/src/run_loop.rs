@@ -12,7 +12,7 @@ use crate::{
 use coact_pipeline::{Pipeline, Run};
 use coact_realtime::{Schedule, SchedulingClass, monotonic_time};
 use coact_run_records::SupervisorEventKind;
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{SIGCHLD, SIGHUP, SIGINT, SIGTERM};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -46,6 +46,8 @@ pub(crate) struct RunLoop<'a> {
     injections: Vec<Injection>,
     end: EndCondition,
     interrupted: Arc<AtomicBool>,
+    /// Since the last look a child was stopped, continued or has died: the signal that tells so ends the wait.
+    child_changed: Arc<AtomicBool>,
     /// Release of tick 0, once the whole set was ready.
     start: Option<Duration>,
     service_manager: ServiceManager,
@@ -53,11 +55,12 @@ pub(crate) struct RunLoop<'a> {
     status_at: Duration,
 }
 
-/// A death wakes the supervisor at once; everything else is looked at this often. A trade-off between how soon a hang is found and
-/// the supervisor's load.
+/// A death wakes the supervisor at once, and so does a stop; everything else is looked at this often. A trade-off between how soon
+/// a hang is found and the supervisor's load.
 const POLL_INTERVAL: Duration = Duration::from_millis(2);
-/// The same while a process starts: so long at most it waits for its checkpoint, once it can take it. Chosen by hand.
-const POLL_WHILE_STARTING: Duration = Duration::from_micros(500);
+/// The same while a process starts, which waits for its checkpoint so long at most once it can take it, and while one is stopped or may
+/// sleep for ever, which is to be replaced. Chosen by hand.
+const POLL_CLOSELY: Duration = Duration::from_micros(500);
 /// From "all are ready" to tick 0. Every process polls for the start once in a millisecond: all have seen it by then, also
 /// on a busy machine.
 const START_DELAY: Duration = Duration::from_millis(50);
@@ -75,6 +78,8 @@ impl<'a> RunLoop<'a> {
         for signal in [SIGINT, SIGTERM, SIGHUP] {
             signal_hook::flag::register(signal, Arc::clone(&interrupted)).map_err(LaunchError::Signals)?;
         }
+        let child_changed = Arc::new(AtomicBool::new(false));
+        signal_hook::flag::register(SIGCHLD, Arc::clone(&child_changed)).map_err(LaunchError::Signals)?;
         let topics = RunTopics::create(run, pipeline, run.owner()?.generation)?;
         let reader = TopicReader::new(topics.bus(), pipeline)?;
         let stop = OperatorStop::new(topics.bus())?;
@@ -94,6 +99,7 @@ impl<'a> RunLoop<'a> {
             injections,
             end,
             interrupted,
+            child_changed,
             start: None,
             service_manager: ServiceManager::from_environment(),
             status_at: Duration::ZERO,
@@ -148,7 +154,7 @@ impl<'a> RunLoop<'a> {
 
     fn supervise(&mut self) -> Result<Ending, LaunchError> {
         loop {
-            self.set.wait(if self.set.anyone_starts() { POLL_WHILE_STARTING } else { POLL_INTERVAL });
+            self.set.wait(if self.looks_closely() { POLL_CLOSELY } else { POLL_INTERVAL });
             self.service_manager.is_alive(monotonic_time());
             self.set.replace_dead(&mut self.topics)?;
             self.topics.poll();
@@ -163,6 +169,15 @@ impl<'a> RunLoop<'a> {
                 return Ok(ending);
             }
         }
+    }
+
+    /// Whether a process starts, is stopped, or may sleep for ever.
+    fn looks_closely(&self) -> bool {
+        let changed = self.child_changed.swap(false, Ordering::Relaxed);
+        let stands = changed && self.set.anyone_stands();
+        // It is looked for again until none is.
+        self.child_changed.fetch_or(stands, Ordering::Relaxed);
+        stands || self.set.anyone_starts_or_is_suspected()
     }
 
     /// Starts the run's clock as soon as every process that it waits for is ready.

@@ -121,6 +121,11 @@ impl Running {
         self.has_pulsed && slept >= within / 2
     }
 
+    /// Whether it may sleep for what never comes: the next looks tell.
+    pub(crate) fn is_suspected(&self) -> bool {
+        self.asleep_since.is_some()
+    }
+
     /// Kills it, once, for this reason.
     pub(crate) fn kill(&mut self, reason: KillReason) {
         if self.kill_reason.is_none() {

@@ -22,13 +22,13 @@ const COMPUTES: Duration = Duration::from_millis(10);
 /// another.
 const STOPPED: Duration = Duration::from_millis(1);
 /// How long one at least that sleeps while its core goes on. Chosen by hand: in half of it, in which it is seen not to have run at all, it
-/// would have been woken several times. Half as long, a stage was killed that several sets kept from their core.
-const SLEEPS: Duration = Duration::from_millis(10);
-/// They are killed after these parts of their limit. Chosen by hand: 10, 1 and 10 ms of the shipped table's 100. A table that is
+/// would have been woken, for even one that skips a release sleeps for less than two periods.
+const SLEEPS: Duration = Duration::from_millis(5);
+/// They are killed after these parts of their limit. Chosen by hand: 10, 1 and 5 ms of the shipped table's 100. A table that is
 /// patient, because somebody looks into its processes with a debugger, stays so.
 const COMPUTES_PART: u32 = 10;
 const STOPPED_PART: u32 = 100;
-const SLEEPS_PART: u32 = 10;
+const SLEEPS_PART: u32 = 20;
 
 /// How long a process with this limit may be silent that computes without end.
 pub(crate) fn computes(limit: Duration) -> Duration {
@@ -153,7 +153,7 @@ mod tests {
         let on = |core, ms| Silence { limit, core: Some(core), ..silent(ms) };
         let core_goes_on = |watched: &[Silence]| goes_on(Some(1), watched);
         assert!(
-            core_goes_on(&[on(1, 5), on(1, 1)]) && core_goes_on(&[on(1, 9), on(1, 9), on(1, 1), on(1, 2)])
+            core_goes_on(&[on(1, 3), on(1, 1)]) && core_goes_on(&[on(1, 9), on(1, 9), on(1, 1), on(1, 2)])
         );
         assert!(!core_goes_on(&[on(1, 5), on(1, 5), on(1, 1)]));
         assert!(!core_goes_on(&[on(1, 5), on(1, 5), on(0, 1), on(0, 1)]), "another core does");

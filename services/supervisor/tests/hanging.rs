@@ -48,8 +48,8 @@ exec sleep 600"#;
 
 #[test]
 fn a_real_time_process_that_sleeps_while_another_goes_on_is_replaced_within_milliseconds() {
-    // What sleeps may be silent for a tenth of it.
-    let (limit, within) = (Duration::from_millis(200), Duration::from_millis(20));
+    // What sleeps may be silent for a twentieth of it.
+    let (limit, within) = (Duration::from_millis(400), Duration::from_millis(20));
     let scripts = [("a", REALTIME_READY_AND_RUN), ("b", REALTIME_READY_AND_RUN)];
     let mut trial = Trial::with(&scripts, |spec| spec.hung_after = Some(limit));
     trial.run_until_ready();
