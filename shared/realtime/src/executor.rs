@@ -4,7 +4,6 @@ use crate::overload::Overload;
 use crate::signals::Signals;
 use crate::{Cycle, Output, PortError, ProcessError, Refusals, Schedule, Tick};
 use coact_messages::{Header, Pulse};
-use coact_period::PERIOD_NS;
 use coact_pipeline::{ProcessEntry, Trigger};
 use rustix::thread::clock_nanosleep_absolute;
 use rustix::time::ClockId;
@@ -17,14 +16,6 @@ const SLOWED_CYCLES: u32 = 50;
 
 /// A stage that may not end yet goes on for so many cycles at most: arms stop within half a second.
 const LONGEST_END: u64 = coact_period::CYCLES_PER_SECOND;
-
-/// A stage that wakes up so much later than it wanted was held up, and with it the stages before it on its core. Chosen by hand: some
-/// times what a quiet machine needs to wake a thread.
-const HELD_UP_NS: u64 = 50_000;
-/// What the stages before it then still need for their cycle. Chosen by hand: in 99 of 100 cycles end to end takes less.
-const CATCH_UP_NS: u64 = 200_000;
-/// What it keeps of the period for its own cycle. Chosen by hand: more than the longest step of a thousand.
-const OWN_CYCLE_NS: u64 = 100_000;
 
 /// Runs a [`Cycle`] once in each period: wait, step, count, publish the pulse.
 pub(crate) struct Executor {
@@ -49,15 +40,6 @@ pub(crate) fn waits_for_topic(entry: &ProcessEntry, topic: &str) -> Result<bool,
         Trigger::None => "absent".to_owned(),
     };
     Err(ProcessError::Trigger { process: entry.name.clone(), found, expected: topic.to_owned() })
-}
-
-/// Up to when a stage waits for its input once more that was held up and has `woken` without it: as long as its deadline can be met, or
-/// in the time that it always has, when that is over.
-fn second_latest(release: u64, woken: u64, latest_start: u64) -> u64 {
-    if misses_deadline(release, woken) {
-        return woken + latest_start;
-    }
-    (woken + CATCH_UP_NS).min(release + PERIOD_NS - OWN_CYCLE_NS)
 }
 
 impl Executor {
@@ -126,10 +108,10 @@ impl Executor {
         let latest = release + latest_start;
         let mut came = trigger.wait_for(cycle, latest)?;
         let woken = now();
-        if !came && woken > latest + HELD_UP_NS {
-            // So were the stages before this one, and may not have had the core yet: it gives them time, and then works on a new
-            // sample instead of an old one.
-            came = trigger.wait_for(cycle, second_latest(release, woken, latest_start))?;
+        if !came && misses_deadline(release, woken) {
+            // This stage woke up after its deadline, so the stages before it did too, and may not have had the core yet.
+            // It gives them the time that they always have, and then works on a new sample instead of an old one.
+            came = trigger.wait_for(cycle, woken + latest_start)?;
         }
         let published = trigger.header().map_or(0, |header| header.published_ns);
         Ok(if came { published.max(release) } else { latest })
@@ -221,16 +203,6 @@ mod tests {
             executor.run_cycle(cycle, scheduled_ns, &mut work).unwrap();
         };
         (1..=WARM_UP + CYCLES).map(|tick| measure(|| cycle(tick)).count_total).collect()
-    }
-
-    #[test]
-    fn one_that_was_held_up_waits_again_as_long_as_it_can_meet_its_deadline() {
-        let (release, latest_start) = (7 * PERIOD_NS, 650_000);
-        let waits_after = |late_ns| second_latest(release, release + late_ns, latest_start) - release;
-        assert_eq!(waits_after(700_000), 900_000);
-        assert_eq!(waits_after(680_000), 880_000);
-        assert_eq!(waits_after(950_000), 900_000, "no longer: it is over already");
-        assert_eq!(waits_after(1_200_000), 1_850_000, "the deadline is missed");
     }
 
     #[test]
