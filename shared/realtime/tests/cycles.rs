@@ -16,6 +16,8 @@ use support::TestRun;
 
 /// As in the table below.
 const LATEST_START: Duration = Duration::from_micros(700);
+/// While the input of the cycle before has not come either, 0.2 ms sooner.
+const ONCE_MISSED: Duration = Duration::from_micros(500);
 const TABLE: &str = r#"
 [[process]]
 name = "perception"
@@ -143,10 +145,11 @@ fn later_stage_runs_on_each_message_and_at_its_latest_start_once_they_stop() {
     let is_silent = |pulse: &&Pulse| pulse.header.cycle > last && pulse.input_received_ns == 0;
     let silent: Vec<_> = seen.iter().skip_while(|pulse| !is_silent(pulse)).collect();
     assert!(silent.len() > 10);
-    for pulse in &silent {
-        assert_eq!(pulse.input_received_ns, 0);
-        assert!(pulse.started_ns >= pulse.released_ns + LATEST_START.as_nanos() as u64);
-        assert_eq!(pulse.scheduled_ns, pulse.released_ns + LATEST_START.as_nanos() as u64);
+    let due = |pulse: &Pulse| Duration::from_nanos(pulse.scheduled_ns - pulse.released_ns);
+    assert!([LATEST_START, ONCE_MISSED].contains(&due(silent[0])), "{:?}", due(silent[0]));
+    for pulse in &silent[1..] {
+        assert_eq!((pulse.input_received_ns, due(pulse)), (0, ONCE_MISSED));
+        assert!(pulse.started_ns >= pulse.scheduled_ns);
     }
     let stale = silent.last().unwrap().stale - silent.first().unwrap().stale;
     assert_eq!(stale, silent.len() as u64 - 1, "each cycle without a new message is counted as stale");
