@@ -67,7 +67,7 @@ impl HandModel {
     /// The pose that comes nearest to these keypoints.
     pub(crate) fn pose_of(&self, points: &[DVec3; 9]) -> HandPose {
         let at = |name: KeypointName| points[name as usize];
-        let (wrist, Fingers { middle, aperture, pitch }) = (at(KeypointName::Wrist), Fingers::of(points));
+        let (wrist, Fingers { middle, aperture, pitch, .. }) = (at(KeypointName::Wrist), Fingers::of(points));
         let ahead = at(KeypointName::IndexKnuckle).midpoint(at(KeypointName::LittleKnuckle)) - wrist;
         let turn = ahead.y.atan2(ahead.x) - self.facing;
         let heading = turn.sin().atan2(turn.cos());
