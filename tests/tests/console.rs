@@ -177,12 +177,24 @@ impl Player {
         panic!("the {kind} is not taken: {}", self.state());
     }
 
-    /// Brings the part that the hand has there, and looks whether it has come there, too.
-    fn brings(&mut self, kind: &str, to: DVec2) {
-        self.go(to);
-        let is_there = |at: DVec2| at.distance(to) < 0.03;
-        let came = self.sees(LOOKS, |player| player.in_hand(kind).is_some_and(is_there));
-        assert!(came, "the {kind} is not where the hand is: {}", self.state());
+    /// Takes a part and brings it there, looks whether it has come there, or is in the robot's hand already, and tries again if not: a hand
+    /// that was not told of for a quarter of a second has lost what it had.
+    fn brings(&mut self, kind: &str, grip: u32, to: DVec2) {
+        for _ in 0..TRIES {
+            self.takes(kind, grip);
+            self.go(to);
+            let is_there = |at: DVec2| at.distance(to) < 0.03;
+            let came = |player: &mut Self| {
+                player.in_hand(kind).is_some_and(is_there) || player.part(kind, to, 1).is_some()
+            };
+            if self.sees(LOOKS, came) {
+                return;
+            }
+            self.pressed = false;
+            self.mouse("mouseReleased");
+            std::thread::sleep(Duration::from_millis(500));
+        }
+        panic!("the {kind} is not where the hand is: {}", self.state());
     }
 
     /// Whether somebody who looks for so long sees this.
@@ -197,23 +209,21 @@ impl Player {
         false
     }
 
-    fn insert(&mut self, kind: &str, name: &str) {
+    fn takes_and_inserts(&mut self, kind: &str, name: &str) {
         let (socket, _) = self.subgoal(name);
-        self.brings(kind, socket);
+        self.brings(kind, 0, socket);
+        self.insert(name);
+    }
+
+    fn insert(&mut self, name: &str) {
         std::thread::sleep(Duration::from_millis(1000));
         self.let_go_and_rest();
         self.wait_for_achieved(name);
     }
 
-    fn takes_and_inserts(&mut self, kind: &str, name: &str) {
-        self.takes(kind, 0);
-        self.insert(kind, name);
-    }
-
     fn hands_over(&mut self, kind: &str, for_subgoal: &str) {
         let handover = self.handover();
-        self.takes(kind, 1);
-        self.go(handover);
+        self.brings(kind, 1, handover);
         let is_taken = self.sees(PATIENCE, |player| player.part(kind, handover, 1).is_some());
         assert!(is_taken, "the robot does not take the {kind}: {}", self.state());
         std::thread::sleep(Duration::from_millis(300));
@@ -233,7 +243,9 @@ impl Player {
         self.grasp(given.truncate(), 0);
         let is_mine = self.sees(PATIENCE, |player| player.part(kind, handover, 2).is_some());
         assert!(is_mine, "the robot does not let the {kind} go: {}", self.state());
-        self.insert(kind, name);
+        let (socket, _) = self.subgoal(name);
+        self.go(socket);
+        self.insert(name);
     }
 
     /// Breaks a process by the page's own buttons, and sees that it is back.

@@ -14,8 +14,8 @@ use std::time::Duration;
 /// 6 ms at the slowest, often enough that the watchdog does not take the process for hung.
 const SLOWED_CYCLES: u32 = 50;
 
-/// While its input does not come, a stage starts by so much sooner than it would at the latest: whoever sends it is dead or hangs, and is
-/// not waited for; the time is kept for the deadline. Chosen by hand.
+/// While not even the input of the cycle before has come, a stage starts by so much sooner than it would at the latest: whoever sends it is
+/// dead or hangs, and is not waited for; the time is kept for the deadline. Chosen by hand.
 const SOONER_NS: u64 = 200_000;
 
 /// A stage that may not end yet goes on for so many cycles at most: arms stop within half a second.
@@ -26,8 +26,6 @@ pub(crate) struct Executor {
     schedule: Schedule,
     /// Offset from the release up to which a cycle waits for its input; `None`: it starts at the release.
     latest_start_ns: Option<u64>,
-    /// The input of the cycle before has not come.
-    misses_input: bool,
     accounting: CycleAccounting,
     overload: Overload,
     pulse: Output<Pulse>,
@@ -59,7 +57,6 @@ impl Executor {
         Self {
             schedule,
             latest_start_ns: waits_for_topic.then_some(entry.latest_start.as_nanos() as u64),
-            misses_input: false,
             accounting: CycleAccounting::default(),
             overload: Overload::default(),
             pulse,
@@ -102,7 +99,7 @@ impl Executor {
     }
 
     /// Waits for the start of `cycle`; returns when it was due. A request to stop ends the wait early.
-    fn wait(&mut self, cycle: u64, work: &mut impl Cycle, signals: &Signals) -> Result<u64, PortError> {
+    fn wait(&self, cycle: u64, work: &mut impl Cycle, signals: &Signals) -> Result<u64, PortError> {
         let release = self.schedule.release(cycle);
         let trigger = work.trigger();
         let Some(latest_start) = self.latest_start_ns else {
@@ -112,16 +109,19 @@ impl Executor {
             trigger.refresh()?;
             return Ok(release);
         };
-        let sooner = if self.misses_input { latest_start.min(SOONER_NS) } else { 0 };
-        let latest = release + latest_start - sooner;
+        let mut latest = release + latest_start.saturating_sub(SOONER_NS);
         let mut came = trigger.wait_for(cycle, latest)?;
+        if !came && trigger.header().is_some_and(|header| header.cycle + 1 >= cycle) {
+            // Its sender may only be late: the input of the cycle before has come, however late.
+            latest = release + latest_start;
+            came = trigger.wait_for(cycle, latest)?;
+        }
         let woken = now();
         if !came && misses_deadline(release, woken) {
             // This stage woke up after its deadline, so the stages before it did too, and may not have had the core yet.
             // It gives them the time that they always have, and then works on a new sample instead of an old one.
             came = trigger.wait_for(cycle, woken + latest_start)?;
         }
-        self.misses_input = !came;
         let published = trigger.header().map_or(0, |header| header.published_ns);
         Ok(if came { published.max(release) } else { latest })
     }
