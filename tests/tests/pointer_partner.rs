@@ -44,11 +44,19 @@ impl Player {
 
     fn with_layout(seed: u64, person: u32, layout: Layout) -> Self {
         let shipped = RunSettings::shipped(&checkout().join("rt-config"));
-        let settings = RunSettings { seed, layout, partner: "hand".into(), world: WorldMode::Kinematic, ..shipped };
+        let settings =
+            RunSettings { seed, layout, partner: "hand".into(), world: WorldMode::Kinematic, ..shipped };
         let stages = Lockstep::new(&settings).unwrap();
         let rest = DVec3::from(stages.task().scene.person_rest);
-        let pointer =
-            Pointer { x: rest.x + 0.14, y: rest.y, lift: 0.0, pressed: false, grip: TOP, gesture: None, pointing: false };
+        let pointer = Pointer {
+            x: rest.x + 0.14,
+            y: rest.y,
+            lift: 0.0,
+            pressed: false,
+            grip: TOP,
+            gesture: None,
+            pointing: false,
+        };
         let courses = Course::of_person(person);
         let watch = Anticipation::new(stages.task(), Intentions::from(stages.plan()));
         let hand = PointerHand::new(stages.task());
@@ -266,7 +274,7 @@ fn people_at_a_pointer_build_the_vehicle_and_are_understood_before_their_grasps(
 fn a_finger_that_points_names_the_very_part() {
     let (mut right, mut wrong, mut pointed) = (0, 0, 0);
     for seed in 1..6 {
-        let (person, layout) = (1 + (seed % 5) as u32, Layout::Random(900 + seed));
+        let (person, layout) = (1 + (seed % 5) as u32, Layout::Random(950 + seed));
         let robots = {
             let player = Player::with_layout(seed, person, layout);
             let task = player.stages.task();
@@ -285,8 +293,8 @@ fn a_finger_that_points_names_the_very_part() {
             wrong += usize::from(inferred.is_some_and(|kind| kind != meant));
         }
     }
-    println!("{right} of {pointed} right, {wrong} wrong");
-    assert!(right * 10 >= pointed * 8 && wrong * 10 <= pointed, "{right} of {pointed}, {wrong} wrong");
+    // Of parts that lie behind one another, as seen along the finger, neither is meant.
+    assert!(right * 10 >= pointed * 8 && wrong * 20 <= pointed, "{right} of {pointed}, {wrong} wrong");
 }
 
 /// The figure of the documentation: 20 runs, five people.

@@ -81,9 +81,9 @@ const LIFTS_AFTER: f64 = 0.15;
 const RELAXED: f64 = 0.06;
 const CLOSED: f64 = 0.02;
 const SHOWN: f64 = 0.10;
-/// A hand that points is so far from the shoulder, sideways, m, and so high above the table, m: well on its own side.
-const POINTS_FROM: f64 = 0.40;
-const POINTS_ABOVE: f64 = 0.22;
+/// A hand that points is so far from the shoulder, sideways, m, and so high above the table, m: the arm nearly stretched.
+const POINTS_FROM: f64 = 0.52;
+const POINTS_ABOVE: f64 = 0.28;
 /// A finger is stretched out or folded within this time, s.
 const STRETCHES_IN: f64 = 0.25;
 /// A hand so near to where it rests lies down, m.
@@ -199,9 +199,7 @@ impl PointerHand {
                 let centre = centre.extend(height + lift);
                 Goal { centre, pitch, aperture: opening(thing.width), points_at: None }
             }
-            None => {
-                Goal { centre: at.extend(hover + lift), pitch, aperture: RELAXED, points_at: None }
-            }
+            None => Goal { centre: at.extend(hover + lift), pitch, aperture: RELAXED, points_at: None },
         }
     }
 
@@ -383,7 +381,8 @@ mod tests {
         let reach = |name: KeypointName| at(name).distance(at(KeypointName::Wrist));
         assert!(reach(KeypointName::IndexTip) > reach(KeypointName::MiddleTip) + 0.05);
         assert!(at(KeypointName::IndexTip).distance(nut) > 0.3, "it stays on the person's side");
-        let relaxed = second(&mut hand, &pointer(DVec3::new(-0.9, 0.2, 0.0), false), &Surroundings::default());
+        let relaxed =
+            second(&mut hand, &pointer(DVec3::new(-0.9, 0.2, 0.0), false), &Surroundings::default());
         assert!((aperture(&relaxed) - RELAXED).abs() < 0.002);
     }
 

@@ -10,8 +10,8 @@ use nalgebra::Vector3;
 const LONGER: (f64, f64) = (0.02, 0.05);
 /// Speed of a hand that points, m/s: full, and no evidence. Chosen by hand: a hand that passes by is faster.
 const STILL: (f64, f64) = (0.10, 0.35);
-/// Angle between the finger and the line to what it points at, rad. Chosen by hand: five degrees, of the person and of the tracker.
-const SCATTER: f64 = 0.09;
+/// Angle between the finger and the line to what it points at, rad. Chosen by hand: three and a half degrees, of the person and of the tracker.
+const SCATTER: f64 = 0.06;
 /// The angle within which something is pointed at for certain, and beyond which nothing is, rad. Chosen by hand.
 const MEANT: (f64, f64) = (0.18, 0.35);
 

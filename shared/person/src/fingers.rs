@@ -17,7 +17,6 @@ pub(crate) struct Fingers {
 /// The index finger is stretched out alone when its tip is this much farther from the wrist than the middle finger's, m. Chosen by hand.
 const ALONE: f64 = 0.05;
 
-
 impl Fingers {
     pub fn of(points: &[DVec3; 9]) -> Self {
         let at = |name: KeypointName| points[name as usize];

@@ -197,7 +197,9 @@ fn empty_phase(
 ) -> ActivityPhase {
     let away = |place: [f64; 3]| fingers.middle.distance(place.into());
     match state.phase() {
-        ActivityPhase::Show if fingers.points.is_some() || away(around.task.scene.handover) < AT_HANDOVER.1 => {
+        ActivityPhase::Show
+            if fingers.points.is_some() || away(around.task.scene.handover) < AT_HANDOVER.1 =>
+        {
             ActivityPhase::Show
         }
         ActivityPhase::Withdraw if state.live.moves() || away(state.live.opened_at) < WITHDRAWN => {

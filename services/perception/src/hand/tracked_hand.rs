@@ -151,7 +151,8 @@ impl TrackedHand {
             if plausible && point.confidence > BELIEVED {
                 self.keypoint[index] = point.position;
                 self.found[index] = view.captured_cycle.saturating_add(1);
-                let place = if index == KeypointName::MiddleTip as usize { fingertip(view) } else { point.position };
+                let place =
+                    if index == KeypointName::MiddleTip as usize { fingertip(view) } else { point.position };
                 for (joint, name) in self.joints.iter_mut().zip(JOINTS) {
                     if name as usize == index {
                         joint.observe(place.into(), view.captured_cycle);
