@@ -57,6 +57,7 @@ fn task() -> Task {
         from: Agent::Person,
         side,
         answer: Some(answer.into()), // the robot's action that complements it
+        pointing: false,
         says: Vec::new(),
     };
     let subgoal = |name: &str, side, x, steadied| Subgoal {

@@ -233,8 +233,9 @@ impl Player {
 
     fn requests_and_inserts(&mut self, kind: &str, name: &str) {
         let handover = self.handover();
-        self.browser.click("gesture-0");
-        self.go(handover - DVec2::new(0.10, 0.0));
+        let asked = wait_within(PATIENCE, kind, || self.part(kind, handover, 0));
+        self.browser.click("gesture-pointing");
+        self.go(asked.truncate());
         let is_near = |part: DVec3| part.truncate().distance(handover) < 0.05;
         let is_given = self.sees(PATIENCE, |player| player.part(kind, handover, 1).is_some_and(is_near));
         assert!(is_given, "the robot does not give the {kind}: {}", self.state());

@@ -6,7 +6,7 @@ const STEPS = [
   ["Your hand", "Move the pointer over the table, or use the arrow keys: your hand follows. Move it over one of your parts, on your side of the table.", ({ nearPart }) => nearPart],
   ["“I do it myself”", "A hand that comes from above says: I put this in myself. Press on a part of yours whose place is outlined, and keep pressed. Watch the mind: the robot should know before you have grasped.", ({ grasps }) => grasps > 0, "mind"],
   ["Carry it", "Keep pressed, go to the outlined place of the same colour, and let go. The robot holds the base steady for you.", ({ achieved }) => achieved > 0],
-  ["“Take this” and “give me”", "A hand from the side says: I hand it over. Choose “from the side”, press on a part that the robot needs, hold it over the middle. The open hand over the middle says: give me what I need.", ({ grasps, asks }) => grasps > 1 || asks],
+  ["“Take this” and “give me”", "A hand from the side says: I hand it over. Choose “from the side”, press on a part that the robot needs, hold it over the middle. The open hand over the middle says: give me what I need; a finger that points says which.", ({ grasps, asks }) => grasps > 1 || asks],
   ["Err, hide, ask", "Take what is not due, and the robot tells you. Hide your hand, and it makes do. Click anything in the mind, and it says why. The line of time below brings everything back. Now build as you like.", () => false],
 ];
 

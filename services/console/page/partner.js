@@ -92,9 +92,9 @@ export class Partner {
     this.buttons.mark();
   }
 
-  /** @param {number | null} index the gesture that is held out, or none */
-  gesture(index) {
-    this.hand.gesture = index;
+  /** @param {number | "pointing" | null} shown the gesture that is held out, pointing to where the pointer is, or neither */
+  gesture(shown) {
+    this.hand.gesture = shown;
     this.buttons.mark();
   }
 
@@ -132,6 +132,7 @@ export class Partner {
     }
     if (event.repeat) return;
     if (event.key === "g") this.buttons.hold(0, down);
+    if (event.key === "f") this.buttons.hold("pointing", down);
     if (!down) return;
     if (this.buttons.choose(Number(event.key) - 1)) return;
     if (event.key === "h") this.hide();
@@ -157,8 +158,10 @@ export class Partner {
     this.#go(Math.min(0.05, (now - this.told) / 1000));
     this.told = now;
     if (!this.plays || !this.present) return;
-    const { x, y, lift, pressed, grip, gesture } = this.hand;
+    const { x, y, lift, pressed, grip, gesture: shown } = this.hand;
+    const pointing = shown === "pointing";
+    const gesture = pointing ? null : shown;
     this.scene.pointer = { at: [x, y, this.scene.handPlane + lift], closes: pressed };
-    this.connection.send({ pointer: { x, y, lift, pressed, grip, gesture } });
+    this.connection.send({ pointer: { x, y, lift, pressed, grip, gesture, pointing } });
   }
 }

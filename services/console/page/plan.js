@@ -17,7 +17,9 @@ export class Plan {
       const part = workspace === "person" ? "a part of yours" : "a part of the robot's";
       return grip ? `taken from ${grip === "top" ? "above" : `the ${grip}`}, ${part}: ${leads_to}` : `${gesture}, over the middle of the table, for ${part}: ${leads_to}`;
     };
-    document.getElementById("grasps").replaceChildren(...hello.task.grasps.map((grasp) => element("li", words(grasp))));
+    const lines = hello.task.grasps.map(words);
+    if (hello.task.pointing) lines.push(`a finger that points at a part of the ${hello.task.pointing.workspace}'s: ${hello.task.pointing.leads_to}`);
+    document.getElementById("grasps").replaceChildren(...lines.map((line) => element("li", line)));
   }
 
   /** Takes in which subgoals stand as achieved. */

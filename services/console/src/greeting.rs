@@ -106,6 +106,9 @@ fn of_task(task: &Task) -> Value {
         "actions": task.actions.iter().map(|action| &action.name).collect::<Vec<_>>(),
         "grips": task.grips.iter().map(|grip| postures(&grip.name, grip.pitch)).collect::<Vec<_>>(),
         "gestures": task.gestures.iter().map(|gesture| postures(&gesture.name, gesture.pitch)).collect::<Vec<_>>(),
+        "pointing": task.chains.iter().find(|chain| chain.pointing).map(|chain| json!({
+            "workspace": agent(chain.from), "leads_to": chain.name
+        })),
         "grasps": grasps(task),
         "phrases": phrases(task),
         "scene": {

@@ -21,4 +21,7 @@ pub struct Pointer {
     /// The gesture that the open hand shows, held out where it is: index in the task's list.
     #[serde(default)]
     pub gesture: Option<usize>,
+    /// Whether the hand stays back and points there with its index finger.
+    #[serde(default)]
+    pub pointing: bool,
 }

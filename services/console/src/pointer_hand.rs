@@ -1,5 +1,6 @@
 use crate::{Pointer, Surroundings, Thing};
 use coact_joint_task::Task;
+use coact_messages::KeypointName;
 use coact_person::{FINGERS, HandModel};
 use glam::{DVec2, DVec3};
 
@@ -39,6 +40,9 @@ struct Motion {
     pitch: f64,
     /// Thumb to index, m.
     aperture: f64,
+    /// How far the index finger is stretched out alone, 0 to 1, and what it points at, m.
+    stretched: f64,
+    aim: DVec3,
 }
 
 /// Where the hand is to be.
@@ -47,6 +51,8 @@ struct Goal {
     centre: DVec3,
     pitch: f64,
     aperture: f64,
+    /// What the index finger is to point at, m.
+    points_at: Option<DVec3>,
 }
 
 /// How closely the hand follows, 1/s: 0.1 s behind a pointer that moves evenly. All values here are chosen by hand where nothing else
@@ -75,6 +81,11 @@ const LIFTS_AFTER: f64 = 0.15;
 const RELAXED: f64 = 0.06;
 const CLOSED: f64 = 0.02;
 const SHOWN: f64 = 0.10;
+/// A hand that points is so far from the shoulder, sideways, m, and so high above the table, m: the arm nearly stretched.
+const POINTS_FROM: f64 = 0.52;
+const POINTS_ABOVE: f64 = 0.28;
+/// A finger is stretched out or folded within this time, s.
+const STRETCHES_IN: f64 = 0.25;
 /// A hand so near to where it rests lies down, m.
 const AT_REST: f64 = 0.08;
 /// Highest lift, m.
@@ -102,12 +113,24 @@ impl PointerHand {
             velocity: DVec3::ZERO,
             pitch: rest.pitch,
             aperture: rest.aperture,
+            stretched: 0.0,
+            aim: DVec3::new(pointer.x, pointer.y, self.task.scene.table_height),
         };
         let mut motion = self.motion.unwrap_or_else(begins);
         motion.follow(&goal, dt);
         self.shape_fingers(pointer, &goal, &mut motion, dt);
         self.motion = Some(motion);
-        self.model.reaching(motion.centre, motion.pitch, motion.aperture)
+        self.keypoints(&motion)
+    }
+
+    /// The hand that grasps or rests, the hand that points, or one between them.
+    fn keypoints(&self, motion: &Motion) -> [DVec3; 9] {
+        let around = self.model.reaching(motion.centre, motion.pitch, motion.aperture);
+        if motion.stretched == 0.0 {
+            return around;
+        }
+        let pointing = self.model.pointing(around[KeypointName::Wrist as usize], motion.aim);
+        std::array::from_fn(|index| around[index].lerp(pointing[index], motion.stretched))
     }
 
     /// Who presses over a thing wants it; who lets go of the button lets go of it.
@@ -153,15 +176,19 @@ impl PointerHand {
         let pitch = self.task.grips.get(pointer.grip).map_or(rest.pitch, |grip| grip.pitch);
         if let Some(gesture) = pointer.gesture.and_then(|gesture| self.task.gestures.get(gesture)) {
             let centre = at.extend(scene.handover[2] + lift);
-            return Goal { centre, pitch: gesture.pitch, aperture: SHOWN };
+            return Goal { centre, pitch: gesture.pitch, aperture: SHOWN, points_at: None };
+        }
+        if pointer.pointing {
+            let near = around.nearest(at).map_or(at.extend(scene.table_height), |(thing, _)| thing.centre);
+            return self.pointing_at(near, lift);
         }
         if let Some(Held { kind, at: taken, closed }) = self.held {
             let carried = || self.carried_to(kind, at, around) + lift * DVec3::Z;
             let centre = if closed < LIFTS_AFTER { taken } else { carried() };
-            return Goal { centre, pitch, aperture: self.around(kind) };
+            return Goal { centre, pitch, aperture: self.around(kind), points_at: None };
         }
         if !pointer.pressed && at.distance(resting.truncate()) < AT_REST {
-            return Goal { centre: resting, pitch: rest.pitch, aperture: rest.aperture };
+            return Goal { centre: resting, pitch: rest.pitch, aperture: rest.aperture, points_at: None };
         }
         let hover = scene.table_height + HOVERS;
         match around.nearest(at) {
@@ -169,10 +196,20 @@ impl PointerHand {
                 let down = ((NEAR_THING - away) / (NEAR_THING - AT_THING)).clamp(0.0, 1.0);
                 let centre = if away < AT_THING { thing.centre.truncate() } else { at };
                 let height = hover.max(thing.centre.z) * (1.0 - down) + thing.centre.z * down;
-                Goal { centre: centre.extend(height + lift), pitch, aperture: opening(thing.width) }
+                let centre = centre.extend(height + lift);
+                Goal { centre, pitch, aperture: opening(thing.width), points_at: None }
             }
-            None => Goal { centre: at.extend(hover + lift), pitch, aperture: RELAXED },
+            None => Goal { centre: at.extend(hover + lift), pitch, aperture: RELAXED, points_at: None },
         }
+    }
+
+    /// A hand that stays back, on the line from the shoulder to what it points at.
+    fn pointing_at(&self, place: DVec3, lift: f64) -> Goal {
+        let (shoulder, scene) = (DVec3::from(self.task.scene.person_shoulder), &self.task.scene);
+        let ahead = (place - shoulder).truncate().normalize_or(DVec2::X);
+        let centre = shoulder.truncate() + POINTS_FROM * ahead;
+        let centre = centre.extend(scene.table_height + POINTS_ABOVE + lift);
+        Goal { centre, pitch: 0.0, aperture: RELAXED, points_at: Some(place) }
     }
 
     /// Where a hand goes that carries a part of `kind` and points at `at`: over the table, or to a place that is near.
@@ -211,6 +248,11 @@ impl Motion {
         self.velocity += wanted.clamp_length_max(MOST_ACCELERATION) * dt;
         self.velocity = self.velocity.clamp_length_max(MOST_SPEED);
         self.centre += self.velocity * dt;
+        let stretched = if goal.points_at.is_some() { 1.0 } else { 0.0 };
+        self.stretched += (stretched - self.stretched).clamp(-dt / STRETCHES_IN, dt / STRETCHES_IN);
+        if let Some(place) = goal.points_at {
+            self.aim += (place - self.aim).clamp_length_max(MOST_SPEED * dt);
+        }
         let turn = TURNING * dt;
         self.pitch += (goal.pitch - self.pitch).clamp(-turn, turn);
     }
@@ -230,7 +272,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use bytemuck::Zeroable;
-    use coact_messages::{HandPoints, KeypointName, Plausible};
+    use coact_messages::{HandPoints, Plausible};
     use std::path::Path;
 
     const FRAME: f64 = 1.0 / 60.0;
@@ -249,7 +291,7 @@ mod tests {
     }
 
     fn pointer(at: DVec3, pressed: bool) -> Pointer {
-        Pointer { x: at.x, y: at.y, lift: 0.0, pressed, grip: 0, gesture: None }
+        Pointer { x: at.x, y: at.y, lift: 0.0, pressed, grip: 0, gesture: None, pointing: false }
     }
 
     /// Follows the pointer for a second, and checks in each frame that an arm can do this.
@@ -321,6 +363,27 @@ mod tests {
         assert!(hand.held.is_some() && aperture(&on_the_way) > RELAXED - 0.01);
         let there = second(&mut hand, &pointer(far, true), &around);
         assert!((aperture(&there) - thing.width - FINGERS).abs() < 0.001);
+    }
+
+    #[test]
+    fn a_hand_that_points_stays_back_and_its_finger_alone_is_on_the_line_to_the_thing() {
+        let task = task();
+        let mut hand = PointerHand::new(&task);
+        let nut = DVec3::new(-0.36, 0.52, 0.81);
+        let around = Surroundings {
+            things: vec![Thing { kind: 1, centre: nut, width: task.kinds[1].width, seen: 0 }],
+            ..Surroundings::default()
+        };
+        let points = second(&mut hand, &Pointer { pointing: true, ..pointer(nut, false) }, &around);
+        let at = |name: KeypointName| points[name as usize];
+        let finger = at(KeypointName::IndexTip) - at(KeypointName::IndexKnuckle);
+        assert!(finger.angle_between(nut - at(KeypointName::IndexTip)) < 0.01);
+        let reach = |name: KeypointName| at(name).distance(at(KeypointName::Wrist));
+        assert!(reach(KeypointName::IndexTip) > reach(KeypointName::MiddleTip) + 0.05);
+        assert!(at(KeypointName::IndexTip).distance(nut) > 0.3, "it stays on the person's side");
+        let relaxed =
+            second(&mut hand, &pointer(DVec3::new(-0.9, 0.2, 0.0), false), &Surroundings::default());
+        assert!((aperture(&relaxed) - RELAXED).abs() < 0.002);
     }
 
     #[test]

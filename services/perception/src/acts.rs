@@ -3,9 +3,10 @@ use crate::gestures::Gestures;
 use crate::grasps::Grasps;
 use crate::objects::TaskPlaces;
 use crate::perception_state::PerceptionState;
+use crate::pointing::Pointing;
 use crate::present_movement::PresentMovement;
 use crate::preshape::Classifier;
-use coact_joint_task::{Act, Task};
+use coact_joint_task::{Act, Agent, Task};
 use coact_messages::{MAX_ACTS, Percept};
 use coact_period::cycles;
 use nalgebra::Vector3;
@@ -39,6 +40,8 @@ const RESTING_SPEED: (f64, f64) = (0.10, 0.25);
 #[derive(Debug, Clone)]
 pub(crate) struct Acts {
     acts: Vec<Act>,
+    /// Of each chain: its kind of part, and who has it.
+    about: Vec<(usize, Agent)>,
     rest: Vector3<f64>,
     grasps: Grasps,
     gestures: Gestures,
@@ -48,6 +51,7 @@ impl Acts {
     pub fn new(task: &Task) -> Self {
         Self {
             acts: task.acts.clone(),
+            about: task.chains.iter().map(|chain| (chain.kind, chain.from)).collect(),
             rest: task.scene.person_rest.into(),
             grasps: Grasps::new(task),
             gestures: Gestures::new(task),
@@ -76,6 +80,7 @@ impl Acts {
         let resting = (1.0 - held) * self.resting(tick, state);
         state.unseen = if hidden || state.hand.is_tracked(tick) { 0 } else { state.unseen + 1 };
         state.dwell = if resting > 0.5 || state.unseen > UNSEEN { state.dwell + 1 } else { 0 };
+        let pointing = Pointing::now(tick, state, out);
         let reaches = movement.is_some_and(|movement| movement.phase.is_some());
         for (index, act) in self.acts.iter().enumerate().take(MAX_ACTS) {
             let (target, (rise, fall)) = match *act {
@@ -83,6 +88,10 @@ impl Acts {
                 Act::Idle => ((state.dwell as f64 / LONG).min(1.0), REST),
                 Act::Hidden => (f64::from(u8::from(hidden)), HIDDEN),
                 Act::Word(_) => (heard.map_or(0.0, |heard| heard[index]), WORD),
+                Act::Point(chain) => {
+                    let (kind, owner) = self.about[chain];
+                    (pointing.map_or(0.0, |pointing| pointing.at(kind, owner, state, places)), GESTURE)
+                }
                 Act::Reach => (f64::from(u8::from(reaches)), REACH),
                 Act::Gesture(gesture) => {
                     (self.gestures.evidence(gesture, tick, movement.as_ref(), state, out), GESTURE)

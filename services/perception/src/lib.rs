@@ -29,6 +29,7 @@ mod occlusion;
 mod perception;
 mod perception_state;
 mod plausible_cycle;
+mod pointing;
 mod present_movement;
 mod preshape;
 mod words;

@@ -3,6 +3,7 @@
 
 mod support;
 use coact_joint_task::Act;
+use coact_messages::{Keypoint, KeypointName};
 use support::{Hand, Stage, resting};
 
 const TOP: usize = 0;
@@ -136,4 +137,57 @@ fn passing_through_closing_and_holding_a_part_out_are_no_gesture() {
     stage.run(800, |_, _| {});
     let beyond = Hand { centre: [-0.64, -0.35, 1.04], ..stage.hand };
     stage.move_to(beyond, 500, |stage| assert!(stage.act(Act::Gesture(0)) < 0.4, "passing through"));
+}
+
+/// A hand there, whose index finger is stretched out towards a place, and whose middle finger is folded.
+fn pointing(stage: &mut Stage, centre: [f64; 3], at: [f64; 3]) {
+    stage.hand = Hand { centre, pitch: 0.0, aperture: 0.05 };
+    let knuckle: [f64; 3] = [centre[0] - 0.06, centre[1] + 0.025, centre[2]];
+    let way: [f64; 3] = std::array::from_fn(|axis| at[axis] - knuckle[axis]);
+    let length = way.iter().map(|value| value * value).sum::<f64>().sqrt();
+    let tip = std::array::from_fn(|axis| knuckle[axis] + 0.095 * way[axis] / length);
+    let folded = [centre[0] - 0.09, centre[1], centre[2] - 0.02];
+    let seen = |position| Keypoint { position, confidence: 0.9 };
+    stage.wrong = vec![(KeypointName::IndexTip, seen(tip)), (KeypointName::MiddleTip, seen(folded))];
+}
+
+#[test]
+fn a_finger_that_points_is_evidence_for_the_part_that_it_points_at() {
+    for name in ["nut", "column 3", "top floor"] {
+        let mut stage = Stage::new();
+        let [x, y, z] = stage.things[stage.part(name)].position;
+        pointing(&mut stage, [-0.75, 0.45, 1.1], [x, y, z + 0.02]);
+        stage.run(500, |_, _| {});
+        let kind = stage.kind(name);
+        let points = |stage: &Stage, chosen: bool| {
+            let acts = stage.task.acts.iter().enumerate().filter_map(|(index, act)| match act {
+                Act::Point(chain) => Some((stage.task.chains[*chain].kind, stage.percept.act[index])),
+                _ => None,
+            });
+            acts.filter(|(own, _)| (*own == kind) == chosen).map(|(_, evidence)| evidence).fold(0.0, f64::max)
+        };
+        assert!(points(&stage, true) > 0.7, "{name}: {:.2}", points(&stage, true));
+        assert!(points(&stage, false) < 0.3, "{name}: {:.2} for another one", points(&stage, false));
+        assert!(stage.act(Act::Gesture(0)) < 0.3 && stage.rival(Act::Rest) < 0.3);
+    }
+}
+
+#[test]
+fn a_hand_that_passes_and_a_finger_that_points_at_nothing_are_no_pointing() {
+    let none = |stage: &Stage| {
+        let acts = stage.task.acts.iter().zip(&stage.percept.act);
+        acts.filter(|(act, _)| matches!(act, Act::Point(_))).all(|(_, evidence)| *evidence < 0.2)
+    };
+    let mut stage = Stage::new();
+    pointing(&mut stage, [-0.75, 0.45, 1.1], [-0.75, 1.5, 1.1]);
+    stage.run(500, |_, _| {});
+    assert!(none(&stage), "the finger points at nothing");
+
+    let mut stage = Stage::new();
+    let [x, y, z] = stage.things[stage.part("nut")].position;
+    stage.run(500, |stage, time| {
+        pointing(stage, [-0.75, 0.1 + 0.8e-3 * time as f64, 1.1], [x, y, z]);
+        // The hand was put there: its velocity is known after some frames.
+        assert!(time < 200 || none(stage), "the hand goes past, {time} ms");
+    });
 }

@@ -28,6 +28,20 @@ fn a_resting_arm_is_where_the_tracker_shows_it() {
 }
 
 #[test]
+fn the_arm_ends_at_the_tip_of_the_longest_finger() {
+    let mut stage = Stage::new();
+    let [x, y, z] = shown(&stage, KeypointName::MiddleTip);
+    let seen = |position| Keypoint { position, confidence: 0.9 };
+    let stretched = [x + 0.05, y + 0.02, z];
+    stage.wrong = vec![(KeypointName::IndexTip, seen(stretched))];
+    stage.run(300, |_, _| {});
+    assert!(distance(&stage.percept.arm.fingertip, stretched) < 2e-3);
+    stage.wrong = vec![(KeypointName::IndexTip, Keypoint { position: stretched, confidence: 0.0 })];
+    stage.run(300, |_, _| {});
+    assert!(distance(&stage.percept.arm.fingertip, [x, y, z]) < 2e-3, "a finger that is not found is none");
+}
+
+#[test]
 fn a_moving_arm_is_where_it_is_now_and_not_where_the_last_frame_showed_it() {
     let mut stage = Stage::new();
     let (wheel, mut worst) = (stage.part("wheel"), [0.0_f64; 2]);

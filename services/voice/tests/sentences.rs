@@ -24,7 +24,8 @@ const LAYERS: [LayerKind; 5] = [
 
 fn chain(name: &str, answer: &str) -> Chain {
     let (act, side) = (Act::Grasp { grip: 0, kind: 0 }, Agent::Person);
-    Chain { name: name.into(), act, kind: 0, from: side, side, answer: Some(answer.into()), says: Vec::new() }
+    let (name, answer) = (name.into(), Some(answer.into()));
+    Chain { name, act, kind: 0, from: side, side, answer, pointing: false, says: Vec::new() }
 }
 
 fn subgoal(name: &str) -> Subgoal {

@@ -11,6 +11,8 @@ pub enum Act {
     Hidden,
     /// The person says what a chain is for ("give me the wheel"): index into `Task::chains`.
     Word(usize),
+    /// The hand points at a part of the kind that a chain is about: index into `Task::chains`.
+    Point(usize),
     /// The empty hand shows a gesture: index into `Task::gestures`.
     Gesture(usize),
     /// The hand preshapes for, grasps or holds a part of `kind` with `grip`.

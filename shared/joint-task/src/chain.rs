@@ -15,6 +15,8 @@ pub struct Chain {
     pub side: Agent,
     /// Name of the robot's action that complements it, if one does: with the chain's subgoal it names an action.
     pub answer: Option<String>,
+    /// Whether the person may point at the part instead.
+    pub pointing: bool,
     /// Phrases by which the person says that this is meant, in lower case; none: it is not spoken of.
     pub says: Vec<String>,
 }

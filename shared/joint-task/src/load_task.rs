@@ -45,7 +45,7 @@ impl TaskReader<'_> {
         let gestures = self.gestures()?;
         let chains = self.chains(&kinds)?;
         let acts = acts(grips.len(), gestures.len(), &chains, kinds.len());
-        let what = "observable acts (grips x kinds + gestures + spoken chains x kinds + 4)";
+        let what = "observable acts (grips x kinds + gestures + chains that are spoken of x kinds + those that are pointed at x kinds + 4)";
         self.within("grip", acts.len(), MAX_ACTS, what)?;
         let mut hash = DefaultHasher::new();
         hash.write(self.source.text().as_bytes());

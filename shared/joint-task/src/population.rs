@@ -82,16 +82,18 @@ pub(crate) fn acts(task: &Task) -> Vec<Population> {
             Act::Reach => of(Role::Reach),
             Act::Hidden => of(Role::Hidden),
             Act::Gesture(gesture) => Population { gesture: Some(gesture), ..of(Role::Gesture) },
-            Act::Word(chain) => Population {
-                kind: Some(task.chains[chain].kind),
-                chain: Some(task.chains[chain].name.clone()),
-                chain_index: Some(chain),
-                ..of(Role::Word)
-            },
+            Act::Word(chain) => of_chain(of(Role::Word), task, chain),
+            Act::Point(chain) => of_chain(of(Role::Point), task, chain),
             Act::Grasp { grip, kind } => Population { grip: Some(grip), kind: Some(kind), ..of(Role::Grasp) },
         }
     };
     task.acts.iter().enumerate().map(act).collect()
+}
+
+/// An act that names a chain.
+fn of_chain(act: Population, task: &Task, chain: usize) -> Population {
+    let Chain { kind, ref name, .. } = task.chains[chain];
+    Population { kind: Some(kind), chain: Some(name.clone()), chain_index: Some(chain), ..act }
 }
 
 pub(crate) fn objects(task: &Task, workspace: Agent) -> Vec<Population> {
@@ -141,7 +143,9 @@ fn chains(task: &Task) -> Vec<Population> {
         let (role, grip, gesture) = match chain.act {
             Act::Grasp { grip, .. } => (Role::Grip, Some(grip), None),
             Act::Gesture(gesture) => (Role::Gesture, None, Some(gesture)),
-            Act::Rest | Act::Idle | Act::Reach | Act::Hidden | Act::Word(_) => (Role::Movement, None, None),
+            Act::Rest | Act::Idle | Act::Reach | Act::Hidden | Act::Word(_) | Act::Point(_) => {
+                (Role::Movement, None, None)
+            }
         };
         Population {
             grip,

@@ -46,7 +46,7 @@ pub enum Role {
     Give,
     /// Action of [`ActionType::Steady`].
     Steady,
-    /// Action of [`ActionType::Point`].
+    /// Act: the hand points at a part. Action of [`ActionType::Point`].
     Point,
     /// Action of [`ActionType::Speak`].
     Speak,

@@ -47,13 +47,17 @@ impl Task {
             Act::Idle => "idle".into(),
             Act::Reach => "reach".into(),
             Act::Hidden => "reach out of sight".into(),
-            Act::Word(chain) => {
-                let chain = &self.chains[chain];
-                format!("says: {}: {}", chain.name, self.kinds[chain.kind].name)
-            }
+            Act::Word(chain) => format!("says: {}", self.chain_name(chain)),
+            Act::Point(chain) => format!("points: {}", self.chain_name(chain)),
             Act::Gesture(gesture) => self.gestures[gesture].name.clone(),
             Act::Grasp { grip, kind } => format!("{} grip: {}", self.grips[grip].name, self.kinds[kind].name),
         }
+    }
+
+    /// A chain and its kind of part, in words.
+    fn chain_name(&self, chain: usize) -> String {
+        let Chain { ref name, kind, .. } = self.chains[chain];
+        format!("{name}: {}", self.kinds[kind].name)
     }
 
     /// The subgoal that `chain` serves: of its kind and side; if its kind is needed on the other side only, that one.

@@ -90,6 +90,8 @@ pub(crate) struct ChainEntry {
     pub side: Agent,
     pub answer: Option<Name>,
     #[serde(default)]
+    pub pointing: bool,
+    #[serde(default)]
     pub says: Vec<Name>,
 }
 

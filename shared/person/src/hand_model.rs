@@ -9,6 +9,11 @@ use glam::DVec3;
 const UPPER_ARM: f64 = 0.31;
 /// Elbow to wrist of the same adult, m; recordings are scaled to this length.
 pub(crate) const FOREARM: f64 = 0.26;
+/// How far the index finger is beside the line from the wrist to the middle finger, and how long it is, m; and how far the tips of folded
+/// fingers are from the wrist: of the same adult's hand.
+const INDEX_ASIDE: f64 = 0.025;
+const INDEX_LENGTH: f64 = 0.095;
+const FOLDED: f64 = 0.07;
 /// Pitch of the hand that lies on the table, rad: 20 degrees down. Chosen by hand.
 const REST_PITCH: f64 = -0.35;
 
@@ -45,10 +50,24 @@ impl HandModel {
         self.keypoints(&self.grasping(centre, pitch, aperture, (GRASPING, 0.0)))
     }
 
+    /// The keypoints of an arm whose index finger points at a place (m), with the wrist there (m); the other fingers are folded.
+    pub fn pointing(&self, wrist: DVec3, at: DVec3) -> [DVec3; 9] {
+        let line = at - wrist;
+        let thumb = DVec3::new(-line.y, line.x, 0.0).normalize_or(DVec3::Y);
+        let ahead = (line - INDEX_ASIDE * thumb).normalize_or(DVec3::X);
+        let folded = HandPose { aperture: 0.03, extension: FOLDED, ..HandPose::default() };
+        let mut points = hand_points(wrist, ahead, thumb, &folded);
+        points[KeypointName::IndexTip as usize] =
+            points[KeypointName::IndexKnuckle as usize] + INDEX_LENGTH * ahead;
+        points[KeypointName::Shoulder as usize] = self.shoulder;
+        points[KeypointName::Elbow as usize] = self.elbow(wrist, thumb);
+        points
+    }
+
     /// The pose that comes nearest to these keypoints.
     pub(crate) fn pose_of(&self, points: &[DVec3; 9]) -> HandPose {
         let at = |name: KeypointName| points[name as usize];
-        let (wrist, Fingers { middle, aperture, pitch }) = (at(KeypointName::Wrist), Fingers::of(points));
+        let (wrist, Fingers { middle, aperture, pitch, .. }) = (at(KeypointName::Wrist), Fingers::of(points));
         let ahead = at(KeypointName::IndexKnuckle).midpoint(at(KeypointName::LittleKnuckle)) - wrist;
         let turn = ahead.y.atan2(ahead.x) - self.facing;
         let heading = turn.sin().atan2(turn.cos());
@@ -139,7 +158,7 @@ pub(crate) fn hand_points(wrist: DVec3, ahead: DVec3, thumb: DVec3, pose: &HandP
     points[KeypointName::Wrist as usize] = wrist;
     points[KeypointName::PalmBase as usize] = on_hand(0.020, 0.020);
     points[KeypointName::ThumbTip as usize] = on_hand(pose.extension, thumb_tip);
-    points[KeypointName::IndexKnuckle as usize] = on_hand(0.092, 0.025);
+    points[KeypointName::IndexKnuckle as usize] = on_hand(0.092, INDEX_ASIDE);
     points[KeypointName::IndexTip as usize] = on_hand(pose.extension, index_tip);
     points[KeypointName::MiddleTip as usize] =
         on_hand(pose.extension + 0.012, index_tip - 0.08 * pose.aperture);

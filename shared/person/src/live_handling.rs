@@ -86,9 +86,8 @@ impl Person {
         }
         if near.is_none() {
             state.between = Slot::EMPTY;
-            if is_held_out(state, around, fingers)
-                && state.phase() != ActivityPhase::Show
-                && let Some(request) = around.meaning_of_gesture(fingers.pitch)
+            if state.phase() != ActivityPhase::Show
+                && let Some(request) = self.request(state, around, fingers)
             {
                 begin(state, around, request);
                 state.ended = around.tick;
@@ -96,6 +95,18 @@ impl Person {
             }
         }
         turn_to(empty_phase(state, around, fingers, near.is_some()), state, around);
+    }
+
+    /// What the empty hand asks for that is held still: by a finger that points, or by an open hand.
+    fn request(&self, state: &PersonState, around: &Surroundings, fingers: &Fingers) -> Option<Intention> {
+        if state.live.moves() {
+            return None;
+        }
+        match fingers.points {
+            Some(finger) => around.meaning_of_pointing(finger),
+            None if is_held_out(around, fingers) => around.meaning_of_gesture(fingers.pitch),
+            None => None,
+        }
     }
 
     /// The hand that has a part, alone or together with the robot.
@@ -172,12 +183,9 @@ fn turn_to(phase: ActivityPhase, state: &mut PersonState, around: &Surroundings)
 }
 
 /// Whether the open hand is held out where parts change hands, and nothing is there to be taken.
-fn is_held_out(state: &PersonState, around: &Surroundings, fingers: &Fingers) -> bool {
+fn is_held_out(around: &Surroundings, fingers: &Fingers) -> bool {
     let away = fingers.middle.distance(around.task.scene.handover.into());
-    !state.live.moves()
-        && fingers.aperture > HELD_OUT
-        && away < AT_HANDOVER.0
-        && around.robot.giving_since == 0
+    fingers.aperture > HELD_OUT && away < AT_HANDOVER.0 && around.robot.giving_since == 0
 }
 
 /// What the empty hand is doing.
@@ -189,7 +197,11 @@ fn empty_phase(
 ) -> ActivityPhase {
     let away = |place: [f64; 3]| fingers.middle.distance(place.into());
     match state.phase() {
-        ActivityPhase::Show if away(around.task.scene.handover) < AT_HANDOVER.1 => ActivityPhase::Show,
+        ActivityPhase::Show
+            if fingers.points.is_some() || away(around.task.scene.handover) < AT_HANDOVER.1 =>
+        {
+            ActivityPhase::Show
+        }
         ActivityPhase::Withdraw if state.live.moves() || away(state.live.opened_at) < WITHDRAWN => {
             ActivityPhase::Withdraw
         }

@@ -3,6 +3,7 @@
 use crate::{Activity, Holder, Intention, Surroundings, Variation};
 use coact_joint_task::{Act, Agent};
 use coact_messages::PartnerError;
+use glam::DVec3;
 
 impl Surroundings<'_> {
     /// What it means that fingers have closed on a part, the hand at this pitch (rad): by the kind of part, by where it was and by whose
@@ -47,6 +48,25 @@ impl Surroundings<'_> {
         })
     }
 
+    /// What it means that a finger points from its tip (m) along this unit vector: the request for the robot's part that is nearest to that
+    /// line. None: no part is near it, or the task has no such request.
+    pub(crate) fn meaning_of_pointing(&self, (tip, along): (DVec3, DVec3)) -> Option<Intention> {
+        let chain_for = |part: &usize| {
+            let is_for = |chain: &usize| {
+                let own = &self.task.chains[*chain];
+                let has = own.from == Agent::Robot && self.parts.is(*part, Holder::Robot);
+                let lies = self.parts.is(*part, Holder::Nobody) && self.lies_with(own.from, *part);
+                own.pointing && own.kind == self.parts.kind(*part) && (has || lies)
+            };
+            (0..self.task.chains.len()).find(is_for)
+        };
+        let miss = |part: usize| (self.parts.centre(part, self.task) - tip).angle_between(along);
+        let asked = (0..self.task.parts.len()).filter_map(|part| Some((part, chain_for(&part)?, miss(part))));
+        let (part, chain, _) =
+            asked.filter(|(_, _, miss)| *miss < POINTED_AT).min_by(|one, other| one.2.total_cmp(&other.2))?;
+        Some(self.intention(chain, Activity::Request, Some(part)))
+    }
+
     fn intention(&self, chain: usize, activity: Activity, part: Option<usize>) -> Intention {
         Intention { activity, chain, subgoal: self.goal(chain), part, variation: Variation::default() }
     }
@@ -66,5 +86,7 @@ impl Surroundings<'_> {
     }
 }
 
+/// How far from a finger's line something may be that it points at, rad: 12 degrees. Chosen by hand.
+const POINTED_AT: f64 = 0.21;
 /// How far the hand's pitch may be from that of a gesture, rad: 30 degrees. Chosen by hand.
 const GESTURE_PITCH: f64 = 0.52;

@@ -35,6 +35,8 @@ struct Table {
     tick: u64,
     /// Middle between the finger tips (m), pitch (rad), aperture (m).
     hand: (DVec3, f64, f64),
+    /// What the index finger points at instead, m.
+    points_at: Option<DVec3>,
 }
 
 impl Table {
@@ -53,7 +55,8 @@ impl Table {
         let mut state = PersonState::zeroed();
         person.start(0, &mut state);
         let hand = (model.centre(&model.rest()), -0.35, 0.03);
-        Self { task, parts, robot: RobotHandView::default(), model, person, state, tick: 0, hand }
+        let robot = RobotHandView::default();
+        Self { task, parts, robot, model, person, state, tick: 0, hand, points_at: None }
     }
 
     fn part(&self, kind: &str) -> usize {
@@ -76,7 +79,11 @@ impl Table {
     fn step(&mut self, told: bool) {
         self.tick += 1;
         if told && self.tick.is_multiple_of(FRAME) {
-            let points = self.model.reaching(self.hand.0, self.hand.1, self.hand.2).map(|point| point.into());
+            let points = match self.points_at {
+                Some(place) => self.model.pointing(self.hand.0, place),
+                None => self.model.reaching(self.hand.0, self.hand.1, self.hand.2),
+            };
+            let points = points.map(|point| point.into());
             let mut message = HandPoints::zeroed();
             message.position = points;
             assert_eq!(message.check(), Ok(()));
@@ -269,6 +276,32 @@ fn a_part_is_held_out_to_the_robot_and_left_to_it() {
     assert_eq!(table.state.phase(), ActivityPhase::Give);
     table.go((handover, SIDE, table.hand.2 + 0.03), 100);
     assert!(table.is(wheel, Holder::Robot) && table.state.held == Slot::EMPTY);
+}
+
+#[test]
+fn a_finger_that_points_asks_for_that_part_of_the_robot_s_once() {
+    for kind in ["nut", "column 3", "top floor"] {
+        let mut table = Table::new();
+        table.stay(100);
+        let (part, rest) = (table.part(kind), table.hand);
+        table.go((DVec3::new(-0.85, 0.3, 1.08), 0.0, 0.05), 700);
+        table.points_at = Some(table.centre(part));
+        table.stay(900);
+        assert_eq!((table.state.phase(), table.state.actions), (ActivityPhase::Show, 1), "{kind}");
+        assert_eq!((table.state.part, table.state.activity()), (Slot::of(part), Activity::Request));
+        let chain = &table.task.chains[table.state.chain.get().unwrap()];
+        assert!(chain.pointing && table.task.kinds[chain.kind].name == kind);
+        table.points_at = None;
+        table.go(rest, 700);
+        table.stay(300);
+        assert_eq!((table.state.phase(), table.state.actions), (ActivityPhase::Rest, 1));
+    }
+    let mut table = Table::new();
+    table.stay(100);
+    table.go((DVec3::new(-0.85, 0.3, 1.08), 0.0, 0.05), 700);
+    table.points_at = Some(DVec3::new(-0.85, 1.5, 1.0));
+    table.stay(900);
+    assert_eq!(table.state.actions, 0, "nothing lies there");
 }
 
 #[test]

@@ -32,7 +32,8 @@ fn subgoal(name: &str, steadied: bool, after: Vec<usize>) -> Subgoal {
 fn chain(name: &str, answer: &str) -> Chain {
     let act = Act::Grasp { grip: 0, kind: 0 };
     let (from, side) = (Agent::Person, Agent::Person);
-    Chain { name: name.into(), act, kind: 0, from, side, answer: Some(answer.into()), says: Vec::new() }
+    let (name, answer) = (name.into(), Some(answer.into()));
+    Chain { name, act, kind: 0, from, side, answer, pointing: false, says: Vec::new() }
 }
 
 fn action(rule: &str, action_type: ActionType, subgoal: usize, name: &str) -> Action {

@@ -37,6 +37,9 @@ const PITCH_GAIN: f64 = 0.4;
 const PITCH_AHEAD: f64 = 0.08;
 /// Largest change of pitch that is foretold, rad. Chosen by hand.
 const MOST_PITCH_AHEAD: f64 = 0.5;
+/// By how much the index finger is longer than the middle one when it is stretched out alone, m: several times the tracker's scatter.
+/// Chosen by hand.
+const ALONE: f64 = 0.02;
 /// Keypoints of a frame.
 const KEYPOINTS: usize = 9;
 /// Difference in height, m, below which keypoints are those of a flat image: recordings of one camera have none.
@@ -64,6 +67,17 @@ const ALL: [KeypointName; KEYPOINTS] = [
     KeypointName::MiddleTip,
     KeypointName::LittleKnuckle,
 ];
+
+/// The tip of the finger that reaches farthest from the wrist, m: the middle one, unless the index is stretched out alone.
+fn fingertip(view: &HandView) -> [f64; 3] {
+    let [wrist, index, middle] = [KeypointName::Wrist, KeypointName::IndexTip, KeypointName::MiddleTip]
+        .map(|name| view.keypoints[name as usize]);
+    let reach = |tip: [f64; 3]| (Vector3::from(tip) - Vector3::from(wrist.position)).norm();
+    let known = wrist.confidence > BELIEVED && index.confidence > BELIEVED;
+    let plausible = index.position.iter().all(|value| value.abs() < FARTHEST);
+    let alone = known && plausible && reach(index.position) > reach(middle.position) + ALONE;
+    if alone { index.position } else { middle.position }
+}
 
 /// The tracked hand.
 #[repr(C)]
@@ -137,9 +151,11 @@ impl TrackedHand {
             if plausible && point.confidence > BELIEVED {
                 self.keypoint[index] = point.position;
                 self.found[index] = view.captured_cycle.saturating_add(1);
+                let place =
+                    if index == KeypointName::MiddleTip as usize { fingertip(view) } else { point.position };
                 for (joint, name) in self.joints.iter_mut().zip(JOINTS) {
                     if name as usize == index {
-                        joint.observe(point.position.into(), view.captured_cycle);
+                        joint.observe(place.into(), view.captured_cycle);
                     }
                 }
                 any = true;
@@ -222,6 +238,21 @@ impl TrackedHand {
     /// Distance of thumb and index tip, m.
     pub fn aperture(&self) -> f64 {
         (self.point(KeypointName::ThumbTip) - self.point(KeypointName::IndexTip)).norm()
+    }
+
+    /// Tip of the index finger, m, and the unit vector along it; `None` while they are not known.
+    pub fn index_finger(&self) -> Option<(Vector3<f64>, Vector3<f64>)> {
+        let (knuckle, tip) = (KeypointName::IndexKnuckle, KeypointName::IndexTip);
+        let known = self.is_known(knuckle) && self.is_known(tip);
+        let along = (self.point(tip) - self.point(knuckle)).try_normalize(f64::EPSILON);
+        along.filter(|_| known).map(|along| (self.point(tip), along))
+    }
+
+    /// By how much the tip of the index finger is farther from the wrist than that of the middle one, m.
+    pub fn index_beyond_middle(&self) -> f64 {
+        let shape = self.shape();
+        let from_wrist = |tip: [f64; 3]| (Vector3::from(tip) - Vector3::from(shape.wrist)).norm();
+        from_wrist(shape.index) - from_wrist(shape.middle)
     }
 
     /// Direction from wrist to the knuckles' middle against the table plane, rad; `None` while it cannot be seen,

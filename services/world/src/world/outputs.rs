@@ -71,7 +71,7 @@ impl World {
         truth.hidden = u32::from(phase != PartnerPhase::Idle && person.occluder().is_some());
     }
 
-    /// Shoulder, elbow, wrist and middle finger tip, as they are.
+    /// Shoulder, elbow, wrist and the tip of the longest finger, as they are.
     fn person_arm(&self) -> [[f64; 3]; 4] {
         let person = &self.simulation.person;
         if self.person.is_unknown(person, self.simulation.tick) {
@@ -81,7 +81,16 @@ impl World {
             Some(recorded) => recorded.map(|point| point.position),
             None => self.person.keypoints(person, self.simulation.tick).map(|point| point.to_array()),
         };
-        [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist, KeypointName::MiddleTip]
+        [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist, longest_finger(&points)]
             .map(|name| points[name as usize])
     }
+}
+
+/// The finger that reaches farthest from the wrist: the middle one, unless the index is stretched out alone.
+fn longest_finger(points: &[[f64; 3]; 9]) -> KeypointName {
+    let reach = |name: KeypointName| {
+        DVec3::from(points[name as usize]).distance(points[KeypointName::Wrist as usize].into())
+    };
+    let (index, middle) = (KeypointName::IndexTip, KeypointName::MiddleTip);
+    if reach(index) > reach(middle) { index } else { middle }
 }

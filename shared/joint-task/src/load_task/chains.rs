@@ -16,6 +16,7 @@ impl TaskReader<'_> {
                     from: entry.from,
                     side: entry.side,
                     answer: answer.clone(),
+                    pointing: entry.pointing,
                     says: self.phrases(index, entry, name)?,
                 });
             }
@@ -63,11 +64,13 @@ impl TaskReader<'_> {
 /// What can be observed of a person who knows so many grips and gestures.
 pub(super) fn acts(grips: usize, gestures: usize, chains: &[Chain], kinds: usize) -> Vec<Act> {
     let spoken = |chain: &usize| !chains[*chain].says.is_empty();
+    let pointed_at = |chain: &usize| chains[*chain].pointing;
     let grasps = (0..grips).flat_map(|grip| (0..kinds).map(move |kind| Act::Grasp { grip, kind }));
     [Act::Rest, Act::Idle, Act::Reach, Act::Hidden]
         .into_iter()
         .chain((0..gestures).map(Act::Gesture))
         .chain((0..chains.len()).filter(spoken).map(Act::Word))
+        .chain((0..chains.len()).filter(pointed_at).map(Act::Point))
         .chain(grasps)
         .collect()
 }
