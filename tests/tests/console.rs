@@ -2,6 +2,8 @@
 //! time, comes back after leaving the page, and looks at the recording. Where no browser is installed the test says so and ends.
 #![allow(clippy::unwrap_used)]
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use coact_joint_task::Task;
 use coact_pipeline::Layout;
 use coact_tests::{Browser, Course, EndedWithTest, Launched, alone, checkout, coact, wait_for, wait_within};
@@ -284,6 +286,12 @@ impl Player {
         self.wait_for("an explanation", "/stand/.test(document.getElementById('why').textContent)");
     }
 
+    /// Writes what the page shows to the documentation.
+    fn draws(&mut self, name: &str) {
+        let picture = STANDARD.decode(self.browser.picture()).unwrap();
+        std::fs::write(checkout().join("docs/console").join(format!("{name}.png")), picture).unwrap();
+    }
+
     /// The page shows the beginning of the run, then goes on with what is now.
     fn goes_back(&mut self) {
         self.browser.click("pause");
@@ -418,6 +426,45 @@ fn the_recorded_hand_comes_again(recording: &Path) {
     let told = &finished.summary().anticipation.events;
     let first = told.first().unwrap_or_else(|| panic!("the hand took nothing: {}", finished.stderr));
     assert_eq!((first.chain.as_str(), first.kind.as_str()), ("insert", "wheel"), "{told:?}");
+}
+
+/// The pictures of the documentation: each view, and what is seen of the past and at the end.
+#[test]
+#[ignore = "draws docs/console/*.png: cargo test --release --workspace --test console -- --ignored"]
+fn pictures_of_the_documentation() {
+    let _alone = alone();
+    let mut launched = Launched::start(&["--console", "--world", "kinematic"]);
+    let mut player = Player::new(browser_at(&mut launched).unwrap(), 2);
+    player.sit_down();
+    player.takes_and_inserts("wheel", "wheel on the person's side");
+    player.asks_why();
+    let handover = player.handover();
+    let asked = wait_within(PATIENCE, "nut", || player.part("nut", handover, 0));
+    player.browser.click("gesture-pointing");
+    player.go(asked.truncate());
+    std::thread::sleep(Duration::from_millis(900));
+    for scheme in ["dark", "light"] {
+        player.browser.prefer(scheme);
+        std::thread::sleep(Duration::from_millis(300));
+        player.draws(scheme);
+    }
+    player.browser.click("view-top");
+    for tab in ["plan", "machine"] {
+        player.browser.click(&format!("tab-{tab}"));
+        std::thread::sleep(Duration::from_millis(1000));
+        player.draws(tab);
+    }
+    player.browser.click("tab-mind");
+    player.browser.click("pause");
+    (0..3).for_each(|_| player.browser.click("before"));
+    std::thread::sleep(Duration::from_millis(500));
+    player.draws("past");
+    player.browser.click("live");
+    player.browser.value("coact.end()");
+    player.wait_for("the report", "coact.state().ended && !document.getElementById('report').hidden");
+    player.browser.click("tab-plan");
+    std::thread::sleep(Duration::from_millis(500));
+    player.draws("report");
 }
 
 #[test]
