@@ -45,6 +45,11 @@ impl Player {
         self.browser.click("guide-skip");
         self.at = self.rest();
         self.mouse("mouseMoved");
+        // The button of the finger that points, on and off again.
+        for shown in ["'pointing'", "null"] {
+            self.browser.click("gesture-pointing");
+            self.wait_for("the finger", &format!("coact.state().hand.gesture === {shown}"));
+        }
     }
 
     fn wait_for(&mut self, what: &str, expression: &str) {
@@ -241,9 +246,8 @@ impl Player {
 
     fn requests_and_inserts(&mut self, kind: &str, name: &str) {
         let handover = self.handover();
-        let asked = wait_within(PATIENCE, kind, || self.part(kind, handover, 0));
-        self.browser.click("gesture-pointing");
-        self.go(asked.truncate());
+        self.browser.click("gesture-0");
+        self.go(handover - DVec2::new(0.10, 0.0));
         let is_near = |part: DVec3| part.truncate().distance(handover) < 0.05;
         let is_given = self.sees(PATIENCE, |player| player.part(kind, handover, 1).is_some_and(is_near));
         assert!(is_given, "the robot does not give the {kind}: {}", self.state());
@@ -445,6 +449,7 @@ fn pictures_of_the_documentation() {
     let mut player = Player::new(browser_at(&mut launched).unwrap(), 2);
     player.sit_down();
     player.takes_and_inserts("wheel", "wheel on the person's side");
+    player.browser.click("tab-mind");
     player.asks_why();
     let handover = player.handover();
     let asked = wait_within(PATIENCE, "nut", || player.part("nut", handover, 0));
