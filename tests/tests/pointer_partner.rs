@@ -138,11 +138,16 @@ impl Player {
         self.parts().achieved() & (1 << goal) != 0
     }
 
+    /// The pointer goes to a part, some millimetres aside.
+    fn go_near(&mut self, part: usize) {
+        let aside = DVec2::from_angle(self.turn as f64) * 0.008;
+        self.go(self.centre(part).truncate() + aside);
+    }
+
     /// Points at a part, some millimetres aside, and presses. In a handover the robot has the part until it lets go of it.
     fn grasp(&mut self, part: usize, grip: usize) {
         (self.pointer.grip, self.pointer.gesture, self.pointer.pointing) = (grip, None, false);
-        let aside = DVec2::from_angle(self.turn as f64) * 0.008;
-        self.go(self.centre(part).truncate() + aside);
+        self.go_near(part);
         self.stay(100);
         self.pointer.pressed = true;
         self.wait_for("the part in the hand", |own| own.parts().is(part, Holder::Person));
@@ -165,11 +170,10 @@ impl Player {
         assert!(self.is_achieved(goal), "{} is not achieved", subgoal.name);
     }
 
-    /// The finger that points at a part, some millimetres aside.
+    /// The finger points at a part.
     fn points_at(&mut self, part: usize) {
         self.pointer.pointing = true;
-        let aside = DVec2::from_angle(self.turn as f64) * 0.008;
-        self.go(self.centre(part).truncate() + aside);
+        self.go_near(part);
     }
 
     /// The kind of part that the goal of the person is about that the robot infers.
