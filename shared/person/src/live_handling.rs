@@ -87,26 +87,14 @@ impl Person {
         if near.is_none() {
             state.between = Slot::EMPTY;
             if state.phase() != ActivityPhase::Show
-                && let Some(request) = self.request(state, around, fingers)
+                && let Some(asked) = request(state, around, fingers)
             {
-                begin(state, around, request);
+                begin(state, around, asked);
                 state.ended = around.tick;
                 return turn_to(ActivityPhase::Show, state, around);
             }
         }
         turn_to(empty_phase(state, around, fingers, near.is_some()), state, around);
-    }
-
-    /// What the empty hand asks for that is held still: by a finger that points, or by an open hand.
-    fn request(&self, state: &PersonState, around: &Surroundings, fingers: &Fingers) -> Option<Intention> {
-        if state.live.moves() {
-            return None;
-        }
-        match fingers.points {
-            Some(finger) => around.meaning_of_pointing(finger),
-            None if is_held_out(around, fingers) => around.meaning_of_gesture(fingers.pitch),
-            None => None,
-        }
     }
 
     /// The hand that has a part, alone or together with the robot.
@@ -180,6 +168,18 @@ fn turn_to(phase: ActivityPhase, state: &mut PersonState, around: &Surroundings)
         (state.chain, state.subgoal, state.part) = (Slot::EMPTY, Slot::EMPTY, Slot::EMPTY);
     }
     state.enter(phase, around.tick);
+}
+
+/// What the empty hand asks for that is held still: by a finger that points, or by an open hand.
+fn request(state: &PersonState, around: &Surroundings, fingers: &Fingers) -> Option<Intention> {
+    if state.live.moves() {
+        return None;
+    }
+    match fingers.points {
+        Some(finger) => around.meaning_of_pointing(finger),
+        None if is_held_out(around, fingers) => around.meaning_of_gesture(fingers.pitch),
+        None => None,
+    }
 }
 
 /// Whether the open hand is held out where parts change hands, and nothing is there to be taken.
