@@ -215,10 +215,12 @@ impl Approach<'_> {
             let beside = if is_handover { room } else { limits.protective_separation };
             let is_slow = || self.is_slower(hand, &there, beside, limits.contact_speed);
             let here = part.after(0.0);
-            // It may not go away first, and then come nearer to what is near. From somebody who is not seen nobody knows what leads away.
+            // It may not go away first, and then come nearer to what is near. From somebody who is not seen nobody knows what leads away,
+            // nor from a fast hand that may by then be on either side of it.
             let closes = || {
                 let mut since = [self.start, self.before].into_iter();
                 !part.is_seen
+                    || (part.is_fast && nearest < part.growth(ahead))
                     || since.any(|then| {
                         self.closes_on(then, hand, &there, room) || self.closes_on(then, hand, &here, kept)
                     })

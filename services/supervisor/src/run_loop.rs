@@ -57,7 +57,7 @@ pub(crate) struct RunLoop<'a> {
 
 /// A death wakes the supervisor at once, and so does a stop; everything else is looked at this often. A trade-off between how soon
 /// a hang is found and the supervisor's load.
-const POLL_INTERVAL: Duration = Duration::from_millis(2);
+const POLL_INTERVAL: Duration = Duration::from_millis(1);
 /// The same while a process starts, which waits for its checkpoint so long at most once it can take it, and while one is stopped or may
 /// sleep for ever, which is to be replaced. Chosen by hand.
 const POLL_CLOSELY: Duration = Duration::from_micros(500);

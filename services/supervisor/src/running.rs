@@ -112,13 +112,13 @@ impl Running {
         limit: Duration,
         watched: Duration,
     ) -> bool {
-        let within = watchdog::sleeps(limit);
-        let is_watched = core_goes_on && silence >= within / 2 && self.child.is_asleep();
+        let suspected = watchdog::suspected(limit);
+        let is_watched = core_goes_on && silence >= suspected && self.child.is_asleep();
         let computed = self.child.computed().filter(|_| is_watched);
         let same = self.asleep_since.filter(|(_, before)| computed == Some(*before));
         self.asleep_since = same.or(computed.map(|computed| (watched, computed)));
         let slept = self.asleep_since.map_or(Duration::ZERO, |(since, _)| watched.saturating_sub(since));
-        self.has_pulsed && slept >= within / 2
+        self.has_pulsed && slept >= watchdog::sleeps(limit) - suspected
     }
 
     /// Whether it may sleep for what never comes: the next looks tell.

@@ -9,7 +9,7 @@ pub(crate) struct WatchClock {
 }
 
 impl WatchClock {
-    /// The most that one look adds: twice the interval at which a running supervisor looks (2 ms).
+    /// The most that one look adds: four times the interval at which a running supervisor looks (1 ms).
     const LONGEST_STEP: Duration = Duration::from_millis(4);
 
     /// The supervisor looks at `now`, of a monotonic clock.

@@ -21,14 +21,14 @@ const COMPUTES: Duration = Duration::from_millis(10);
 /// How long one at least that is stopped. Chosen by hand: it has missed a cycle, and nothing but somebody else's signal lets it do
 /// another.
 const STOPPED: Duration = Duration::from_millis(1);
-/// How long one at least that sleeps while its core goes on. Chosen by hand: in half of it, in which it is seen not to have run at all, it
-/// would have been woken, for even one that skips a release sleeps for less than two periods.
-const SLEEPS: Duration = Duration::from_millis(5);
-/// They are killed after these parts of their limit. Chosen by hand: 10, 1 and 5 ms of the shipped table's 100. A table that is
+/// How long one at least that sleeps while its core goes on. Chosen by hand: for two thirds of it it is seen not to have run at all, and
+/// even one that skips a release sleeps for less than two periods.
+const SLEEPS: Duration = Duration::from_millis(3);
+/// They are killed after these parts of their limit. Chosen by hand: 10, 1 and 3 ms of the shipped table's 100. A table that is
 /// patient, because somebody looks into its processes with a debugger, stays so.
 const COMPUTES_PART: u32 = 10;
 const STOPPED_PART: u32 = 100;
-const SLEEPS_PART: u32 = 20;
+const SLEEPS_PART: u32 = 33;
 
 /// How long a process with this limit may be silent that computes without end.
 pub(crate) fn computes(limit: Duration) -> Duration {
@@ -43,6 +43,11 @@ pub(crate) fn stopped(limit: Duration) -> Duration {
 /// How long one that sleeps while its core goes on.
 pub(crate) fn sleeps(limit: Duration) -> Duration {
     (limit / SLEEPS_PART).max(SLEEPS).min(limit)
+}
+
+/// After which silence one is suspected to sleep for ever, whose limit this is. It is then seen not to run for the rest of the limit.
+pub(crate) fn suspected(limit: Duration) -> Duration {
+    sleeps(limit) / 3
 }
 
 /// Whether at least half of those that are watched on a core have lately sent pulses: then it runs what is due.
@@ -153,7 +158,7 @@ mod tests {
         let on = |core, ms| Silence { limit, core: Some(core), ..silent(ms) };
         let core_goes_on = |watched: &[Silence]| goes_on(Some(1), watched);
         assert!(
-            core_goes_on(&[on(1, 3), on(1, 1)]) && core_goes_on(&[on(1, 9), on(1, 9), on(1, 1), on(1, 2)])
+            core_goes_on(&[on(1, 3), on(1, 1)]) && core_goes_on(&[on(1, 9), on(1, 9), on(1, 1), on(1, 1)])
         );
         assert!(!core_goes_on(&[on(1, 5), on(1, 5), on(1, 1)]));
         assert!(!core_goes_on(&[on(1, 5), on(1, 5), on(0, 1), on(0, 1)]), "another core does");

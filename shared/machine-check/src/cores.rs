@@ -1,6 +1,6 @@
 //! The cores, and what else runs on them.
 
-use crate::root::{Root, contains};
+use crate::root::{Root, contains, mask_contains};
 use crate::{Finding, Level};
 use std::io::Read;
 
@@ -76,8 +76,8 @@ fn held_latency(root: &Root<'_>) -> Option<u64> {
     u64::try_from(i32::from_ne_bytes(bytes)).ok()
 }
 
-/// Whether a core of the chain is left alone by the scheduler and by interrupts.
-pub(crate) fn isolation(root: &Root<'_>, core: usize) -> [Finding; 2] {
+/// Whether a core of the chain is left alone by the scheduler, by interrupts and by the kernel's workers.
+pub(crate) fn isolation(root: &Root<'_>, core: usize) -> [Finding; 3] {
     let isolated = root.text("/sys/devices/system/cpu/isolated").unwrap_or_default();
     let alone = contains(&isolated, core);
     let interrupts = interrupts_on(root, core);
@@ -97,7 +97,22 @@ pub(crate) fn isolation(root: &Root<'_>, core: usize) -> [Finding; 2] {
             "none on the chain's core",
             "add irqaffinity= with the other cores to the kernel's command line, or write them to /proc/irq/*/smp_affinity_list",
         ),
+        kernel_workers(root, core),
     ]
+}
+
+/// Workers that belong to no core do what others asked of the kernel, as to write files back to a disk. Without full preemption one keeps
+/// its core for a millisecond and more.
+fn kernel_workers(root: &Root<'_>, core: usize) -> Finding {
+    let allowed = root.text("/sys/devices/virtual/workqueue/cpumask").unwrap_or_default();
+    let come = mask_contains(&allowed, core);
+    Finding::new(
+        "kernel workers",
+        if come { Level::Yellow } else { Level::Green },
+        format!("those that belong to no core {} on core {core}", if come { "may run" } else { "never run" }),
+        "none on the chain's core",
+        "write the mask of the other cores to /sys/devices/virtual/workqueue/cpumask (rt-config/system/README.md, step 2)",
+    )
 }
 
 fn interrupts_on(root: &Root<'_>, core: usize) -> usize {

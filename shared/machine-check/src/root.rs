@@ -31,9 +31,24 @@ pub(crate) fn contains(list: &str, number: usize) -> bool {
     })
 }
 
+/// Whether a mask of the kernel's, as in "3" or "ff,00000001" (hexadecimal words of 32 bits, the highest first), contains a number.
+pub(crate) fn mask_contains(mask: &str, number: usize) -> bool {
+    let word = mask.trim().rsplit(',').nth(number / 32).and_then(|word| u32::from_str_radix(word, 16).ok());
+    word.is_some_and(|word| word >> (number % 32) & 1 == 1)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::contains;
+    use super::{contains, mask_contains};
+
+    #[test]
+    fn masks_of_the_kernel_have_words() {
+        assert!(
+            mask_contains("2\n", 1) && mask_contains("ff,00000001", 0) && mask_contains("ff,00000001", 39)
+        );
+        assert!(!mask_contains("2", 0) && !mask_contains("ff,00000001", 40) && !mask_contains("1", 64));
+        assert!(!mask_contains("", 0) && !mask_contains("none", 0));
+    }
 
     #[test]
     fn lists_of_the_kernel_have_ranges() {

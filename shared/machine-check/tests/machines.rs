@@ -22,6 +22,7 @@ fn judged(changes: &[(&str, Option<&str>)]) -> Vec<Finding> {
         ("sys/devices/system/cpu/cpu1/cpuidle/state1/latency", Some("2\n")),
         ("sys/devices/system/cpu/isolated", Some("1\n")),
         ("proc/irq/7/smp_affinity_list", Some("0\n")),
+        ("sys/devices/virtual/workqueue/cpumask", Some("1\n")),
         ("proc/swaps", Some("Filename Type Size\n")),
         ("sys/fs/cgroup/a/b/cpu.max", Some("max 100000\n")),
         ("sys/fs/cgroup/a/memory.max", Some("max\n")),
@@ -52,7 +53,7 @@ fn faults(path: &str, text: Option<&str>) -> Vec<(&'static str, Level)> {
 #[test]
 fn a_machine_that_suits_is_green_and_needs_nothing() {
     let findings = judged(&[]);
-    assert_eq!(findings.len(), 14);
+    assert_eq!(findings.len(), 15);
     for finding in findings {
         assert!(finding.level == Level::Green && finding.remedy.is_none(), "{finding:?}");
     }
@@ -85,6 +86,7 @@ fn each_obstacle_is_found_alone_with_what_to_do() {
         (states, "300", vec![("idle states", Level::Yellow)]),
         ("sys/devices/system/cpu/isolated", "", vec![("isolation", Level::Yellow)]),
         ("proc/irq/9/effective_affinity_list", "0-1", vec![("interrupts", Level::Yellow)]),
+        ("sys/devices/virtual/workqueue/cpumask", "3", vec![("kernel workers", Level::Yellow)]),
         ("proc/swaps", "Filename Type\n/swap file\n", vec![("swap", Level::Yellow)]),
         ("sys/fs/cgroup/a/cpu.max", "50000 100000", vec![("cgroup processor", Level::Red)]),
         ("sys/fs/cgroup/a/b/memory.max", "268435456", vec![("cgroup memory", Level::Red)]),

@@ -18,6 +18,8 @@ pub(crate) struct BodyPart {
     pub is_seen: bool,
     /// Whether it moves, faster than what only seems to.
     pub moves: bool,
+    /// Whether it is so fast that it is soon on the other side of what it passes.
+    pub is_fast: bool,
     /// Its speed, m/s, as far as it is known.
     pub(super) speed: f64,
     pub(super) growth: Growth,
@@ -48,6 +50,7 @@ impl BodyPart {
             extrapolated: limits.extrapolated.as_secs_f64(),
             is_seen,
             moves: is_seen && !rests && speed >= limits.speeds[0],
+            is_fast: is_seen && !rests && speed >= limits.speeds[1],
             speed,
             growth: Growth {
                 age: seconds(age),
