@@ -100,6 +100,8 @@ export class Partner {
 
   #move(event) {
     this.#follow(event);
+    // A hand that was away while the line was lost still closes on what the button has been pressed on.
+    if (event.pointerType === "mouse" && event.buttons & 1 && this.scene.canvas.hasPointerCapture(event.pointerId)) this.hand.pressed = true;
     if (performance.now() - this.told >= SOONEST) this.#tell();
   }
 

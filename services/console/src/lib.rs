@@ -20,6 +20,7 @@ mod greeting;
 mod history;
 mod live_topics;
 mod machine;
+mod message_rate;
 mod numbers;
 mod picture;
 mod picture_maker;

@@ -1,3 +1,4 @@
+use crate::message_rate::MessageRate;
 use crate::{Board, Cadence, Glimpse, Request, SupervisorLink, Wish};
 use axum::extract::ws::{Message, WebSocket};
 use serde_json::{Value, json};
@@ -38,8 +39,6 @@ const EXPLAIN_EVERY: Duration = Duration::from_millis(200);
 const HISTORY_EVERY: Duration = Duration::from_secs(1);
 /// A page without news is looked after this often.
 const LOOK_EVERY: Duration = Duration::from_millis(250);
-/// More messages in a second come from no page of ours: three times as many as it sends while somebody plays and scrolls.
-const MOST_MESSAGES: u32 = 300;
 /// A page that takes nothing in for so long is given up.
 const TAKES_WITHIN: Duration = Duration::from_secs(10);
 
@@ -65,7 +64,7 @@ impl Session {
     pub async fn serve(mut self) {
         let mut changed = self.board.subscribe();
         let mut told = Told::new();
-        let mut rate = (Instant::now(), 0);
+        let mut rate = MessageRate::from_now(Instant::now());
         if self.tell(self.board.greeting()).await.is_err() {
             return self.board.leave(self.page);
         }
@@ -79,11 +78,11 @@ impl Session {
                 },
             };
             if let Some(message) = heard {
-                if rate.0.elapsed() > Duration::from_secs(1) {
-                    rate = (Instant::now(), 0);
+                if !rate.admits(Instant::now()) {
+                    tracing::warn!("page {} is closed: it sends more than any page of ours", self.page);
+                    break;
                 }
-                rate.1 += 1;
-                if rate.1 > MOST_MESSAGES || self.hear(&message, &mut told).await.is_err() {
+                if self.hear(&message, &mut told).await.is_err() {
                     break;
                 }
             } else if self.tell_news(&mut told).await.is_err() {
