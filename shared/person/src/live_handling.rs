@@ -18,7 +18,7 @@ const AROUND: f64 = 0.06;
 const AT_PART: f64 = 0.035;
 /// A hand that is faster than this closes on nothing that it passes, m/s: people's reaches are far slower when they arrive.
 const PASSES: f64 = 0.3;
-/// A part that is farther from the fingers than this is not between them any more, m.
+/// A part that the robot has, too, and that is farther from the fingers than this, is not between them any more, m.
 const LOST: f64 = 0.10;
 /// Thumb to index of a hand that is held out open, m.
 const HELD_OUT: f64 = 0.07;
@@ -108,7 +108,9 @@ impl Person {
     ) {
         let robot_has_it = around.robot.held == Some(part);
         let opens = fingers.aperture > around.closed_on(part) + OPENED;
-        if opens || around.distance(part, fingers.middle) > LOST || around.parts.is(part, Holder::Socket) {
+        // A hand that nobody told of for a while may come back far from where it was, closed on what it had.
+        let has_left = robot_has_it && around.distance(part, fingers.middle) > LOST;
+        if opens || has_left || around.parts.is(part, Holder::Socket) {
             done.released = Some(part).filter(|&part| !around.parts.is(part, Holder::Socket));
             state.held = Slot::EMPTY;
             (state.ended, state.live.opened_at) = (around.tick, fingers.middle.into());

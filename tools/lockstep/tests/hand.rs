@@ -37,6 +37,8 @@ struct Sender {
     stages: Lockstep,
     model: HandModel,
     hand: Hand,
+    /// Whether it is told of.
+    tells: bool,
     watch: Anticipation,
     events: Vec<Event>,
 }
@@ -47,11 +49,11 @@ impl Sender {
         let model = HandModel::new(&stages.task().scene);
         let hand = (model.centre(&model.rest()), -0.35, 0.03);
         let watch = Anticipation::new(stages.task(), Intentions::from(stages.plan()));
-        Self { stages, model, hand, watch, events: Vec::new() }
+        Self { stages, model, hand, tells: true, watch, events: Vec::new() }
     }
 
     fn step(&mut self) {
-        if self.stages.ticks().is_multiple_of(FRAME) {
+        if self.tells && self.stages.ticks().is_multiple_of(FRAME) {
             let (centre, pitch, aperture) = self.hand;
             let position = self.model.reaching(centre, pitch, aperture).map(|point| point.to_array());
             let message = HandPoints { position, ..bytemuck::Zeroable::zeroed() };
@@ -249,4 +251,32 @@ fn without_a_hand_from_outside_nobody_is_seen() {
         assert!(!stages.percept.arm.is_tracked());
     }
     assert_eq!(stages.truth.arm, [[0.0; 3]; 4]);
+}
+
+#[test]
+fn a_hand_that_nobody_told_of_for_a_while_still_has_its_part_if_it_comes_back_closed() {
+    for comes_back_closed in [true, false] {
+        let mut person = Sender::new(5);
+        person.stay(500);
+        let wheel = person.lying("wheel", Agent::Person);
+        person.grasp(wheel, TOP);
+        person.go(
+            (person.hand.0 + 0.15 * DVec3::Z, TOP, person.around(wheel)),
+            REACH,
+            0.0,
+            person.around(wheel),
+        );
+        let left = person.centre(wheel);
+        person.tells = false;
+        let aperture = person.around(wheel) + if comes_back_closed { 0.0 } else { OPEN };
+        person.go((person.hand.0 + DVec3::new(0.05, 0.20, 0.0), TOP, aperture), 300, 0.0, aperture);
+        assert!(
+            person.centre(wheel).distance(left) < 0.08,
+            "while nobody tells of it, it stays where it was"
+        );
+        person.tells = true;
+        person.stay(10 * FRAME);
+        let away = person.centre(wheel).distance(person.hand.0);
+        assert_eq!(away < 0.05, comes_back_closed, "{away}");
+    }
 }
