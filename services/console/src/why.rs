@@ -22,7 +22,7 @@ pub(crate) fn to_json(plan: &NetworkPlan, explained: &Explanation, cycle: u64) -
             "from": share.from(plan),
             "signal": share.decisive().1,
             "others": standing.saturating_sub(1),
-            "pool": match share.pool { Pool::Sum => "sum", Pool::Any => "any", Pool::Every => "every" },
+            "pool": match share.pool { Pool::Sum => "sum", Pool::Any => "any", Pool::Every => "every", Pool::Absent => "absent" },
             "reason": plan.reasons[share.rule],
             "missing": share.missing().map(|source| plan.name(source)),
         })

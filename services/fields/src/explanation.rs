@@ -57,7 +57,7 @@ fn shares(group: &[Synapse], pool: Pool, signals: &[f64]) -> Vec<Share> {
     let source = |synapse: &Synapse| (synapse.from, signals[synapse.from]);
     let Synapse { rule, weight, .. } = group[0];
     match pool {
-        Pool::Sum => {
+        Pool::Sum | Pool::Absent => {
             let single = |synapse: &Synapse| Share::new(rule, pool, synapse.weight, vec![source(synapse)]);
             group.iter().map(single).collect()
         }

@@ -29,6 +29,7 @@ impl PooledInput {
             Pool::Every if self.sources < sources => 0.0,
             Pool::Every => self.weakest,
             Pool::Any | Pool::Sum => self.strongest,
+            Pool::Absent => f64::from(sources) - self.strongest,
         }
     }
 }

@@ -29,7 +29,7 @@ impl Share {
         let by_signal = |one: &&(usize, f64), other: &&(usize, f64)| one.1.total_cmp(&other.1);
         let found = match self.pool {
             Pool::Every => self.sources.iter().min_by(by_signal),
-            Pool::Sum | Pool::Any => self.sources.iter().max_by(by_signal),
+            Pool::Sum | Pool::Any | Pool::Absent => self.sources.iter().max_by(by_signal),
         };
         found.copied().unwrap_or_default()
     }
@@ -46,6 +46,7 @@ impl Share {
         let decisive = plan.name(self.decisive().0);
         let others = self.sources.iter().filter(|(_, signal)| *signal > 0.0).count().saturating_sub(1);
         match (self.pool, others) {
+            (Pool::Absent, _) => format!("{decisive}, which does not stand"),
             (_, 0) | (Pool::Sum, _) => decisive,
             (Pool::Any, _) => format!("{decisive}, the strongest of {}", others + 1),
             (Pool::Every, _) => format!("{decisive}, the weakest of {} that are all needed", others + 1),

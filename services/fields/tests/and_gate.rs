@@ -42,6 +42,7 @@ fn strongest(plan: &NetworkPlan, to: usize) -> BTreeMap<String, f64> {
                 Pool::Sum => *total += synapse.weight,
                 Pool::Any | Pool::Every if synapse.from == group[0].from => *total += synapse.weight,
                 Pool::Any | Pool::Every => {}
+                Pool::Absent => *total += synapse.weight,
             }
         }
     }

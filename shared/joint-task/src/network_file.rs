@@ -66,8 +66,6 @@ pub(crate) struct RuleEntry {
     pub unlike: Vec<Attribute>,
     pub relation: Option<Relation>,
     #[serde(default)]
-    pub normalised: bool,
-    #[serde(default)]
     pub pool: Pool,
     #[serde(default)]
     pub weight: f64,
@@ -84,7 +82,6 @@ pub(crate) struct Selector {
     pub side: Option<Agent>,
     pub workspace: Option<Agent>,
     pub steadied: Option<bool>,
-    pub first: Option<bool>,
 }
 
 /// What two populations may have in common.

@@ -94,6 +94,8 @@ pub enum Pool {
     Any,
     /// The weakest counts: only all of them together mean something.
     Every,
+    /// Each counts by what it lacks, 1 less its signal, and all of them add up: what is not there holds back, however many are.
+    Absent,
 }
 
 impl NetworkPlan {

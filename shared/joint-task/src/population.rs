@@ -32,8 +32,6 @@ pub struct Population {
     pub rule: Option<String>,
     /// Whether the other one steadies the base for this subgoal.
     pub steadied: bool,
-    /// Whether nothing comes before this subgoal in the plan.
-    pub first: bool,
 }
 
 impl Population {
@@ -54,7 +52,6 @@ impl Population {
             answer: None,
             rule: None,
             steadied: false,
-            first: false,
         }
     }
 }
@@ -133,7 +130,6 @@ fn of_subgoal(task: &Task, index: usize) -> Population {
         subgoal: Some(index),
         side: Some(subgoal.side),
         steadied: subgoal.steadied,
-        first: subgoal.after.is_empty(),
         ..Population::new(Role::Subgoal, &subgoal.name)
     }
 }

@@ -26,28 +26,16 @@ impl SynapseRules<'_> {
             for &to in &targets {
                 let related = |&&from: &&usize| self.related(rule, &self.meanings[from], &self.meanings[to]);
                 let found: Vec<usize> = sources.iter().filter(related).copied().collect();
-                let divisor =
-                    if rule.normalised { self.divisor(rule, found.len(), &self.meanings[to]) } else { 1.0 };
-                let weight = rule.weight / divisor;
+                let weight = rule.weight;
                 synapses.extend(found.into_iter().map(|from| Synapse { from, to, weight, rule: index }));
             }
         }
         Ok(synapses)
     }
 
-    /// The divisor of a normalised weight: the number of sources or, where the plan relates them, the number of all
-    /// steps that come before, because a source that stands for one of them tells nothing of the others.
-    fn divisor(&self, rule: &RuleEntry, sources: usize, to: &Population) -> f64 {
-        let steps = match (rule.relation, to.subgoal) {
-            (Some(Relation::Before), Some(subgoal)) => self.task.subgoals[subgoal].after.len(),
-            _ => sources,
-        };
-        steps.max(1) as f64
-    }
-
     /// Places in `meanings` of what a selector names; only of layers, if it is no `source`.
     fn select(&self, key: &str, selector: &Selector, source: bool) -> Result<Vec<usize>, TaskError> {
-        let Selector { layer, role, side, workspace, steadied, first } = selector;
+        let Selector { layer, role, side, workspace, steadied } = selector;
         let names = || self.names.iter().filter(|(_, range)| source || range.start < self.layer_end());
         let range = names().find(|(name, _)| name == layer.get_ref()).map(|(_, range)| range.clone());
         let range = range.ok_or_else(|| {
@@ -62,7 +50,6 @@ impl SynapseRules<'_> {
                     && side.is_none_or(|side| meaning.side == Some(side))
                     && workspace.is_none_or(|workspace| meaning.workspace == Some(workspace))
                     && steadied.is_none_or(|steadied| meaning.steadied == steadied)
-                    && first.is_none_or(|first| meaning.first == first)
             })
             .collect())
     }

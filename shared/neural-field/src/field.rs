@@ -18,7 +18,7 @@ pub struct Field {
     centre: f64,
     /// Gaussian input of strength 1 across one population.
     bump: Vec<f64>,
-    /// f(u) of all sites, with a border of zeros on both sides as wide as the taps.
+    /// f(u) of all sites that interact, or of one population where each is alone, with a border of zeros on both sides as wide as the taps.
     output: Vec<f64>,
 }
 
@@ -49,7 +49,7 @@ impl Field {
             taps: (1..=reach).map(interaction).collect(),
             centre: interaction(0),
             bump: (0..width).map(|site| gauss((site as f64 - middle) * spacing, input_sigma)).collect(),
-            output: vec![0.0; sites + 2 * reach],
+            output: vec![0.0; if kernel.range.is_some() { width } else { sites } + 2 * reach],
         })
     }
 
@@ -105,9 +105,12 @@ impl Field {
             return 0.0;
         }
         let reach = self.taps.len();
-        let sites = reach..reach + now.len();
-        fire(&mut self.output[sites.clone()], now, slope, threshold);
-        excite(&self.output, self.centre, &self.taps, interaction);
+        let together = if kernel.range.is_some() { self.width } else { now.len() }.max(1);
+        let sites = reach..reach + together;
+        for (now, interaction) in now.chunks_exact(together).zip(interaction.chunks_exact_mut(together)) {
+            fire(&mut self.output[sites.clone()], now, slope, threshold);
+            excite(&self.output, self.centre, &self.taps, interaction);
+        }
         match kernel.range {
             None => kernel.inhibition * spacing * sum(&self.output[sites]),
             Some(_) => 0.0,

@@ -9,8 +9,9 @@ pub struct Kernel {
     pub inhibition: f64,
     /// How far the inhibition reaches; `None` = everywhere, so that all populations compete.
     ///
-    /// A range below the distance of two populations lets several peaks stand side by side (chapter, section 4:
-    /// layers that memorise).
+    /// With a range, populations do not interact at all, so that any of them may hold a peak beside any others (chapter, section 4: layers
+    /// that memorise). If they did, the peaks of two neighbours would push each other away, and a population between two peaks that
+    /// have come nearer so would never ignite.
     pub range: Option<f64>,
 }
 

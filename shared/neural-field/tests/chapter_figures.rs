@@ -137,6 +137,20 @@ fn a_memory_whose_support_is_gone_is_given_up_and_can_be_formed_again() {
     assert!(bench.drive(1000, &[0.0; 2]).iter().all(|&signal| signal > 0.99));
 }
 
+#[test]
+fn a_memory_forms_between_others_in_whatever_order_they_were_formed() {
+    // With inhibition across populations the peaks of the outer pairs pushed each other towards the middle one, which never came.
+    let kernel = Kernel { inhibition: 1.0, range: Some(6.0), ..KERNEL };
+    for middle in 0..5 {
+        let mut bench = Bench::new(parameters(kernel), 5, -2.0);
+        let mut input = [3.0; 5];
+        input[middle] = 0.0;
+        assert_eq!(bench.drive(2000, &input)[middle], 0.0);
+        let signal = bench.drive(200, &[3.0; 5]);
+        assert!(signal.iter().all(|&signal| signal > 0.99), "{middle} comes last: {signal:?}");
+    }
+}
+
 proptest! {
     #[test]
     fn a_decision_layer_never_holds_two_peaks(first in 1.0..2.2f64, ratio in 0.0..0.98f64) {

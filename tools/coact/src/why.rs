@@ -154,7 +154,7 @@ fn as_json(plan: &NetworkPlan, explained: &Explanation) -> serde_json::Value {
         json!({
             "amount": share.amount,
             "weight": share.weight,
-            "counts": match share.pool { Pool::Sum => "sum", Pool::Any => "any", Pool::Every => "every" },
+            "counts": match share.pool { Pool::Sum => "sum", Pool::Any => "any", Pool::Every => "every", Pool::Absent => "absent" },
             "why": plan.reasons[share.rule],
             "sources": share.sources.iter().map(source).collect::<Vec<_>>(),
         })

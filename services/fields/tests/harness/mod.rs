@@ -31,6 +31,11 @@ impl Harness {
         if let Some(learned) = learned {
             plan.learn(&mut task, &folder.join("..").join(learned)).unwrap();
         }
+        Self::with(task, plan)
+    }
+
+    /// With the network of a task that is not shipped.
+    pub fn with(task: Task, plan: NetworkPlan) -> Self {
         let network = Network::new(plan, task.fingerprint, 7).unwrap();
         let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
         network.rest(&mut frame);
@@ -89,7 +94,13 @@ impl Harness {
 
     pub fn achieve(&mut self, subgoal: &str) {
         let subgoal = self.task.subgoals.iter().position(|candidate| candidate.name == subgoal).unwrap();
-        self.percept.achieved[subgoal] = 1.0;
+        (self.percept.achieved[subgoal], self.percept.open[subgoal]) = (1.0, 0.0);
+    }
+
+    /// The camera sees that the place of a subgoal is empty.
+    pub fn undo(&mut self, subgoal: &str) {
+        let subgoal = self.task.subgoals.iter().position(|candidate| candidate.name == subgoal).unwrap();
+        (self.percept.achieved[subgoal], self.percept.open[subgoal]) = (0.0, 1.0);
     }
 
     /// Name of the kind of part that a subgoal needs.

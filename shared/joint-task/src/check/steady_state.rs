@@ -65,6 +65,9 @@ impl<'a> SteadyState<'a> {
             let signals = group.iter().map(|synapse| signal[synapse.from]);
             match self.plan.pools[group[0].rule] {
                 Pool::Sum => group.iter().map(|synapse| synapse.weight * signal[synapse.from]).sum(),
+                Pool::Absent => {
+                    group.iter().map(|synapse| synapse.weight * (1.0 - signal[synapse.from])).sum()
+                }
                 Pool::Any => group[0].weight * signals.fold(0.0, f64::max),
                 Pool::Every => group[0].weight * signals.fold(1.0, f64::min),
             }
