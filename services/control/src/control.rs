@@ -253,9 +253,11 @@ impl Control {
         })
     }
 
-    /// Whether the guard lets the fingers go on. Those that close on something hold what they have.
+    /// Whether the guard lets the fingers go on. Those that have closed on something hold what they have; those that close on it again,
+    /// because the person has let go of it first, wait until her hand has left.
     fn fingers_may_move(&mut self, inputs: &Inputs, person: &PersonCapsules) -> bool {
-        let holds = self.held_in().is_some() && self.state.skill.phase() != SkillPhase::Open;
+        let phase = self.state.skill.phase();
+        let holds = self.held_in().is_some() && !matches!(phase, SkillPhase::Open | SkillPhase::Close);
         if self.unguarded || holds || self.state.fingers.has_arrived() {
             return true;
         }

@@ -48,6 +48,8 @@ impl Control {
             SkillPhase::Close if self.state.fingers.has_arrived() => {
                 self.state.skill.enter(SkillPhase::Verify);
             }
+            // She takes what she had let go of, before they have closed on it again.
+            SkillPhase::Close if self.is_taken(inputs) => self.move_fingers(SkillPhase::Open),
             SkillPhase::Close => {}
             SkillPhase::Open => self.open(inputs),
         }
