@@ -337,10 +337,18 @@ fn a_hand_of_which_nobody_tells_any_more_is_not_known_and_keeps_what_it_has() {
     let place = table.parts[wheel].position;
     (0..5_000).for_each(|_| table.step(false));
     assert_eq!((table.state.held, table.parts[wheel].position), (Slot::of(wheel), place));
-    // It comes back elsewhere: the part is not between its fingers.
+    // It comes back elsewhere, still closed: it has the part, and loses it where it comes back open.
     table.hand.0.y += 0.3;
     table.stay(100);
+    assert_eq!(table.state.held, Slot::of(wheel));
+    assert!(DVec3::from(table.parts[wheel].position).distance(place.into()) > 0.25);
+    let there = table.parts[wheel].position;
+    (0..5_000).for_each(|_| table.step(false));
+    table.hand.0.y -= 0.3;
+    table.hand.2 += 0.04;
+    table.stay(100);
     assert!(table.is(wheel, Holder::Nobody) && table.state.held == Slot::EMPTY);
+    assert_eq!(table.parts[wheel].position, there);
 }
 
 #[test]
