@@ -184,8 +184,8 @@ impl Player {
         panic!("the {kind} is not taken: {}", self.state());
     }
 
-    /// Takes a part and brings it there, looks whether it has come there, or is in the robot's hand already, and tries again if not: a hand
-    /// that was not told of for a quarter of a second has lost what it had.
+    /// Takes a part and brings it there, looks whether it has come there, or is in the robot's hand already, and tries again if not: on a
+    /// busy machine fingers that seem to have it may have closed beside it.
     fn brings(&mut self, kind: &str, grip: u32, to: DVec2) {
         for _ in 0..TRIES {
             self.takes(kind, grip);

@@ -1,7 +1,7 @@
 //! Why a population holds a peak or none, as a page is told it.
 
 use coact_fields::{Explanation, Share};
-use coact_joint_task::{NetworkPlan, Pool};
+use coact_joint_task::NetworkPlan;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -22,7 +22,7 @@ pub(crate) fn to_json(plan: &NetworkPlan, explained: &Explanation, cycle: u64) -
             "from": share.from(plan),
             "signal": share.decisive().1,
             "others": standing.saturating_sub(1),
-            "pool": match share.pool { Pool::Sum => "sum", Pool::Any => "any", Pool::Every => "every", Pool::Absent => "absent" },
+            "pool": share.pool.name(),
             "reason": plan.reasons[share.rule],
             "missing": share.missing().map(|source| plan.name(source)),
         })

@@ -98,6 +98,18 @@ pub enum Pool {
     Absent,
 }
 
+impl Pool {
+    /// As a network file has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sum => "sum",
+            Self::Any => "any",
+            Self::Every => "every",
+            Self::Absent => "absent",
+        }
+    }
+}
+
 impl NetworkPlan {
     /// The layer of `kind`.
     pub fn layer(&self, kind: LayerKind) -> &LayerPlan {

@@ -1,7 +1,7 @@
 use crate::{closed_pipe, living_runs};
 use anyhow::{Context, Result, bail, ensure};
 use coact_fields::{Explanation, Share};
-use coact_joint_task::{NetworkPlan, Pool};
+use coact_joint_task::NetworkPlan;
 use coact_messages::{FieldFrame, LayerKind, Percept, topic};
 use coact_pipeline::Run;
 use coact_realtime::{Bus, Input, Message};
@@ -154,7 +154,7 @@ fn as_json(plan: &NetworkPlan, explained: &Explanation) -> serde_json::Value {
         json!({
             "amount": share.amount,
             "weight": share.weight,
-            "counts": match share.pool { Pool::Sum => "sum", Pool::Any => "any", Pool::Every => "every", Pool::Absent => "absent" },
+            "counts": share.pool.name(),
             "why": plan.reasons[share.rule],
             "sources": share.sources.iter().map(source).collect::<Vec<_>>(),
         })
