@@ -249,6 +249,9 @@ impl Monitor {
 
     /// Reads what the supervisor wrote, settles faults, and writes events and snapshots; after each look at the topics.
     ///
+    /// With a fault that is over the counters are written as well: a replacement of the monitor would count its outage again, as
+    /// one of its own time.
+    ///
     /// # Errors
     /// A file of the report cannot be read or written.
     pub fn record(&mut self, now_ns: u64, mut events: Vec<Event>) -> Result<(), MonitorError> {
@@ -256,10 +259,12 @@ impl Monitor {
         events.extend(self.blindness.take());
         self.faults.settle(now_ns, &mut events);
         self.snapshots.look()?;
-        if !events.is_empty() {
-            self.events.append(events)?;
+        if events.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        let fault_is_over = events.iter().any(|event| matches!(event, Event::Fault(_)));
+        self.events.append(events)?;
+        if fault_is_over { self.write() } else { Ok(()) }
     }
 
     /// Writes intervals and counters; once a second.

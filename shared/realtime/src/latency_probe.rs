@@ -45,7 +45,7 @@ impl LatencyProbe {
         let of_thread = Arc::clone(&counters);
         let body = move || {
             // Refused, it is scheduled like the chain, which was refused the same.
-            let _ = scheduling::apply(&entry);
+            let _ = (scheduling::take_core(&entry), scheduling::take_class(&entry));
             of_thread.measure(schedule);
         };
         let thread = std::thread::Builder::new().name("latency-probe".into()).spawn(body).ok()?;

@@ -3,7 +3,7 @@ use crate::owner_watch::OwnerWatch;
 use crate::signals::Signals;
 use crate::{
     BackgroundThread, Bus, Candidate, Cycle, DropOuts, Heartbeat, Message, Output, PortError, ProcessError,
-    Schedule, StandIn, memory_lock, scheduling,
+    Schedule, SchedulingClass, StandIn, memory_lock, scheduling,
 };
 use coact_messages::{Refusal, topic};
 use coact_pipeline::{Pipeline, ProcessEntry, ProcessStat, Ready, Run};
@@ -128,11 +128,11 @@ impl Process {
     /// In a set that can be adopted: the process no longer ends with the supervisor, but a while later, if nobody adopts the run.
     fn become_adoptable(&self) -> Result<(), ProcessError> {
         if self.pipeline.adoptable_for.is_zero() || !has_supervisor()? {
-            return if self.entry.realtime { self.keep_ordinary_thread(park) } else { Ok(()) };
+            return Ok(());
         }
         let member = self.run.become_member()?;
         let watch = OwnerWatch::new(&self.run, self.pipeline.adoptable_for, &self.entry, member);
-        self.keep_ordinary_thread(|| watch.watch())?;
+        self.spawn_background("owner-watch", || watch.watch())?;
         on_death_of_supervisor(None)
     }
 
@@ -175,18 +175,21 @@ impl Process {
         }
     }
 
-    /// Starts an ordinary thread that is idle from then on. The memory of a killed process is given back by whichever thread of
-    /// it ends last, for milliseconds: by this one, as a rule, and not in real time, where others would wait for it. Of a
-    /// replacement it also prefaults the memory.
-    fn keep_ordinary_thread(&self, idle: impl FnOnce() + Send + 'static) -> Result<(), ProcessError> {
-        let prefaults = self.entry.realtime && self.generation > 0;
-        self.spawn_background("last", move || {
+    /// Starts an ordinary thread on the process's own core that is idle from then on. The memory of a killed process is given back
+    /// by whichever thread of it ends last, for milliseconds: by this one, in no real-time class, where others would wait for
+    /// it. It ends last because it gets the core last; on another core it might end first. Of a replacement it also prefaults
+    /// the memory.
+    fn keep_last_thread(&self) -> Result<(), ProcessError> {
+        let prefaults = self.generation > 0;
+        let last = move || {
+            // Always granted.
+            let _ = SchedulingClass::Other.apply();
             if prefaults {
                 memory_lock::populate();
             }
-            idle();
-        })
-        .map(drop)
+            park();
+        };
+        std::thread::Builder::new().name("last".into()).spawn(last).map(drop).map_err(ProcessError::Thread)
     }
 
     /// Set once an injected fault requests that the background work stands still; the work itself does it.
@@ -214,7 +217,12 @@ impl Process {
         });
         let memory_locked = matches!(lock, Some(Ok(())));
         let mut why_not: Vec<_> = lock.and_then(Result::err).into_iter().collect();
-        why_not.extend(scheduling::apply(&self.entry));
+        why_not.extend(scheduling::take_core(&self.entry).err());
+        if self.entry.realtime {
+            // Before any thread of it is of a real-time class.
+            self.keep_last_thread()?;
+        }
+        why_not.extend(scheduling::take_class(&self.entry).err());
         let sentinel = if self.entry.realtime { start_sentinel()? } else { 0 };
         let mut ready = Ready {
             process: self.entry.name.clone(),

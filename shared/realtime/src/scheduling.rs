@@ -4,13 +4,14 @@ use crate::SchedulingClass;
 use coact_pipeline::{Pipeline, ProcessEntry, Ready};
 use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity, set_current_timer_slack};
 use std::num::NonZeroU64;
+use std::sync::OnceLock;
 
 /// Prepares a real-time process to start soon, because a replacement is needed at once, but not on its own core:
 /// locking its memory there would delay the processes that run on that core.
 pub(crate) fn prepare_start(core: Option<usize>) {
     // Refused, it starts as any program does; `apply` reports what is refused.
     let _ = SchedulingClass::STARTING.apply();
-    let mut others = sched_getaffinity(None).unwrap_or_default();
+    let mut others = granted();
     if let Some(core) = core.filter(|&core| core < CpuSet::MAX_CPU) {
         others.unset(core);
         let _ = sched_setaffinity(None, &others);
@@ -20,12 +21,18 @@ pub(crate) fn prepare_start(core: Option<usize>) {
 /// Keeps the calling thread, and all that it starts, off the cores of the table's real-time processes, where there are
 /// others. The kernel lends ordinary threads time on such a core, and that would delay the chain.
 pub fn exclude_real_time_cores(pipeline: &Pipeline) {
-    let mut others = sched_getaffinity(None).unwrap_or_default();
+    let mut others = granted();
     for entry in pipeline.processes.iter().filter(|entry| entry.realtime) {
         entry.core.filter(|&core| core < CpuSet::MAX_CPU).into_iter().for_each(|core| others.unset(core));
     }
     // Refused where no core is left: the thread then shares one.
     let _ = sched_setaffinity(None, &others);
+}
+
+/// The cores that the process was started on, whichever the calling thread keeps to by now.
+fn granted() -> CpuSet {
+    static GRANTED: OnceLock<CpuSet> = OnceLock::new();
+    *GRANTED.get_or_init(|| sched_getaffinity(None).unwrap_or_default())
 }
 
 /// Makes a thread of a real-time process an ordinary one: ordinary class, off the real-time cores.
@@ -35,13 +42,22 @@ pub(crate) fn become_ordinary(pipeline: &Pipeline) {
     exclude_real_time_cores(pipeline);
 }
 
-/// Gives the calling thread the core and class that `entry` wants; returns what was refused, with the reasons.
-pub(crate) fn apply(entry: &ProcessEntry) -> Vec<String> {
+/// Gives the calling thread the core that `entry` wants.
+///
+/// # Errors
+/// What was refused, with the reason.
+pub(crate) fn take_core(entry: &ProcessEntry) -> Result<(), String> {
+    entry.core.map_or(Ok(()), pin)
+}
+
+/// Gives the calling thread the class that `entry` wants.
+///
+/// # Errors
+/// What was refused, with the reason.
+pub(crate) fn take_class(entry: &ProcessEntry) -> Result<(), String> {
     // Without SCHED_FIFO the kernel may delay wake-ups by this slack, 50 µs by default. The least that it takes is 1 ns.
     let _ = set_current_timer_slack(NonZeroU64::new(1));
-    let core = entry.core.map_or(Ok(()), pin);
-    let class = if entry.realtime { fifo(entry.priority) } else { Ok(()) };
-    [core, class].into_iter().filter_map(Result::err).collect()
+    if entry.realtime { fifo(entry.priority) } else { Ok(()) }
 }
 
 /// Writes into `ready` what the calling thread has: class and priority, and its core if it has only one.
