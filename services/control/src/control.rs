@@ -205,9 +205,6 @@ impl Control {
         let sound =
             state.is_some() && self.servo.resume(&command.position, &command.velocity, &command.acceleration);
         if let Some(state) = state.filter(|_| sound) {
-            if self.state != state {
-                self.planner.forget();
-            }
             self.state = state;
             self.started = true;
         }

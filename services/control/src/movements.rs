@@ -45,9 +45,23 @@ impl Control {
                 self.state.arm.ahead(seconds(lead)),
             )
         };
-        self.state.planning.open(query);
-        let query = self.query(inputs, start);
-        self.planner.ask(self.state.planning.queries, &query);
+        let asked = self.query(inputs, start);
+        self.state.planning.open(query, asked.fingerprint());
+        self.planner.ask(self.state.planning.newest, &asked);
+    }
+
+    /// Asks the planner of this instance what another one has asked, without a new query: where the movement begins is known.
+    fn ask_as_well(&mut self, inputs: &Inputs) {
+        let tick = inputs.tick();
+        let start = match self.state.planning.query {
+            MovementQuery::FromRest(_) if self.stands() => self.servo.posture().map(MotionState::at_rest),
+            MovementQuery::InMotion { begins } if begins > tick && self.state.arm.is_at_planned_speed() => {
+                self.state.arm.ahead(seconds(begins - tick))
+            }
+            _ => return self.ask(inputs),
+        };
+        let asked = self.query(inputs, start);
+        self.planner.ask(self.state.planning.newest, &asked);
     }
 
     /// Whether it is known in which state a movement that is asked for now would begin.
@@ -68,9 +82,8 @@ impl Control {
     pub(crate) fn take_up_movement(&mut self, inputs: &Inputs) {
         self.settle(inputs.tick());
         let planning = &self.state.planning;
-        if planning.query.is_open() && !self.planner.was_asked(planning.queries) {
-            // It was a predecessor's query.
-            self.ask(inputs);
+        if planning.query.is_open() && !self.planner.was_asked(planning.newest) {
+            self.ask_as_well(inputs);
         }
         self.take_result(inputs.tick());
         match self.state.planning.query {
@@ -93,7 +106,7 @@ impl Control {
             MovementQuery::InMotion { begins } => begins,
             MovementQuery::None(_) | MovementQuery::Planned { .. } => return,
         };
-        let Some(result) = self.planner.result(planning.queries) else { return };
+        let Some(result) = self.planner.answer(planning.newest) else { return };
         if let Some(grip) = result.grip {
             self.state.hand.grip = Slot::of(grip);
         }

@@ -5,7 +5,7 @@ mod kinematic_world;
 
 use coact_control::Control;
 use coact_joint_task::ActionType;
-use coact_messages::MotionPhase;
+use coact_messages::{ARM_JOINTS, MotionPhase};
 use coact_period::PERIOD;
 use kinematic_world::KinematicWorld;
 use nalgebra::Point3;
@@ -67,4 +67,34 @@ fn a_query_of_another_instance_is_made_again() {
     world.frame = other.frame;
     let away = dwells(&mut world);
     assert!(away < 0.02, "{away} m away from where the base is steadied");
+}
+
+#[test]
+fn a_standby_has_the_answer_that_its_stage_waits_for_when_that_dies() {
+    let mut stage = KinematicWorld::new();
+    let limits = kinematic_world::limits();
+    let of_robot = || Control::in_real_time(stage.robot.clone(), &stage.task, &limits).unwrap();
+    // The stage's planner never answers.
+    let ((stage_control, _silent), (mut standby, planner)) = (of_robot(), of_robot());
+    std::thread::spawn(move || planner.run(&AtomicBool::new(false)));
+    stage.control = stage_control;
+    (0..10).for_each(|_| stage.step());
+    stage.decide(Some(stage.action(ActionType::Steady, "wheel on the person's side")));
+    let mut sent = stage.command.clone();
+    let mut stand_by = |stage: &mut KinematicWorld| {
+        stage.sense();
+        let (sample, percept, frame) = (&stage.sample, &stage.percept, &stage.frame);
+        standby.step(stage.tick, Some(sample), Some(percept), Some(frame), Some(&stage.command), &mut sent);
+        sent.velocity.iter().take(ARM_JOINTS).any(|speed| *speed != 0.0)
+    };
+    for _ in 0..10 {
+        stand_by(&mut stage);
+        stage.step();
+    }
+    std::thread::sleep(ANSWERED);
+    for cycle in 0..10 {
+        assert!(stand_by(&mut stage), "cycle {cycle}: it had two seconds to plan the same movement");
+        stage.step();
+        assert!(stage.command.velocity.iter().all(|speed| *speed == 0.0));
+    }
 }

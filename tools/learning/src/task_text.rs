@@ -17,6 +17,14 @@ impl TaskText {
     pub fn read(path: &Path) -> Result<Self, LearnError> {
         let text = coact_input_file::read_text(path)
             .map_err(|cause| LearnError::File { path: path.to_owned(), cause })?;
+        Self::parse(&text, path)
+    }
+
+    /// The task of this text, as if it stood in the file at `path`.
+    ///
+    /// # Errors
+    /// It is no TOML.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, LearnError> {
         let document = text
             .parse()
             .map_err(|error: toml_edit::TomlError| LearnError::content(path.display(), error.message()))?;

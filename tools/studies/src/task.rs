@@ -2,6 +2,7 @@
 
 mod check;
 mod new;
+mod random;
 mod show;
 
 use std::process::ExitCode;
@@ -11,7 +12,8 @@ use std::process::ExitCode;
 #[command(after_help = "Examples:
   coact task new --out mine.toml
   coact task check mine.toml
-  coact task show mine.toml")]
+  coact task show mine.toml
+  coact task random --seed 7 --subgoals 20 --out random.toml")]
 pub struct Args {
     #[command(subcommand)]
     command: Command,
@@ -25,6 +27,8 @@ enum Command {
     Check(check::Args),
     /// Write a commented task file to begin with
     New(new::Args),
+    /// Write a random task that can be solved, of a given size
+    Random(random::Args),
 }
 
 /// Runs the command.
@@ -36,5 +40,6 @@ pub fn run(args: Args) -> anyhow::Result<ExitCode> {
         Command::Show(args) => show::run(args),
         Command::Check(args) => check::run(args),
         Command::New(args) => new::run(args),
+        Command::Random(args) => random::run(args),
     }
 }

@@ -1,5 +1,6 @@
 use super::slots::Slots;
 use super::{PlannerWatch, PlanningQuery, PlanningResult, PlanningThread, SkillPlanner};
+use crate::state::QueryId;
 use coact_motion::SearchHeartbeat;
 use std::sync::Arc;
 use std::time::Duration;
@@ -7,8 +8,10 @@ use std::time::Duration;
 /// Control's side of the planner: makes queries, and takes the results.
 #[derive(Debug)]
 pub(crate) struct PlannerLink {
-    /// Number, in control's state, of the newest query that was made here; none when the state is another's since.
-    asked: Option<u64>,
+    /// The newest query that was made here.
+    asked: Option<QueryId>,
+    /// Its answer, once it is there. It stays: a standby may have it before its stage has, and needs it when that one dies.
+    answer: Option<PlanningResult>,
     watch: PlannerWatch,
     place: PlannerPlace,
 }
@@ -16,14 +19,14 @@ pub(crate) struct PlannerLink {
 /// Where movements are planned: within the step that asks, or by a [`PlanningThread`] beside the servo.
 #[derive(Debug)]
 enum PlannerPlace {
-    Within { planner: Box<SkillPlanner>, result: Option<Box<PlanningResult>> },
+    Within(Box<SkillPlanner>),
     Beside { slots: Arc<Slots<PlanningQuery, PlanningResult>>, heartbeat: SearchHeartbeat },
 }
 
 impl PlannerLink {
     /// To a planner that answers at once.
     pub fn within(planner: SkillPlanner) -> Self {
-        Self::to(PlannerPlace::Within { planner: Box::new(planner), result: None })
+        Self::to(PlannerPlace::Within(Box::new(planner)))
     }
 
     /// To a planner on a thread of its own.
@@ -34,7 +37,7 @@ impl PlannerLink {
     }
 
     fn to(place: PlannerPlace) -> Self {
-        Self { asked: None, watch: PlannerWatch::default(), place }
+        Self { asked: None, answer: None, watch: PlannerWatch::default(), place }
     }
 
     /// Looks whether the planner goes on; to be called once in each cycle.
@@ -49,33 +52,31 @@ impl PlannerLink {
         self.watch.hangs(starves)
     }
 
-    /// Makes the query that has this number in control's state; one that was not taken up yet is replaced.
-    pub fn ask(&mut self, number: u64, query: &PlanningQuery) {
-        self.asked = Some(number);
-        match &mut self.place {
-            PlannerPlace::Within { planner, result } => *result = Some(Box::new(planner.plan(query))),
-            PlannerPlace::Beside { slots, .. } => slots.ask(*query),
+    /// Makes this query; one that was not taken up yet is replaced.
+    pub fn ask(&mut self, id: QueryId, query: &PlanningQuery) {
+        self.asked = Some(id);
+        self.answer = match &mut self.place {
+            PlannerPlace::Within(planner) => Some(planner.plan(query)),
+            PlannerPlace::Beside { slots, .. } => {
+                slots.ask(*query);
+                None
+            }
         }
     }
 
-    /// The state is another's from now on: of what was asked here it knows nothing, though its queries may have the same numbers.
-    pub fn forget(&mut self) {
-        self.asked = None;
+    /// Whether it was the newest query that was made here.
+    pub fn was_asked(&self, id: QueryId) -> bool {
+        self.asked == Some(id)
     }
 
-    /// Whether the query of this number was made here.
-    pub fn was_asked(&self, number: u64) -> bool {
-        self.asked == Some(number)
-    }
-
-    /// The result of the newest query, once, if that has this number.
-    pub fn result(&mut self, number: u64) -> Option<PlanningResult> {
-        if !self.was_asked(number) {
+    /// The answer to the newest query, if it was this one.
+    pub fn answer(&mut self, id: QueryId) -> Option<PlanningResult> {
+        if !self.was_asked(id) {
             return None;
         }
-        match &mut self.place {
-            PlannerPlace::Within { result, .. } => result.take().map(|result| *result),
-            PlannerPlace::Beside { slots, .. } => slots.result(),
+        if let PlannerPlace::Beside { slots, .. } = &self.place {
+            self.answer = self.answer.or_else(|| slots.result());
         }
+        self.answer
     }
 }

@@ -3,6 +3,7 @@ use crate::person::PersonCapsules;
 use crate::state::Skill;
 use coact_robot::{HAND_JOINTS, MotionState, NextUse};
 use nalgebra::{Isometry3, Vector3};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// What is asked of the planner: all that it needs to know, of fixed size, so that it passes a lock-free slot.
 #[derive(Debug, Clone, Copy)]
@@ -45,6 +46,17 @@ impl PlanningQuery {
     /// Whether the hand grasps what the person gives.
     pub fn receives(&self) -> bool {
         self.skill == Skill::Receive && !self.stops_before
+    }
+
+    /// Tells it from queries for another movement: of what the hand does, where, and from which state of the arm. Two instances that
+    /// ask for the same movement in the same cycle may see what surrounds it a sample apart.
+    pub fn fingerprint(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        (self.skill as u64, self.kind, self.stops_before, self.loosely, self.held_in).hash(&mut hasher);
+        let place = self.place.to_homogeneous();
+        let starts = self.start.iter().flat_map(|joint| [joint.position, joint.velocity, joint.acceleration]);
+        place.iter().copied().chain(starts).for_each(|number| number.to_bits().hash(&mut hasher));
+        hasher.finish()
     }
 
     /// Whether the arm moves when the movement begins.

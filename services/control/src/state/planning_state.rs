@@ -1,4 +1,4 @@
-use super::{ArmTrajectory, MovementQuery};
+use super::{ArmTrajectory, MovementQuery, QueryId};
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_period::cycles;
 use coact_robot::Posture;
@@ -12,8 +12,8 @@ pub(crate) struct PlanningState {
     pub query: MovementQuery,
     /// The next trajectory, while the query is [`MovementQuery::Planned`].
     pub next: ArmTrajectory,
-    /// Queries so far: the number of the newest.
-    pub queries: u64,
+    /// The newest query.
+    pub newest: QueryId,
     /// Cycles that the skill has waited for a trajectory since that query; counts up to the next one.
     pub waited: u64,
     /// Cycles ahead at which a movement begins that is asked for in motion.
@@ -36,10 +36,10 @@ impl PlanningState {
         Self { next: ArmTrajectory::resting(posture), lead: FIRST_LEAD, ..Self::zeroed() }
     }
 
-    /// Counts a new query, from rest or in motion.
-    pub fn open(&mut self, query: MovementQuery) {
+    /// Begins a new query, from rest or in motion, with this fingerprint.
+    pub fn open(&mut self, query: MovementQuery, fingerprint: u64) {
         self.query = query;
-        self.queries = self.queries.wrapping_add(1);
+        self.newest = QueryId { number: self.newest.number.wrapping_add(1), fingerprint };
         self.waited = 0;
     }
 

@@ -1,0 +1,76 @@
+//! Where parts lie, and where they go: places on the table of `frame.toml`, m, that hands reach.
+
+use coact_joint_task::Agent;
+use rand::RngExt;
+use rand_pcg::Pcg32;
+
+/// So many steps a task has at most.
+pub(crate) const MOST_PLACES: usize = 50;
+/// So many parts the robot can reach at first: its fingers need 0.1 m between neighbours.
+pub(crate) const ROBOT_PARTS: usize = 9;
+
+/// Where the robot's parts lie: a grid of so many columns, its first place, and the distance between places.
+const ROBOT_GRID: Grid = Grid { columns: 3, first: [-0.54, 0.48], step: [0.11, 0.13], jitter: 0.01 };
+/// The person's: she reaches between parts that are 6 cm apart.
+const PERSON_GRID: Grid = Grid { columns: 4, first: [-1.14, -0.16], step: [0.07, 0.068], jitter: 0.003 };
+/// Towers that the robot builds: its fingers, and what they carry, pass between them.
+const ROBOT_TOWERS: Grid = Grid { columns: 3, first: [-0.66, 0.0], step: [0.10, 0.11], jitter: 0.0 };
+/// Towers that the person builds.
+const PERSON_TOWERS: Grid = Grid { columns: 2, first: [-0.87, -0.02], step: [0.08, 0.08], jitter: 0.0 };
+
+/// How many places a grid of parts has that are drawn from.
+const PERSON_PLACES: usize = 48;
+/// Towers of the robot: those behind them lie among its parts.
+const ROBOT_TOWER_COUNT: usize = 12;
+/// Towers of the person.
+const PERSON_TOWER_COUNT: usize = 16;
+
+struct Grid {
+    columns: usize,
+    first: [f64; 2],
+    step: [f64; 2],
+    jitter: f64,
+}
+
+impl Grid {
+    fn at(&self, index: usize) -> [f64; 2] {
+        let cell = [index % self.columns, index / self.columns];
+        [0, 1].map(|axis| self.first[axis] + cell[axis] as f64 * self.step[axis])
+    }
+
+    fn near(&self, index: usize, random: &mut Pcg32) -> [f64; 2] {
+        self.at(index).map(|coordinate| coordinate + random.random_range(-1.0..=1.0) * self.jitter)
+    }
+}
+
+/// How many places for parts an agent's workspace has.
+pub(crate) fn part_places(agent: Agent) -> usize {
+    match agent {
+        Agent::Person => PERSON_PLACES,
+        Agent::Robot => ROBOT_PARTS,
+    }
+}
+
+/// The `index`-th of them.
+pub(crate) fn part_place(agent: Agent, index: usize, random: &mut Pcg32) -> [f64; 2] {
+    match agent {
+        Agent::Person => PERSON_GRID.near(index, random),
+        Agent::Robot => ROBOT_GRID.near(index, random),
+    }
+}
+
+/// How many towers an agent builds.
+pub(crate) fn towers(agent: Agent) -> usize {
+    match agent {
+        Agent::Person => PERSON_TOWER_COUNT,
+        Agent::Robot => ROBOT_TOWER_COUNT,
+    }
+}
+
+/// Where the `index`-th of them stands.
+pub(crate) fn tower(agent: Agent, index: usize) -> [f64; 2] {
+    match agent {
+        Agent::Person => PERSON_TOWERS.at(index),
+        Agent::Robot => ROBOT_TOWERS.at(index),
+    }
+}
