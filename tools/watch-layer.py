@@ -34,8 +34,8 @@ import tempfile
 import time
 from pathlib import Path
 
-LAYOUT = 9
-MAX_LAYERS, MAX_POPULATIONS, MAX_SITES = 16, 1024, 10240
+LAYOUT = 10
+MAX_LAYERS, MAX_POPULATIONS, MAX_SITES = 16, 1216, 12160
 NONE = 0xFFFF_FFFF
 LAYERS = ["AOL", "OML-robot", "OML-person", "CSGL-achieved", "CSGL-available", "ASL", "IL", "EML", "AEL"]
 

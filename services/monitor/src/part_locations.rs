@@ -5,7 +5,7 @@ use coact_messages::{MAX_PARTS, MAX_SUBGOALS, Truth};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct PartLocations {
     /// Parts in the hands of robot and person, bit for bit.
-    held: [u32; 2],
+    held: [u64; 2],
     /// Subgoals, bit for bit.
     in_place: u64,
 }
@@ -63,7 +63,7 @@ fn kind(part: usize, task: &Task) -> &str {
     &task.kinds[task.parts[part].kind].name
 }
 
-fn parts(mask: u32, task: &Task) -> impl Iterator<Item = usize> + use<> {
+fn parts(mask: u64, task: &Task) -> impl Iterator<Item = usize> + use<> {
     (0..task.parts.len().min(MAX_PARTS)).filter(move |part| mask & (1 << part) != 0)
 }
 

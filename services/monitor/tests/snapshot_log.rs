@@ -46,7 +46,7 @@ impl Watching {
     }
 
     /// The hand of `who` has these parts, bit for bit.
-    fn holds(&mut self, who: usize, parts: u32) {
+    fn holds(&mut self, who: usize, parts: u64) {
         self.truth.held[who] = parts;
         self.pass(50);
     }

@@ -122,7 +122,7 @@ impl Parts {
     }
 
     /// Bit i is set when part i is with `holder`.
-    pub fn held_by(&self, holder: Holder) -> u32 {
+    pub fn held_by(&self, holder: Holder) -> u64 {
         (0..self.count).filter(|&part| self.is(part, holder)).fold(0, |mask, part| mask | 1 << part)
     }
 

@@ -37,7 +37,7 @@ pub struct Command {
     /// Reserved, zero.
     pub reserved: u32,
     /// Control's state, in the words of `coact-stage-state`: what a restarted control resumes from.
-    pub state: [f64; 2048],
+    pub state: [f64; 2560],
 }
 
 /// Phase of a movement.

@@ -101,17 +101,17 @@ pub const ARM_JOINTS: usize = 7;
 /// Observable acts that a task may name (populations of the action observation layer).
 pub const MAX_ACTS: usize = 192;
 /// Kinds of part that a task may name.
-pub const MAX_KINDS: usize = 32;
+pub const MAX_KINDS: usize = 64;
 /// Single parts that a scene may hold.
-pub const MAX_PARTS: usize = 32;
+pub const MAX_PARTS: usize = 64;
 /// Subgoals that a plan may name.
 pub const MAX_SUBGOALS: usize = 64;
 /// Layers of the field network.
 pub const MAX_LAYERS: usize = 16;
 /// Populations of the whole field network.
-pub const MAX_POPULATIONS: usize = 1024;
+pub const MAX_POPULATIONS: usize = 1216;
 /// Samples (field sites) of the whole field network.
-pub const MAX_SITES: usize = 10_240;
+pub const MAX_SITES: usize = 12_160;
 /// Workspaces: index 0 is the robot's, index 1 is the person's.
 pub const WORKSPACES: usize = 2;
 /// The robot's workspace or side.

@@ -30,7 +30,7 @@ pub struct Percept {
     pub lost: [f64; MAX_KINDS],
     /// Perception's state, as opaque words: what else it needs to go on. `services/perception` says what each holds; other
     /// readers ignore them.
-    pub state: [f64; 1024],
+    pub state: [f64; 1536],
 }
 
 /// What the person's hand does at this tick; [`PersonArm`] says where it is.

@@ -41,7 +41,7 @@ pub struct Truth {
     /// Where the person's shoulder, elbow, wrist and middle finger tip are, m; zeros: there is no person.
     pub arm: [[f64; 3]; 4],
     /// Bit i set: part i of `Task::parts` is in the hand of [`ROBOT`](crate::ROBOT), of [`PERSON`](crate::PERSON).
-    pub held: [u32; WORKSPACES],
+    pub held: [u64; WORKSPACES],
 }
 
 /// What is wrong with one of the person's actions.

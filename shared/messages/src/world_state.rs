@@ -22,7 +22,7 @@ pub struct WorldState {
     /// Every part of the scene.
     pub part: [PartState; MAX_PARTS],
     /// The simulation state in opaque words: partner, robot's hand and drive, sensors; `services/world` says what each holds.
-    pub state: [f64; 1536],
+    pub state: [f64; 2560],
 }
 
 /// Where one part is and who has it.

@@ -3,19 +3,21 @@ use crate::trial_recorder::TrialRecorder;
 use crate::{NetworkVariant, Trial};
 use coact_lockstep::{Lockstep, LockstepError};
 use coact_period::cycles;
-use coact_pipeline::RunSettings;
+use coact_pipeline::{Layout, RunSettings};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// An assembly without a new subgoal for so long is given up, ticks: about as long as the toy vehicle takes as a whole.
 const STALLED: u64 = cycles(Duration::from_secs(60));
-/// The longest assembly, ticks: ten times as long as the toy vehicle takes.
-const LONGEST: u64 = cycles(Duration::from_secs(600));
 
 /// Many assemblies.
 #[derive(Debug, Clone)]
 pub struct Campaign<'a> {
-    /// Task, robot, model, partner; the seed is that of the first assembly, the next ones follow.
+    /// Task, robot, model, partner; the seed is that of the first assembly, the next ones follow. A random layout is drawn anew for
+    /// each, by its seed.
     pub settings: &'a RunSettings,
+    /// Tasks that the assemblies take in turn; without any it is that of the settings.
+    pub tasks: &'a [PathBuf],
     /// The robot's network.
     pub network: &'a NetworkVariant,
     /// Whether the robot's guard holds it back.
@@ -32,23 +34,25 @@ pub struct Campaign<'a> {
 /// A file or setting that a stage refuses.
 pub fn run(campaign: &Campaign, done: impl Fn() + Sync) -> Result<Vec<Trial>, LockstepError> {
     in_parallel(campaign.trials, campaign.threads, |index| {
-        let trial = assemble(campaign, campaign.settings.seed.wrapping_add(index))?;
+        let trial = assemble(campaign, index)?;
         done();
         Ok(trial)
     })
 }
 
-/// One assembly, until it is complete, nothing is achieved for a minute, or ten minutes are over.
-fn assemble(campaign: &Campaign, seed: u64) -> Result<Trial, LockstepError> {
-    let settings = RunSettings { seed, ..campaign.settings.clone() };
+/// One assembly, until it is complete, nothing is achieved for a minute, or each of its subgoals could have been achieved in
+/// that time.
+fn assemble(campaign: &Campaign, index: u64) -> Result<Trial, LockstepError> {
+    let settings = settings(campaign, index);
     let mut stages = Lockstep::with_plan(&settings, |plan| campaign.network.apply(plan))?;
     if !campaign.guarded {
         stages.leave_unguarded();
     }
     let (task, plan) = (stages.task().clone(), stages.plan().clone());
-    let mut recorder = TrialRecorder::new(&task, &plan, stages.separation_meter()?, seed);
+    let mut recorder = TrialRecorder::new(&task, &plan, stages.separation_meter()?, settings.seed);
+    let longest = STALLED * task.subgoals.len() as u64;
     let (mut achieved, mut advanced) = (0, 0);
-    while stages.ticks() < LONGEST && stages.ticks() < advanced + STALLED {
+    while stages.ticks() < longest && stages.ticks() < advanced + STALLED {
         stages.step();
         recorder.tick(&stages);
         if stages.truth.achieved != achieved {
@@ -58,6 +62,19 @@ fn assemble(campaign: &Campaign, seed: u64) -> Result<Trial, LockstepError> {
             return Ok(recorder.finish(&stages, false));
         }
     }
-    let stalled = stages.ticks() < LONGEST;
+    let stalled = stages.ticks() < longest;
     Ok(recorder.finish(&stages, stalled))
+}
+
+/// Those of the assembly with this number, from 0.
+fn settings(campaign: &Campaign, index: u64) -> RunSettings {
+    let Campaign { settings, tasks, .. } = *campaign;
+    let seed = settings.seed.wrapping_add(index);
+    let layout = match settings.layout {
+        Layout::Task => Layout::Task,
+        Layout::Random(_) => Layout::Random(seed),
+    };
+    let turn = (index % tasks.len().max(1) as u64) as usize;
+    let task = tasks.get(turn).unwrap_or(&settings.task).clone();
+    RunSettings { task, seed, layout, ..settings.clone() }
 }

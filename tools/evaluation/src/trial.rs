@@ -5,6 +5,8 @@ use serde::Serialize;
 /// What one assembly was like. Times are ms from its start.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Trial {
+    /// The task's name.
+    pub task: String,
     /// Seed of partner, sensors and noise.
     pub seed: u64,
     /// When the last part came into its place.

@@ -49,6 +49,7 @@ impl<'a> TrialRecorder<'a> {
             fluency: FluencyCounter::default(),
             separation,
             trial: Trial {
+                task: task.name.clone(),
                 seed,
                 completed_ms: None,
                 ended_ms: 0,

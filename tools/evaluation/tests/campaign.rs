@@ -16,14 +16,19 @@ fn settings(partner: &str) -> RunSettings {
 }
 
 fn trials(partner: &str, network: &NetworkVariant, trials: u64, threads: usize) -> Vec<Trial> {
-    run(&Campaign { settings: &settings(partner), network, guarded: true, trials, threads }, || {}).unwrap()
+    run(
+        &Campaign { settings: &settings(partner), tasks: &[], network, guarded: true, trials, threads },
+        || {},
+    )
+    .unwrap()
 }
 
 #[test]
 fn same_seeds_give_the_same_trials_with_any_number_of_threads() {
     let done = AtomicUsize::new(0);
     let (settings, network) = (settings("random:goal=0.2"), NetworkVariant::default());
-    let campaign = Campaign { settings: &settings, network: &network, guarded: true, trials: 3, threads: 2 };
+    let campaign =
+        Campaign { settings: &settings, tasks: &[], network: &network, guarded: true, trials: 3, threads: 2 };
     let one = run(&campaign, || _ = done.fetch_add(1, Ordering::Relaxed)).unwrap();
     assert_eq!(done.into_inner(), 3);
     assert_eq!(one.iter().map(|trial| trial.seed).collect::<Vec<_>>(), [1, 2, 3]);
@@ -54,7 +59,8 @@ fn a_robot_without_anticipation_answers_later() {
 fn without_its_guard_the_robot_is_never_held_back_and_closes_on_people() {
     let (settings, network) = (settings("synthetic"), NetworkVariant::default());
     let reports = [true, false].map(|guarded| {
-        let campaign = Campaign { settings: &settings, network: &network, guarded, trials: 3, threads: 2 };
+        let campaign =
+            Campaign { settings: &settings, tasks: &[], network: &network, guarded, trials: 3, threads: 2 };
         EvaluationReport::new(&network, &run(&campaign, || {}).unwrap())
     });
     let [with, without] = &reports;
@@ -111,7 +117,14 @@ fn without_common_subgoals_nothing_is_achieved_and_that_is_reported_as_a_deadloc
 fn a_robot_that_leaves_a_handover_closes_on_nobody() {
     let (settings, network) = (RunSettings { seed: 51, ..settings("random") }, NetworkVariant::default());
     let trials = run(
-        &Campaign { settings: &settings, network: &network, guarded: true, trials: 1, threads: 1 },
+        &Campaign {
+            settings: &settings,
+            tasks: &[],
+            network: &network,
+            guarded: true,
+            trials: 1,
+            threads: 1,
+        },
         || {},
     )
     .unwrap();

@@ -10,20 +10,21 @@ pub(crate) const MOST_PLACES: usize = 50;
 pub(crate) const ROBOT_PARTS: usize = 9;
 
 /// Where the robot's parts lie: a grid of so many columns, its first place, and the distance between places.
-const ROBOT_GRID: Grid = Grid { columns: 3, first: [-0.54, 0.48], step: [0.11, 0.13], jitter: 0.01 };
-/// The person's: she reaches between parts that are 6 cm apart.
-const PERSON_GRID: Grid = Grid { columns: 4, first: [-1.14, -0.16], step: [0.07, 0.068], jitter: 0.003 };
+const ROBOT_GRID: Grid = Grid { columns: 3, first: [-0.54, 0.48], step: [0.11, 0.13], jitter: 0.007 };
+/// The person's: she reaches between parts that are 6 cm apart. Her hand rests 13 cm from the nearest: beside a part it would look like one
+/// that grasps it.
+const PERSON_GRID: Grid = Grid { columns: 4, first: [-1.09, -0.16], step: [0.063, 0.068], jitter: 0.0015 };
 /// Towers that the robot builds: its fingers, and what they carry, pass between them.
-const ROBOT_TOWERS: Grid = Grid { columns: 3, first: [-0.66, 0.0], step: [0.10, 0.11], jitter: 0.0 };
+const ROBOT_TOWERS: Grid = Grid { columns: 4, first: [-0.62, 0.16], step: [0.09, 0.10], jitter: 0.0 };
 /// Towers that the person builds.
-const PERSON_TOWERS: Grid = Grid { columns: 2, first: [-0.87, -0.02], step: [0.08, 0.08], jitter: 0.0 };
+const PERSON_TOWERS: Grid = Grid { columns: 2, first: [-0.83, -0.02], step: [0.08, 0.08], jitter: 0.0 };
 
 /// How many places a grid of parts has that are drawn from.
 const PERSON_PLACES: usize = 48;
 /// Towers of the robot: those behind them lie among its parts.
 const ROBOT_TOWER_COUNT: usize = 12;
 /// Towers of the person.
-const PERSON_TOWER_COUNT: usize = 16;
+const PERSON_TOWER_COUNT: usize = 14;
 
 struct Grid {
     columns: usize,

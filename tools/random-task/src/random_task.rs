@@ -1,7 +1,7 @@
 use crate::TaskShape;
 use crate::places::{part_place, part_places, tower, towers};
 use coact_joint_task::Agent;
-use rand::seq::{IndexedRandom, SliceRandom, index};
+use rand::seq::{IndexedMutRandom, SliceRandom, index};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 use serde::Serialize;
@@ -9,6 +9,8 @@ use serde::Serialize;
 /// A task that nobody drew.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RandomTask {
+    #[serde(skip)]
+    name: String,
     kind: Vec<Kind>,
     part: Vec<Part>,
     subgoal: Vec<Subgoal>,
@@ -58,8 +60,9 @@ struct Tower {
 
 /// What is the same in all random tasks: words, grips, actions and table.
 const FRAME: &str = include_str!("frame.toml");
-/// Of the table top in `frame.toml`, m.
-const TABLE_HEIGHT: f64 = 0.80;
+/// Where towers begin, m: 2 cm above the table of `frame.toml`, as on a peg, so that a hand that holds a part by its lower half does not meet
+/// the table.
+const FOUNDATION: f64 = 0.82;
 /// So many parts stand on each other at most: hands still pass above.
 const LEVELS: usize = 3;
 /// Share of the parts that lie before the robot at first, while there is room.
@@ -81,19 +84,24 @@ impl RandomTask {
         let subgoal = subgoals(shape, &kind, &kinds, random);
         kinds.shuffle(random);
         let part = parts(&kind, &kinds, random);
-        Self { kind, part, subgoal }
+        Self { name: format!("random task {seed}"), kind, part, subgoal }
     }
 
     /// The task as a file: of `rt-config/tasks`, where the network is that it names.
     pub fn to_toml(&self) -> String {
         // Nothing in it has no form in TOML.
-        format!("{FRAME}\n{}", toml::to_string(self).unwrap_or_default())
+        format!("name = \"{}\"\n{FRAME}\n{}", self.name, toml::to_string(self).unwrap_or_default())
+    }
+}
+
+impl Tower {
+    fn has_room(&self) -> bool {
+        self.steps.len() < LEVELS
     }
 }
 
 impl Kind {
     fn random(index: usize, random: &mut Pcg32) -> Self {
-        let millimetres = |length: f64| (length * 1e3).round() / 1e3;
         let (width, height) =
             (millimetres(random.random_range(DIAMETER)), millimetres(random.random_range(HEIGHT)));
         let radius = width / 2.0;
@@ -118,11 +126,11 @@ fn subgoals(shape: TaskShape, kind: &[Kind], kinds: &[usize], random: &mut Pcg32
     let broadest = random.random_range(shape.predecessors()..shape.subgoals());
     let mut subgoals: Vec<Subgoal> = Vec::new();
     for (step, needed) in kinds.iter().map(|&index| &kind[index]).enumerate() {
-        let (agent, towers) = &mut growing[random.random_range(0..2)];
-        let free: Vec<usize> =
-            (0..towers.len()).filter(|&tower| towers[tower].steps.len() < LEVELS).collect();
-        // Both sides together have room for more steps than a task has, and so has each.
-        let Some(tower) = free.choose(random).map(|&tower| &mut towers[tower]) else { continue };
+        let mut sides: Vec<_> =
+            growing.iter_mut().filter(|(_, towers)| towers.iter().any(Tower::has_room)).collect();
+        let Some((agent, towers)) = sides.choose_mut(random) else { break };
+        let mut free: Vec<_> = towers.iter_mut().filter(|tower| tower.has_room()).collect();
+        let Some(tower) = free.choose_mut(random) else { break };
         let before = match step == broadest {
             true => shape.predecessors(),
             false => random.random_range(0..=shape.predecessors().min(step)),
@@ -132,7 +140,7 @@ fn subgoals(shape: TaskShape, kind: &[Kind], kinds: &[usize], random: &mut Pcg32
             name: format!("step {}", step + 1),
             kind: needed.name.clone(),
             side: name(*agent),
-            socket: Socket { at: [tower.at[0], tower.at[1], TABLE_HEIGHT + tower.height] },
+            socket: Socket { at: [tower.at[0], tower.at[1], FOUNDATION + tower.height].map(millimetres) },
             after: after.into_iter().map(|earlier| subgoals[earlier].name.clone()).collect(),
         });
         tower.steps.push(step);
@@ -170,10 +178,15 @@ fn parts(kind: &[Kind], kinds: &[usize], random: &mut Pcg32) -> Vec<Part> {
         let robot = free[0].1.is_empty() || (!free[1].1.is_empty() && random.random_bool(BEFORE_ROBOT));
         let (agent, places) = &mut free[usize::from(robot)];
         let Some(place) = places.pop() else { continue };
-        let at = part_place(*agent, place, random).map(|length| (length * 1e3).round() / 1e3);
+        let at = part_place(*agent, place, random).map(millimetres);
         parts.push(Part { kind: needed.name.clone(), workspace: name(*agent), at });
     }
     parts
+}
+
+/// Rounded to whole mm.
+fn millimetres(length: f64) -> f64 {
+    (length * 1e3).round() / 1e3
 }
 
 fn name(agent: Agent) -> &'static str {

@@ -10,13 +10,13 @@ use coact_evaluation::{
     Ablation, Campaign, Comparison, EvaluationReport, NetworkVariant, Trial, draw_fluency, draw_leads,
 };
 use coact_joint_task::NetworkPlan;
-use coact_pipeline::{RunSettings, WorldMode};
+use coact_pipeline::{Layout, RunSettings, WorldMode};
 use coact_world::Partner;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Write;
-use std::path::{Path, PathBuf, absolute};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Runs whole assemblies in lockstep with the kinematic world, on all cores, and counts what the robot understood.
@@ -28,6 +28,8 @@ use std::process::ExitCode;
   coact evaluate --baseline unguarded                 what keeping clear of the person costs
   coact evaluate --ablate oml                         without object memory
   coact evaluate --partner random:goal=0.2,clarity=0.3..1
+  coact evaluate --layout random                      parts lie elsewhere in each
+  coact evaluate --task a.toml b.toml --trials 20     ten of each task
 
 Keys of random, after a colon, separated by commas:
   idle, goal, request, means  fractions of the person's choices: idling; a part taken for a subgoal
@@ -43,9 +45,12 @@ Keys of random, after a colon, separated by commas:
 
 Exit status: 0, or 2 for bad usage or configuration.")]
 pub struct Args {
-    /// The task [default: the toy vehicle]
-    #[arg(long, value_name = "FILE")]
-    task: Option<PathBuf>,
+    /// The task, or several, which the assemblies take in turn [default: the toy vehicle]
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    task: Vec<PathBuf>,
+    /// Where parts lie at first: as the task has them, or anywhere in the workspace in which the task has them, elsewhere in each assembly
+    #[arg(long, value_enum, default_value = "task")]
+    layout: Laid,
     /// How many assemblies
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..))]
     trials: u64,
@@ -73,6 +78,16 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
+/// Where parts lie at first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Laid {
+    /// As the task has them
+    Task,
+    /// Anywhere in their workspace, elsewhere in each assembly
+    Random,
+}
+
 /// The robot to compare with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Baseline {
@@ -98,7 +113,9 @@ enum Ablated {
 /// The content of `evaluation.json`.
 #[derive(Debug, Serialize)]
 struct Evaluation {
-    task: String,
+    /// Their names; the assemblies take them in turn.
+    tasks: Vec<String>,
+    layout: Laid,
     partner: String,
     seed: u64,
     trials: u64,
@@ -118,8 +135,7 @@ struct Evaluation {
 /// A file, partner or setting is refused, or the folder cannot be written to.
 pub fn run(args: Args) -> Result<ExitCode> {
     let settings = settings(&args)?;
-    let (task, _) = NetworkPlan::load(&settings.task)?;
-    Partner::load(&settings.partner, &task, settings.seed)?;
+    let tasks = tasks(&args, &settings)?;
     if let Some(out) = &args.out {
         std::fs::create_dir_all(out)
             .with_context(|| format!("--out {}: expected a folder that can be written to", out.display()))?;
@@ -141,7 +157,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
         }
     };
     let evaluation = Evaluation {
-        task: task.name.clone(),
+        tasks,
+        layout: args.layout,
         partner: settings.partner.clone(),
         seed: args.seed,
         trials: args.trials,
@@ -188,12 +205,27 @@ fn settings(args: &Args) -> Result<RunSettings> {
     }
     let shipped = RunSettings::shipped(&configuration);
     Ok(RunSettings {
-        task: absolute(args.task.as_ref().unwrap_or(&shipped.task))?,
+        layout: match args.layout {
+            Laid::Task => Layout::Task,
+            Laid::Random => Layout::Random(args.seed),
+        },
         seed: args.seed,
         partner: partner::setting(&args.partner, &reaches),
         world: WorldMode::Kinematic,
         ..shipped
     })
+}
+
+/// Reads all tasks, and what the partner means in each; their names.
+fn tasks(args: &Args, settings: &RunSettings) -> Result<Vec<String>> {
+    let shipped = std::slice::from_ref(&settings.task);
+    let files = if args.task.is_empty() { shipped } else { &args.task };
+    let name = |file: &PathBuf| {
+        let (task, _) = NetworkPlan::load(file)?;
+        Partner::load(&settings.partner, &task, settings.seed)?;
+        Ok(task.name)
+    };
+    files.iter().map(name).collect()
 }
 
 fn assemble(
@@ -206,7 +238,7 @@ fn assemble(
     let threads = args.threads.map_or(cores, usize::from);
     let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left")?;
     let bar = ProgressBar::new(args.trials).with_style(style).with_message(what);
-    let campaign = Campaign { settings, network, guarded, trials: args.trials, threads };
+    let campaign = Campaign { settings, tasks: &args.task, network, guarded, trials: args.trials, threads };
     let trials = coact_evaluation::run(&campaign, || bar.inc(1));
     bar.finish_and_clear();
     Ok(trials?)
