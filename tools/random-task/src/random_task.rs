@@ -1,5 +1,5 @@
 use crate::TaskShape;
-use crate::places::{part_place, part_places, tower, towers};
+use crate::places::{part_places, tower, towers};
 use coact_joint_task::Agent;
 use rand::seq::{IndexedMutRandom, SliceRandom, index};
 use rand::{RngExt, SeedableRng};
@@ -169,7 +169,7 @@ fn predecessors(step: usize, count: usize, below: Option<usize>, random: &mut Pc
 /// A part for each of `kinds`, before one of the two.
 fn parts(kind: &[Kind], kinds: &[usize], random: &mut Pcg32) -> Vec<Part> {
     let mut free = [Agent::Person, Agent::Robot].map(|agent| {
-        let mut places: Vec<usize> = (0..part_places(agent)).collect();
+        let mut places = part_places(agent, random);
         places.shuffle(random);
         (agent, places)
     });
@@ -178,7 +178,7 @@ fn parts(kind: &[Kind], kinds: &[usize], random: &mut Pcg32) -> Vec<Part> {
         let robot = free[0].1.is_empty() || (!free[1].1.is_empty() && random.random_bool(BEFORE_ROBOT));
         let (agent, places) = &mut free[usize::from(robot)];
         let Some(place) = places.pop() else { continue };
-        let at = part_place(*agent, place, random).map(millimetres);
+        let at = place.map(millimetres);
         parts.push(Part { kind: needed.name.clone(), workspace: name(*agent), at });
     }
     parts
