@@ -1,5 +1,4 @@
-use super::body_part::rests;
-use super::{BodyPart, Growth};
+use super::growth::{Growth, rests};
 use coact_messages::TrackedPoint;
 use coact_motion::Capsule;
 use coact_period::seconds;
@@ -16,11 +15,11 @@ pub(super) struct ArmBound {
 }
 
 impl ArmBound {
-    pub fn of(shoulder: &TrackedPoint, limb: &BodyPart, limits: &PersonLimits) -> Self {
+    pub fn of(shoulder: &TrackedPoint, limb: &Capsule, limits: &PersonLimits) -> Self {
         let (at, speed) = (Point3::from(shoulder.position), Vector3::from(shoulder.velocity).norm());
-        let reached = (limb.now.start - at).norm().max((limb.now.end - at).norm());
+        let reached = (limb.start - at).norm().max((limb.end - at).norm());
         Self {
-            shoulder: Capsule { start: at, end: at, radius: limits.reach.max(reached) + limb.now.radius },
+            shoulder: Capsule { start: at, end: at, radius: limits.reach.max(reached) + limb.radius },
             speed,
             growth: Growth {
                 age: seconds(shoulder.age),

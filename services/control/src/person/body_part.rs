@@ -1,5 +1,5 @@
-use super::Growth;
 use super::arm_bound::ArmBound;
+use super::growth::{Growth, rests};
 use coact_messages::TrackedPoint;
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
@@ -91,9 +91,4 @@ impl BodyPart {
     pub fn is_bound_away_from(&self, capsule: &Capsule, within: f64, ahead: f64) -> bool {
         self.bound.is_some_and(|bound| bound.distance(capsule, ahead) > within)
     }
-}
-
-/// Whether a joint has been where it is for long enough to be sure that it rests.
-pub(super) fn rests(joint: &TrackedPoint, limits: &PersonLimits) -> bool {
-    joint.still >= cycles(limits.rests_after)
 }

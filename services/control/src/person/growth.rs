@@ -1,3 +1,7 @@
+use coact_messages::TrackedPoint;
+use coact_period::cycles;
+use coact_safety::PersonLimits;
+
 /// How far something may be from where it is expected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Growth {
@@ -18,4 +22,9 @@ impl Growth {
         let time = self.age + ahead;
         (self.acceleration * time * (0.5 * time + self.velocity_lag)).min(self.most_speed * time)
     }
+}
+
+/// Whether a joint has been where it is for long enough to be sure that it rests.
+pub(super) fn rests(joint: &TrackedPoint, limits: &PersonLimits) -> bool {
+    joint.still >= cycles(limits.rests_after)
 }

@@ -6,5 +6,4 @@ mod growth;
 mod person_capsules;
 
 pub(crate) use body_part::BodyPart;
-use growth::Growth;
 pub(crate) use person_capsules::PersonCapsules;

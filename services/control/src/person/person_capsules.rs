@@ -49,7 +49,7 @@ impl PersonCapsules {
         }
         if shoulder.age <= cycles(stale.hand_after) {
             for limb in [&mut upper_arm, &mut forearm, &mut hand].into_iter().filter(|limb| !limb.is_seen) {
-                limb.bound = Some(ArmBound::of(&shoulder, limb, limits));
+                limb.bound = Some(ArmBound::of(&shoulder, &limb.now, limits));
             }
         }
         // The robot's fingers reach around a part to the wrist, where the forearm ends.
