@@ -103,7 +103,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::person::Growth;
+    use crate::person::growth::Growth;
     use coact_safety::SafetyLimits;
     use nalgebra::Point3;
 
