@@ -3,8 +3,8 @@
 
 use bytemuck::{Pod, zeroed_box};
 use coact_messages::{
-    Command, FieldFrame, HandPoints, Header, LayerKind, Percept, Plausible, Pulse, SensorSample, Speech,
-    StopState, Truth, WorldState,
+    Command, FieldFrame, HandPoints, Header, LayerKind, MAX_POPULATIONS, Percept, Plausible, Pulse,
+    SensorSample, Speech, StopState, Truth, WorldState,
 };
 use std::hint::black_box;
 use std::time::Instant;
@@ -65,7 +65,7 @@ fn a_frame_whose_layers_do_not_fit_into_it_is_refused() {
         |frame| frame.layers.count = 17,
         |frame| frame.layers.kind[0] = 9,
         |frame| frame.layers.first_site[0] = u32::MAX,
-        |frame| frame.layers.populations[0] = 1025,
+        |frame| frame.layers.populations[0] = MAX_POPULATIONS as u32 + 1,
         |frame| frame.since[3] = 2,
     ];
     for damage in damage {

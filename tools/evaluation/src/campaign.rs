@@ -78,3 +78,33 @@ fn settings(campaign: &Campaign, index: u64) -> RunSettings {
     let task = tasks.get(turn).unwrap_or(&settings.task).clone();
     RunSettings { task, seed, layout, ..settings.clone() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn assemblies_take_tasks_in_turn_each_with_a_seed_and_a_layout_of_its_own() {
+        let own =
+            RunSettings { seed: 7, layout: Layout::Random(0), ..RunSettings::shipped("rt-config".as_ref()) };
+        let network = NetworkVariant::default();
+        let tasks = ["a.toml", "b.toml"].map(PathBuf::from);
+        let campaign = Campaign {
+            settings: &own,
+            tasks: &tasks,
+            network: &network,
+            guarded: true,
+            trials: 3,
+            threads: 1,
+        };
+        let taken = [0, 1, 2].map(|index| settings(&campaign, index));
+        assert_eq!(
+            taken.each_ref().map(|settings| settings.task.clone()),
+            ["a.toml", "b.toml", "a.toml"].map(PathBuf::from)
+        );
+        assert_eq!(taken.each_ref().map(|settings| settings.seed), [7, 8, 9]);
+        assert_eq!(taken.each_ref().map(|settings| settings.layout), [7, 8, 9].map(Layout::Random));
+        let without = Campaign { tasks: &[], ..campaign };
+        assert_eq!(settings(&without, 1).task, own.task);
+    }
+}
