@@ -1,5 +1,5 @@
 use crate::TaskShape;
-use crate::places::{part_places, tower, towers};
+use crate::places::{part_places, tower_places};
 use coact_joint_task::Agent;
 use rand::seq::{IndexedMutRandom, SliceRandom, index};
 use rand::{RngExt, SeedableRng};
@@ -150,9 +150,7 @@ fn subgoals(shape: TaskShape, kind: &[Kind], kinds: &[usize], random: &mut Pcg32
 }
 
 fn empty_towers(agent: Agent) -> Vec<Tower> {
-    (0..towers(agent))
-        .map(|index| Tower { at: tower(agent, index), steps: Vec::new(), height: 0.0 })
-        .collect()
+    tower_places(agent).into_iter().map(|at| Tower { at, steps: Vec::new(), height: 0.0 }).collect()
 }
 
 /// So many of the earlier steps, what `step` stands on among them.
