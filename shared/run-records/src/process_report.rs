@@ -2,7 +2,7 @@ use crate::{OutageReport, Percentiles};
 use serde::{Deserialize, Serialize};
 
 /// How regular one process was.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct ProcessReport {
     /// Cycles that published an output.

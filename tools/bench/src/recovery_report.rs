@@ -1,5 +1,6 @@
+use crate::ReadersOutage;
 use coact_monitor::{histogram, percentiles};
-use coact_run_records::{FaultReport, Judgement, OutageReport, Percentiles, Summary};
+use coact_run_records::{FaultReport, Judgement, OutageReport, Percentiles, ProcessReport, Summary};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -13,6 +14,9 @@ pub struct RecoveryReport {
     /// The same without those during which the machine itself was late: the idle thread by half a period or more, or the stage that
     /// starts the chain, which nobody strikes, by a cycle.
     pub machine_in_time: BTreeMap<String, Recovery>,
+    /// Of each stage that was struck and has a standby: what its readers went without, after the faults and otherwise.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub readers: BTreeMap<String, ReadersOutage>,
     /// Cycles without a timely command, over the whole run.
     pub command_outage: OutageReport,
     /// Wake-ups of the idle thread that came late by a period meanwhile; none where there was no such thread.
@@ -45,6 +49,7 @@ impl RecoveryReport {
         let has_standby = |process: &str| summary.processes.contains_key(&standby_of(process));
         Self {
             fault,
+            readers: readers(struck.clone(), &summary.processes),
             processes: by_process(struck, has_standby),
             machine_in_time: by_process(in_time, has_standby),
             command_outage: summary.command_outage,
@@ -68,6 +73,21 @@ fn by_process<'a>(
     struck.into_iter().map(recovery).collect()
 }
 
+fn readers<'a>(
+    faults: impl Iterator<Item = &'a FaultReport>,
+    processes: &BTreeMap<String, ProcessReport>,
+) -> BTreeMap<String, ReadersOutage> {
+    let mut struck: BTreeMap<&str, ReadersOutage> = BTreeMap::new();
+    for fault in faults {
+        if let Some(standby) = processes.get(&standby_of(&fault.process)) {
+            let outage =
+                struck.entry(&fault.process).or_insert_with(|| ReadersOutage::before_any(&standby.outage));
+            outage.add(fault, missed_by_standby(fault));
+        }
+    }
+    struck.into_iter().map(|(stage, outage)| (stage.to_owned(), outage)).collect()
+}
+
 impl Recovery {
     fn of(faults: &[&FaultReport], has_standby: bool) -> Self {
         let mut times = histogram();
@@ -76,8 +96,7 @@ impl Recovery {
         }
         let mut without_output = BTreeMap::new();
         for fault in faults.iter().filter(|_| has_standby) {
-            let missed = fault.survivors_missed_by.get(&standby_of(&fault.process)).copied().unwrap_or(0);
-            *without_output.entry(missed).or_default() += 1;
+            *without_output.entry(missed_by_standby(fault)).or_default() += 1;
         }
         let count = faults.len() as u64;
         let others_missed_none = faults.iter().filter(|fault| fault.survivors_missed == 0).count() as u64;
@@ -98,9 +117,15 @@ fn standby_of(stage: &str) -> String {
     format!("{stage}-standby")
 }
 
+/// Cycles that the standby of the stage that was struck left without a timely message of its own.
+fn missed_by_standby(fault: &FaultReport) -> u64 {
+    fault.survivors_missed_by.get(&standby_of(&fault.process)).copied().unwrap_or(0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::MissedCycles;
 
     fn fault(recovered_ms: Option<f64>, standby_missed: u64) -> FaultReport {
         FaultReport {
@@ -136,6 +161,21 @@ mod tests {
         assert!(machine_in_time(&fault(None, 2), "world"), "the standby alone missed cycles");
         assert!(!machine_in_time(&late, "world"));
         assert!(!machine_in_time(&fault(None, 2), "fields-standby"), "the first stage itself missed cycles");
+    }
+
+    #[test]
+    fn what_the_standby_missed_is_told_apart_from_what_it_misses_anyway() {
+        let outage = OutageReport { due: 10_000, without_output: 30, ..OutageReport::default() };
+        let standby = ProcessReport { outage, ..ProcessReport::default() };
+        let faults = [fault(Some(6.0), 1), fault(Some(4.0), 0), fault(None, 7)];
+        let found = readers(faults.iter(), &BTreeMap::from([("fields-standby".into(), standby)]));
+        let expected = ReadersOutage {
+            during_faults: MissedCycles { missed: 1, due: 10 },
+            otherwise: MissedCycles { missed: 29, due: 9990 },
+        };
+        assert_eq!(found, BTreeMap::from([("fields".into(), expected)]));
+        assert_eq!(found["fields"].during_faults.per_thousand(), 100.0);
+        assert!(readers(faults.iter(), &BTreeMap::new()).is_empty(), "nobody stands by");
     }
 
     #[test]

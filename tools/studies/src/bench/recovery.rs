@@ -3,7 +3,7 @@
 use anyhow::{Context, Result, bail, ensure};
 use coact::installation::Installation;
 use coact::report_folder::unused_report_folder;
-use coact_bench::{Recovery, RecoveryReport, random_faults};
+use coact_bench::{ReadersOutage, Recovery, RecoveryReport, random_faults};
 use coact_joint_task::NetworkPlan;
 use coact_pipeline::{Pipeline, RunSettings, Trigger, WorldMode};
 use coact_run_records::{Percentiles, Summary};
@@ -22,7 +22,8 @@ use std::time::Duration;
   coact bench recovery --fault stop-for-good    SIGSTOPs that nothing ends
 
 Rows \"machine in time\" leave out faults during which the machine was late: an idle thread by half a
-period or more, or the stage that starts the chain, which nobody strikes, by a cycle.
+period or more, or the stage that starts the chain, which nobody strikes, by a cycle. With standbys, cycles
+without output are told for the rest of the run as well: what faults cost is the difference.
 
 The arm is watched as in every run: its verdict on the work is told, too.
 
@@ -120,13 +121,28 @@ fn text(report: &RecoveryReport, out: &Path) -> String {
     });
     let outage = &report.command_outage;
     let judged = if report.work.passes() { "pass".to_owned() } else { format!("{:?}", report.work) };
+    let readers: String = report.readers.iter().map(|(stage, outage)| readers(stage, outage)).collect();
     format!(
-        "{}\nno timely command in {} of {} cycles, {} in a row at most\n{late}work {judged}\nreport {}",
+        "{}\n{readers}no timely command in {} of {} cycles, {} in a row at most\n{late}work {judged}\nreport {}",
         table(report),
         outage.without_output,
         outage.due,
         outage.longest,
         out.display()
+    )
+}
+
+/// What the fault itself cost the readers of a stage, beside what they miss anyway.
+fn readers(stage: &str, outage: &ReadersOutage) -> String {
+    let ReadersOutage { during_faults, otherwise } = outage;
+    format!(
+        "cycles without output of {stage}: {} of {} until it recovered ({:.1} in a thousand), {} of {} otherwise ({:.1})\n",
+        during_faults.missed,
+        during_faults.due,
+        during_faults.per_thousand(),
+        otherwise.missed,
+        otherwise.due,
+        otherwise.per_thousand(),
     )
 }
 
