@@ -178,7 +178,6 @@ fn simulate(candidate: Candidate) -> anyhow::Result<()> {
 fn world(run: &RunSettings, drive: DriveLimits) -> anyhow::Result<World> {
     let task = Task::load(&run.task)?;
     let robot = Robot::load(&run.robot)?;
-    let partner = Partner::load(&run.partner, &task, run.seed)?;
-    let settings = Settings { seed: run.seed, partner, mode: run.world, drive };
+    let settings = Settings::of_run(run, &task, drive)?;
     Ok(World::new(&laid_out(&task, run.layout)?, &robot, settings)?)
 }

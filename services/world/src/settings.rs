@@ -1,7 +1,7 @@
 use crate::{HandRecording, Scenario, WorldError};
 use coact_joint_task::Task;
 use coact_person::{RandomBehaviour, RecordedArm, RecordedReaches};
-use coact_pipeline::{RunSettings, WorldMode};
+use coact_pipeline::{Movement, RunSettings, WorldMode};
 use coact_recordings::ArmSide;
 use coact_safety::DriveLimits;
 use std::path::Path;
@@ -13,10 +13,29 @@ pub struct Settings {
     pub seed: u64,
     /// Who the partner is.
     pub partner: Partner,
+    /// Reaches that move the person's hand in place of the model's, where the partner has none of its own.
+    pub reaches: Option<RecordedReaches>,
     /// How the robot and loose parts behave.
     pub mode: WorldMode,
     /// When the drive brakes by itself.
     pub drive: DriveLimits,
+}
+
+impl Settings {
+    /// Those of a run in which this task is built.
+    ///
+    /// # Errors
+    /// As [`Partner::load`]; recordings of the movement that cannot be used.
+    pub fn of_run(run: &RunSettings, task: &Task, drive: DriveLimits) -> Result<Self, WorldError> {
+        let reaches = match &run.movement {
+            Movement::MinimumJerk => None,
+            Movement::Recorded { folder, participant } => {
+                Some(RecordedReaches::load_participant(folder, *participant)?)
+            }
+        };
+        let partner = Partner::load(&run.partner, task, run.seed)?;
+        Ok(Self { seed: run.seed, partner, reaches, mode: run.world, drive })
+    }
 }
 
 /// The person who builds with the robot.

@@ -21,7 +21,7 @@ fn steps_of_a_minute_allocate_nothing() {
     let scenario = format!("script:{}", config.join("scenarios/proactive.toml").display());
     for partner in ["synthetic", "random:goal=0.4,hidden=0.2,words=0.2,dropouts=1", &scenario] {
         let partner = Partner::load(partner, &task, 0).unwrap();
-        let settings = Settings { seed: 1, partner, mode: WorldMode::Kinematic, drive };
+        let settings = Settings { seed: 1, partner, reaches: None, mode: WorldMode::Kinematic, drive };
         let mut world = World::new(&task, &robot, settings).unwrap();
         let (mut sample, mut truth, mut state): (Box<SensorSample>, Box<Truth>, Box<WorldState>) =
             (zeroed_box(), zeroed_box(), zeroed_box());

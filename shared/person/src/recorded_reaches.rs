@@ -24,12 +24,28 @@ impl RecordedReaches {
         let mut people: Vec<u32> = all.iter().map(|reach| reach.participant).collect();
         people.sort_unstable();
         people.dedup();
+        let person = people.get((seed % people.len().max(1) as u64) as usize);
+        Self::made_by(person.copied(), &all, folder)
+    }
+
+    /// Reads a folder of recordings and takes this participant.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load); the participant is none of the folder's.
+    pub fn load_participant(folder: &Path, participant: u32) -> Result<Self, PersonError> {
+        Self::made_by(Some(participant), &read_folder(folder)?, folder)
+    }
+
+    fn made_by(participant: Option<u32>, all: &[Reach], folder: &Path) -> Result<Self, PersonError> {
         let lacking =
             |message: &str| PersonError::Recordings { path: folder.to_owned(), message: message.to_owned() };
-        let person = *people
-            .get((seed % people.len().max(1) as u64) as usize)
-            .ok_or_else(|| lacking("holds no reach; expected CSV files as in data/reaches"))?;
-        let own: Vec<&Reach> = all.iter().filter(|reach| reach.participant == person).collect();
+        let own: Vec<&Reach> = all.iter().filter(|reach| Some(reach.participant) == participant).collect();
+        if own.is_empty() {
+            return Err(match participant.filter(|_| !all.is_empty()) {
+                Some(participant) => lacking(&format!("holds no reach of participant {participant}")),
+                None => lacking("holds no reach; expected CSV files as in data/reaches"),
+            });
+        }
         let scale = metres_per_pixel(&own)
             .ok_or_else(|| lacking("shows no forearm at rest; expected elbow and wrist before the onset"))?;
         let reaches: Vec<_> = own.iter().filter_map(|reach| RecordedReach::new(reach, scale)).collect();

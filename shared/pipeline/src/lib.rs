@@ -33,6 +33,7 @@
 mod layout;
 mod membership;
 mod memory_reserve;
+mod movement;
 mod owner;
 mod pipeline;
 mod pipeline_error;
@@ -51,6 +52,7 @@ mod trust;
 pub use layout::Layout;
 pub use membership::Membership;
 pub use memory_reserve::MemoryReserve;
+pub use movement::Movement;
 pub use owner::Owner;
 pub use pipeline::Pipeline;
 pub use pipeline_error::PipelineError;

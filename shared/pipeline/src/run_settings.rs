@@ -1,4 +1,4 @@
-use crate::Layout;
+use crate::{Layout, Movement};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -29,6 +29,9 @@ pub struct RunSettings {
     /// Where the parts lie when an assembly begins.
     #[serde(default)]
     pub layout: Layout,
+    /// How the person's hand reaches, unless the partner is one that has a movement of its own.
+    #[serde(default)]
+    pub movement: Movement,
     /// How the world computes.
     pub world: WorldMode,
     /// How long the run lasts; without it, until all subgoals are achieved, or the supervisor has waited long enough.
@@ -56,6 +59,7 @@ impl RunSettings {
             seed: 1,
             partner: "synthetic".into(),
             layout: Layout::Task,
+            movement: Movement::MinimumJerk,
             world: WorldMode::Physics,
             duration: None,
             requested: Vec::new(),

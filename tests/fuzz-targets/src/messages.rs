@@ -45,7 +45,7 @@ impl Stages {
         let (task, plan) = NetworkPlan::load(&settings.task).unwrap();
         let model = PreshapeModel::load(&settings.model).unwrap();
         let world = |partner| {
-            let own = Settings { seed: 1, partner, mode: settings.world, drive: limits.drive };
+            let own = Settings { partner, ..Settings::of_run(&settings, &task, limits.drive).unwrap() };
             World::new(&task, &robot, own).unwrap()
         };
         Self {

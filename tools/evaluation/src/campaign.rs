@@ -1,6 +1,6 @@
 use crate::parallel::in_parallel;
 use crate::trial_recorder::TrialRecorder;
-use crate::{NetworkVariant, Trial};
+use crate::{NetworkVariant, RecordedPerson, Trial};
 use coact_lockstep::{Lockstep, LockstepError};
 use coact_period::cycles;
 use coact_pipeline::{Layout, RunSettings};
@@ -18,6 +18,8 @@ pub struct Campaign<'a> {
     pub settings: &'a RunSettings,
     /// Tasks that the assemblies take in turn; without any it is that of the settings.
     pub tasks: &'a [PathBuf],
+    /// Who moves the partner's hand: all with each of the tasks, in turn; without any it is as the settings say.
+    pub people: &'a [RecordedPerson],
     /// The robot's network.
     pub network: &'a NetworkVariant,
     /// Whether the robot's guard holds it back.
@@ -68,20 +70,26 @@ fn assemble(campaign: &Campaign, index: u64) -> Result<Trial, LockstepError> {
 
 /// Those of the assembly with this number, from 0.
 fn settings(campaign: &Campaign, index: u64) -> RunSettings {
-    let Campaign { settings, tasks, .. } = *campaign;
+    let Campaign { settings, tasks, people, .. } = *campaign;
     let seed = settings.seed.wrapping_add(index);
     let layout = match settings.layout {
         Layout::Task => Layout::Task,
         Layout::Random(_) => Layout::Random(seed),
     };
-    let turn = (index % tasks.len().max(1) as u64) as usize;
-    let task = tasks.get(turn).unwrap_or(&settings.task).clone();
-    RunSettings { task, seed, layout, ..settings.clone() }
+    let turns = tasks.len().max(1) as u64;
+    let task = tasks.get((index % turns) as usize).unwrap_or(&settings.task).clone();
+    let own = RunSettings { task, seed, layout, ..settings.clone() };
+    let person = people.get((index / turns % people.len().max(1) as u64) as usize).cloned();
+    match person {
+        Some(RecordedPerson { movement, model }) => RunSettings { movement, model, ..own },
+        None => own,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use coact_pipeline::Movement;
 
     #[test]
     fn assemblies_take_tasks_in_turn_each_with_a_seed_and_a_layout_of_its_own() {
@@ -92,6 +100,7 @@ mod tests {
         let campaign = Campaign {
             settings: &own,
             tasks: &tasks,
+            people: &[],
             network: &network,
             guarded: true,
             trials: 3,
@@ -106,5 +115,36 @@ mod tests {
         assert_eq!(taken.each_ref().map(|settings| settings.layout), [7, 8, 9].map(Layout::Random));
         let without = Campaign { tasks: &[], ..campaign };
         assert_eq!(settings(&without, 1).task, own.task);
+    }
+
+    #[test]
+    fn each_person_moves_the_hand_in_each_task_read_by_who_does_not_know_them() {
+        let own = RunSettings::shipped("rt-config".as_ref());
+        let people = [1, 2].map(|participant| RecordedPerson {
+            movement: Movement::Recorded { folder: "reaches".into(), participant },
+            model: format!("without-{participant}.toml").into(),
+        });
+        let tasks = ["a.toml", "b.toml"].map(PathBuf::from);
+        let network = NetworkVariant::default();
+        let campaign = Campaign {
+            settings: &own,
+            tasks: &tasks,
+            people: &people,
+            network: &network,
+            guarded: true,
+            trials: 5,
+            threads: 1,
+        };
+        let taken = |index| {
+            let RunSettings { task, movement, model, .. } = settings(&campaign, index);
+            (task, RecordedPerson { movement, model })
+        };
+        let [one, other] = people.clone();
+        let expected = [(0, &one), (1, &one), (0, &other), (1, &other), (0, &one)];
+        assert_eq!(
+            [0, 1, 2, 3, 4].map(taken),
+            expected.map(|(task, person)| (tasks[task].clone(), person.clone()))
+        );
+        assert_eq!(settings(&Campaign { people: &[], ..campaign }, 3).movement, Movement::MinimumJerk);
     }
 }

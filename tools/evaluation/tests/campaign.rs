@@ -17,7 +17,15 @@ fn settings(partner: &str) -> RunSettings {
 
 fn trials(partner: &str, network: &NetworkVariant, trials: u64, threads: usize) -> Vec<Trial> {
     run(
-        &Campaign { settings: &settings(partner), tasks: &[], network, guarded: true, trials, threads },
+        &Campaign {
+            settings: &settings(partner),
+            tasks: &[],
+            people: &[],
+            network,
+            guarded: true,
+            trials,
+            threads,
+        },
         || {},
     )
     .unwrap()
@@ -27,8 +35,15 @@ fn trials(partner: &str, network: &NetworkVariant, trials: u64, threads: usize) 
 fn same_seeds_give_the_same_trials_with_any_number_of_threads() {
     let done = AtomicUsize::new(0);
     let (settings, network) = (settings("random:goal=0.2"), NetworkVariant::default());
-    let campaign =
-        Campaign { settings: &settings, tasks: &[], network: &network, guarded: true, trials: 3, threads: 2 };
+    let campaign = Campaign {
+        settings: &settings,
+        tasks: &[],
+        people: &[],
+        network: &network,
+        guarded: true,
+        trials: 3,
+        threads: 2,
+    };
     let one = run(&campaign, || _ = done.fetch_add(1, Ordering::Relaxed)).unwrap();
     assert_eq!(done.into_inner(), 3);
     assert_eq!(one.iter().map(|trial| trial.seed).collect::<Vec<_>>(), [1, 2, 3]);
@@ -59,8 +74,15 @@ fn a_robot_without_anticipation_answers_later() {
 fn without_its_guard_the_robot_is_never_held_back_and_closes_on_people() {
     let (settings, network) = (settings("synthetic"), NetworkVariant::default());
     let reports = [true, false].map(|guarded| {
-        let campaign =
-            Campaign { settings: &settings, tasks: &[], network: &network, guarded, trials: 3, threads: 2 };
+        let campaign = Campaign {
+            settings: &settings,
+            tasks: &[],
+            people: &[],
+            network: &network,
+            guarded,
+            trials: 3,
+            threads: 2,
+        };
         EvaluationReport::new(&network, &run(&campaign, || {}).unwrap())
     });
     let [with, without] = &reports;
@@ -120,6 +142,7 @@ fn a_robot_that_leaves_a_handover_closes_on_nobody() {
         &Campaign {
             settings: &settings,
             tasks: &[],
+            people: &[],
             network: &network,
             guarded: true,
             trials: 1,

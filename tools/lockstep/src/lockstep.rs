@@ -12,7 +12,7 @@ use coact_pipeline::RunSettings;
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
 use coact_separation::SeparationMeter;
-use coact_world::{Partner, Settings, World, laid_out};
+use coact_world::{Settings, World, laid_out};
 
 /// All stages, and the newest message of each topic.
 pub struct Lockstep {
@@ -99,8 +99,7 @@ impl Lockstep {
         let plan = change(plan);
         let robot = Robot::load(&settings.robot)?;
         let limits = SafetyLimits::load(&settings.safety)?;
-        let partner = Partner::load(&settings.partner, &task, settings.seed)?;
-        let own = Settings { seed: settings.seed, partner, mode: settings.world, drive: limits.drive };
+        let own = Settings::of_run(settings, &task, limits.drive)?;
         let world = World::new(&laid_out(&task, settings.layout)?, &robot, own)?;
         let model = coact_perception::PreshapeModel::load(&settings.model)?;
         let network = Network::new(plan, task.fingerprint, settings.seed)?;

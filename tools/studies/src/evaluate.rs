@@ -1,5 +1,6 @@
 //! `coact evaluate`: whole assemblies with random partners, counted.
 
+mod people;
 mod tables;
 
 use anyhow::{Context, Result, bail};
@@ -7,14 +8,14 @@ use clap::ValueEnum;
 use coact::installation::Installation;
 use coact::partner;
 use coact_evaluation::{
-    Ablation, Campaign, Comparison, EvaluationReport, NetworkVariant, Trial, draw_fluency, draw_leads,
+    Ablation, Campaign, Comparison, EvaluationReport, NetworkVariant, RecordedPerson, Trial, draw_fluency,
+    draw_leads,
 };
 use coact_joint_task::NetworkPlan;
 use coact_pipeline::{Layout, RunSettings, WorldMode};
 use coact_world::Partner;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
-use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -29,6 +30,7 @@ use std::process::ExitCode;
   coact evaluate --ablate oml                         without object memory
   coact evaluate --partner random:goal=0.2,clarity=0.3..1
   coact evaluate --layout random                      parts lie elsewhere in each
+  coact evaluate --movement recorded                  the hand reaches as recorded people did
   coact evaluate --task a.toml b.toml --trials 20     ten of each task
 
 Keys of random, after a colon, separated by commas:
@@ -51,6 +53,10 @@ pub struct Args {
     /// Where parts lie at first: as the task has them, or anywhere in the workspace in which the task has them, elsewhere in each assembly
     #[arg(long, value_enum, default_value = "task")]
     layout: Laid,
+    /// How the person's hand reaches: on straight lines, or as the recorded people of data/reaches did, who take turns, each
+    /// read by a model of preshaping that was made without them
+    #[arg(long, value_enum, default_value = "minimum-jerk")]
+    movement: Moved,
     /// How many assemblies
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..))]
     trials: u64,
@@ -88,6 +94,16 @@ enum Laid {
     Random,
 }
 
+/// How the person's hand reaches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Moved {
+    /// On a straight line, as smoothly as can be
+    MinimumJerk,
+    /// As recorded people did
+    Recorded,
+}
+
 /// The robot to compare with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Baseline {
@@ -116,6 +132,7 @@ struct Evaluation {
     /// Their names; the assemblies take them in turn.
     tasks: Vec<String>,
     layout: Laid,
+    movement: Moved,
     partner: String,
     seed: u64,
     trials: u64,
@@ -144,7 +161,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
         reactive: false,
         without: args.ablate.iter().map(|layer| layer.ablation()).collect(),
     };
-    let trials = assemble(&args, &settings, (&network, true), "assemblies")?;
+    let models = tempfile::tempdir().context("no folder for models of preshaping")?;
+    let people = match args.movement {
+        Moved::MinimumJerk => Vec::new(),
+        Moved::Recorded => recorded_people(models.path())?,
+    };
+    let assemble = |robot, what: String| assemble(&args, (&settings, &people), robot, what);
+    let trials = assemble((&network, true), "assemblies".into())?;
     let baseline = match args.baseline {
         None => None,
         Some(baseline) => {
@@ -152,13 +175,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
             let network = NetworkVariant { reactive, ..network.clone() };
             let guarded = baseline != Baseline::Unguarded;
             let what = format!("without {}", baseline.lacks());
-            let trials = assemble(&args, &settings, (&network, guarded), what)?;
+            let trials = assemble((&network, guarded), what)?;
             Some((EvaluationReport::new(&network, &trials), trials))
         }
     };
     let evaluation = Evaluation {
         tasks,
         layout: args.layout,
+        movement: args.movement,
         partner: settings.partner.clone(),
         seed: args.seed,
         trials: args.trials,
@@ -228,17 +252,24 @@ fn tasks(args: &Args, settings: &RunSettings) -> Result<Vec<String>> {
     files.iter().map(name).collect()
 }
 
+fn recorded_people(models: &Path) -> Result<Vec<RecordedPerson>> {
+    let Installation { configuration, reaches, .. } = Installation::find()?;
+    eprintln!("making models of preshaping, each without one of the people");
+    people::people(&reaches, &configuration, models)
+}
+
 fn assemble(
     args: &Args,
-    settings: &RunSettings,
+    (settings, people): (&RunSettings, &[RecordedPerson]),
     (network, guarded): (&NetworkVariant, bool),
-    what: impl Into<Cow<'static, str>>,
+    what: String,
 ) -> Result<Vec<Trial>> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = args.threads.map_or(cores, usize::from);
     let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left")?;
     let bar = ProgressBar::new(args.trials).with_style(style).with_message(what);
-    let campaign = Campaign { settings, tasks: &args.task, network, guarded, trials: args.trials, threads };
+    let (tasks, trials) = (args.task.as_slice(), args.trials);
+    let campaign = Campaign { settings, tasks, people, network, guarded, trials, threads };
     let trials = coact_evaluation::run(&campaign, || bar.inc(1));
     bar.finish_and_clear();
     Ok(trials?)

@@ -78,8 +78,13 @@ pub(super) fn robot() -> Robot {
 }
 
 pub(super) fn world(seed: u64) -> World {
-    let settings =
-        Settings { seed, partner: Partner::Synthetic, mode: WorldMode::Kinematic, drive: safety().drive };
+    let settings = Settings {
+        seed,
+        partner: Partner::Synthetic,
+        reaches: None,
+        mode: WorldMode::Kinematic,
+        drive: safety().drive,
+    };
     World::new(&task(), &robot(), settings).unwrap()
 }
 

@@ -6,8 +6,18 @@ use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 
 /// Prints all metrics, beside those of the baseline if there is one.
 pub(super) fn print(evaluation: &Evaluation) {
-    let Evaluation { tasks, layout: _, partner, seed, trials, report, without, baseline, comparison } =
-        evaluation;
+    let Evaluation {
+        tasks,
+        layout: _,
+        movement: _,
+        partner,
+        seed,
+        trials,
+        report,
+        without,
+        baseline,
+        comparison,
+    } = evaluation;
     let task = match tasks.as_slice() {
         [task] => task.clone(),
         tasks => format!("{} tasks", tasks.len()),

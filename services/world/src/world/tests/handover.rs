@@ -29,8 +29,13 @@ impl Meeting {
         let mut file = tempfile::NamedTempFile::new().unwrap();
         file.write_all(script.as_bytes()).unwrap();
         let partner = Partner::Script(Scenario::load(file.path(), &task()).unwrap());
-        let settings =
-            Settings { seed: SEED, partner, mode: WorldMode::Kinematic, drive: super::safety().drive };
+        let settings = Settings {
+            seed: SEED,
+            partner,
+            reaches: None,
+            mode: WorldMode::Kinematic,
+            drive: super::safety().drive,
+        };
         let world = World::new(&task(), &robot(), settings).unwrap();
         let palm = Palm {
             grasp_point: DVec3::new(0.0, 0.0, 2.0),

@@ -20,7 +20,7 @@ fn world() -> World {
 
 fn world_in(mode: WorldMode) -> World {
     let partner = Partner::load("hand", &task(), 1).unwrap();
-    let settings = Settings { seed: 1, partner, mode, drive: safety().drive };
+    let settings = Settings { seed: 1, partner, reaches: None, mode, drive: safety().drive };
     World::new(&task(), &robot(), settings).unwrap()
 }
 

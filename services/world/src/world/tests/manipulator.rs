@@ -309,6 +309,7 @@ fn settings(scenario: &Scenario) -> Settings {
     Settings {
         seed: 1,
         partner: Partner::Script(scenario.clone()),
+        reaches: None,
         mode: WorldMode::Physics,
         drive: super::safety().drive,
     }

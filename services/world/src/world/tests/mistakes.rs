@@ -16,7 +16,7 @@ fn world(seed: u64, settings: &str) -> World {
     World::new(
         &task(),
         &robot(),
-        Settings { seed, partner, mode: WorldMode::Kinematic, drive: super::safety().drive },
+        Settings { seed, partner, reaches: None, mode: WorldMode::Kinematic, drive: super::safety().drive },
     )
     .unwrap()
 }

@@ -17,6 +17,7 @@ fn world(seed: u64) -> World {
     let settings = Settings {
         seed,
         partner: Partner::Synthetic,
+        reaches: None,
         mode: WorldMode::Physics,
         drive: super::safety().drive,
     };
@@ -130,6 +131,7 @@ fn overlapping_parts_are_refused() {
     let settings = Settings {
         seed: 0,
         partner: Partner::Synthetic,
+        reaches: None,
         mode: WorldMode::Physics,
         drive: super::safety().drive,
     };

@@ -2,6 +2,7 @@ use super::fake_robot::FakeRobot;
 use super::{Out, robot, task};
 use crate::{Partner, Settings, World};
 use coact_messages::{KeypointName, PartnerPhase};
+use coact_person::{RandomBehaviour, RecordedReaches};
 use coact_pipeline::WorldMode;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -65,8 +66,9 @@ fn broken_recordings_are_refused_with_file_and_line() {
 }
 
 /// Runs two minutes; gives movement times, and mean fraction of lost middle-finger tips while reaching.
-fn run(partner: Partner) -> (Vec<u64>, f64, u64) {
-    let settings = Settings { seed: 2, partner, mode: WorldMode::Kinematic, drive: super::safety().drive };
+fn run(partner: Partner, reaches: Option<RecordedReaches>) -> (Vec<u64>, f64, u64) {
+    let settings =
+        Settings { seed: 2, partner, reaches, mode: WorldMode::Kinematic, drive: super::safety().drive };
     let (mut world, mut robot) = (World::new(&task(), &robot(), settings).unwrap(), FakeRobot::new());
     let mut out = Out::new();
     let (mut times, mut lost, mut frames) = (Vec::new(), 0.0, 0.0);
@@ -95,7 +97,7 @@ fn run(partner: Partner) -> (Vec<u64>, f64, u64) {
 #[test]
 fn recorded_hand_keeps_its_time_course_and_its_drop_outs_and_the_team_still_finishes() {
     let folder = folder(|_| ());
-    let (times, lost, assemblies) = run(load(folder.path()).unwrap());
+    let (times, lost, assemblies) = run(load(folder.path()).unwrap(), None);
     assert!(assemblies >= 1);
     assert!(times.len() > 10 && times.iter().all(|time| *time == 600), "{times:?}");
     assert!((0.12..0.28).contains(&lost), "{lost} of the middle finger's tips lost, 0.2 in the recording");
@@ -104,7 +106,18 @@ fn recorded_hand_keeps_its_time_course_and_its_drop_outs_and_the_team_still_fini
 #[test]
 fn real_recordings_drive_the_partner() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/reaches");
-    let (times, _, assemblies) = run(load(&folder).unwrap());
+    let (times, _, assemblies) = run(load(&folder).unwrap(), None);
     assert!(assemblies >= 1);
     assert!(times.iter().all(|time| (340..=900).contains(time)), "{times:?}");
+}
+
+#[test]
+fn a_partner_who_errs_reaches_as_the_participant_did() {
+    let folder = folder(|_| ());
+    let reaches = RecordedReaches::load_participant(folder.path(), 2).unwrap();
+    let behaviour = RandomBehaviour::parse("goal=0.3,hidden=0,dropouts=0").unwrap();
+    let (times, ..) = run(Partner::Random(behaviour), Some(reaches));
+    assert!(times.len() > 10 && times.iter().all(|time| *time == 600), "{times:?}");
+    let nobody = RecordedReaches::load_participant(folder.path(), 3).unwrap_err().to_string();
+    assert!(nobody.contains("participant 3"), "{nobody}");
 }

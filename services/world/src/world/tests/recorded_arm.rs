@@ -27,7 +27,8 @@ fn load(side: &str, file: &tempfile::NamedTempFile) -> Result<Partner, crate::Wo
 #[test]
 fn the_arm_moves_as_it_was_recorded_and_the_tracker_shows_it_late_and_scattered() {
     let partner = load("right", &file()).unwrap();
-    let settings = Settings { seed: 7, partner, mode: WorldMode::Kinematic, drive: safety().drive };
+    let settings =
+        Settings { seed: 7, partner, reaches: None, mode: WorldMode::Kinematic, drive: safety().drive };
     let (mut world, mut out) = (World::new(&task(), &robot(), settings).unwrap(), Out::new());
     let (mut path, mut off, mut frames) = (Vec::new(), Vec::new(), 0);
     for tick in 1..2_500 {

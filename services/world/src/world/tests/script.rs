@@ -55,7 +55,13 @@ fn unknown_partner_is_refused_with_the_known_ones() {
 
 /// Chain names, onset and grasp ticks of the first actions of a script.
 fn actions(partner: Partner, seconds: u64) -> Vec<(String, u64, u64)> {
-    let settings = Settings { seed: 1, partner, mode: WorldMode::Kinematic, drive: super::safety().drive };
+    let settings = Settings {
+        seed: 1,
+        partner,
+        reaches: None,
+        mode: WorldMode::Kinematic,
+        drive: super::safety().drive,
+    };
     let (mut world, mut out) = (World::new(&task(), &robot(), settings).unwrap(), Out::new());
     let mut begun = Vec::new();
     for tick in 1..=seconds * CYCLES_PER_SECOND {
@@ -90,7 +96,13 @@ pub(super) fn scenario(file: &str) -> World {
     World::new(
         &task,
         &robot(),
-        Settings { seed: 1, partner, mode: WorldMode::Kinematic, drive: super::safety().drive },
+        Settings {
+            seed: 1,
+            partner,
+            reaches: None,
+            mode: WorldMode::Kinematic,
+            drive: super::safety().drive,
+        },
     )
     .unwrap()
 }
@@ -227,7 +239,13 @@ fn an_action_without_a_part_is_left_out_and_told() {
     let mut world = World::new(
         &task(),
         &robot(),
-        Settings { seed: 1, partner, mode: WorldMode::Kinematic, drive: super::safety().drive },
+        Settings {
+            seed: 1,
+            partner,
+            reaches: None,
+            mode: WorldMode::Kinematic,
+            drive: super::safety().drive,
+        },
     )
     .unwrap();
     run(&mut world, 19, |_, _, _| {});
