@@ -4,9 +4,9 @@ use anyhow::Context;
 use coact::installation::Installation;
 use coact_joint_task::Task;
 use coact_reaches::{model_file, train};
-use coact_recordings::{Order, read_folder};
+use coact_recordings::{Order, Reach, read_folder};
 use coact_robot::Robot;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Trains the model of preshaping that perception reads.
@@ -47,12 +47,22 @@ pub fn run(args: Args) -> anyhow::Result<ExitCode> {
     let out = args.out.unwrap_or_else(|| below("perception/preshape.toml"));
     let mut reaches = read_folder(&args.dir.unwrap_or(shipped))?;
     reaches.retain(|reach| !args.leave_out.contains(&reach.participant));
-    let model = train(&task, &robot, &reaches, Order::Trial { seed: 1 })?;
-    let text = model_file(&model, &reaches, &args.source)?;
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     }
-    std::fs::write(&out, text).with_context(|| out.display().to_string())?;
+    write_model((&task, &robot), &reaches, &args.source, &out)?;
     println!("{}: {} reaches", out.display(), reaches.len());
     Ok(ExitCode::SUCCESS)
+}
+
+/// Trains a model on these reaches, as perception sees them in this task, and writes it; `source` is what the file names as theirs.
+pub fn write_model(
+    (task, robot): (&Task, &Robot),
+    reaches: &[Reach],
+    source: &str,
+    out: &Path,
+) -> anyhow::Result<()> {
+    let model = train(task, robot, reaches, Order::Trial { seed: 1 })?;
+    let text = model_file(&model, reaches, source)?;
+    std::fs::write(out, text).with_context(|| out.display().to_string())
 }

@@ -78,14 +78,12 @@ pub(super) fn robot() -> Robot {
 }
 
 pub(super) fn world(seed: u64) -> World {
-    let settings = Settings {
-        seed,
-        partner: Partner::Synthetic,
-        reaches: None,
-        mode: WorldMode::Kinematic,
-        drive: safety().drive,
-    };
-    World::new(&task(), &robot(), settings).unwrap()
+    World::new(&task(), &robot(), settings(seed, Partner::Synthetic, WorldMode::Kinematic)).unwrap()
+}
+
+/// Those of a world whose person moves as the partner does.
+pub(super) fn settings(seed: u64, partner: Partner, mode: WorldMode) -> Settings {
+    Settings { seed, partner, reaches: None, mode, drive: safety().drive }
 }
 
 /// The command that takes the joints on as `course`, where they are at each tick, goes on; none before they are driven.

@@ -1,11 +1,11 @@
 //! The people of a folder of recordings, each with a model of preshaping that was made without them.
 
-use anyhow::{Context, Result, ensure};
+use crate::train::write_model;
+use anyhow::{Result, ensure};
 use coact_evaluation::RecordedPerson;
 use coact_joint_task::Task;
 use coact_pipeline::Movement;
-use coact_reaches::{model_file, train};
-use coact_recordings::{Order, Reach, read_folder};
+use coact_recordings::{Reach, read_folder};
 use coact_robot::Robot;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -21,12 +21,10 @@ pub(super) fn people(folder: &Path, configuration: &Path, models: &Path) -> Resu
     let person = |participant: u32| {
         let others: Vec<Reach> =
             reaches.iter().filter(|reach| reach.participant != participant).cloned().collect();
-        let model = train(&task, &robot, &others, Order::Trial { seed: 1 })?;
-        let path = models.join(format!("without-{participant}.toml"));
-        std::fs::write(&path, model_file(&model, &others, &folder.display().to_string())?)
-            .with_context(|| path.display().to_string())?;
+        let model = models.join(format!("without-{participant}.toml"));
+        write_model((&task, &robot), &others, &folder.display().to_string(), &model)?;
         let movement = Movement::Recorded { folder: folder.to_owned(), participant };
-        Ok(RecordedPerson { movement, model: path })
+        Ok(RecordedPerson { movement, model })
     };
     participants.into_iter().map(person).collect()
 }

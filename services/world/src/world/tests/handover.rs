@@ -3,7 +3,7 @@
 use super::manipulator::{Fingers, Manipulator};
 use super::{Out, robot, task};
 use crate::palm::Palm;
-use crate::{Partner, Scenario, Settings, World};
+use crate::{Partner, Scenario, World};
 use coact_period::seconds;
 use coact_person::Holder;
 use coact_person::{ActivityPhase, Person, Policy, RandomBehaviour};
@@ -29,13 +29,7 @@ impl Meeting {
         let mut file = tempfile::NamedTempFile::new().unwrap();
         file.write_all(script.as_bytes()).unwrap();
         let partner = Partner::Script(Scenario::load(file.path(), &task()).unwrap());
-        let settings = Settings {
-            seed: SEED,
-            partner,
-            reaches: None,
-            mode: WorldMode::Kinematic,
-            drive: super::safety().drive,
-        };
+        let settings = super::settings(SEED, partner, WorldMode::Kinematic);
         let world = World::new(&task(), &robot(), settings).unwrap();
         let palm = Palm {
             grasp_point: DVec3::new(0.0, 0.0, 2.0),

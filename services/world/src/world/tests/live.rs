@@ -1,8 +1,8 @@
 //! A hand that is told from outside, in the world without dynamics if nothing else is said.
 
 use super::fake_robot::FakeRobot;
-use super::{Out, held_by, robot, safety, task};
-use crate::{Partner, Settings, World};
+use super::{Out, held_by, robot, task};
+use crate::{Partner, World};
 use bytemuck::zeroed_box;
 use coact_messages::{HandPoints, KeypointName, PartnerPhase, WorldState};
 use coact_period::cycles;
@@ -20,7 +20,7 @@ fn world() -> World {
 
 fn world_in(mode: WorldMode) -> World {
     let partner = Partner::load("hand", &task(), 1).unwrap();
-    let settings = Settings { seed: 1, partner, reaches: None, mode, drive: safety().drive };
+    let settings = super::settings(1, partner, mode);
     World::new(&task(), &robot(), settings).unwrap()
 }
 

@@ -306,11 +306,5 @@ impl Manipulator {
 }
 
 fn settings(scenario: &Scenario) -> Settings {
-    Settings {
-        seed: 1,
-        partner: Partner::Script(scenario.clone()),
-        reaches: None,
-        mode: WorldMode::Physics,
-        drive: super::safety().drive,
-    }
+    super::settings(1, Partner::Script(scenario.clone()), WorldMode::Physics)
 }

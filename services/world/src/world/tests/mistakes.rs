@@ -2,8 +2,8 @@
 
 use super::fake_robot::FakeRobot;
 use super::{Out, robot, task};
+use crate::Partner;
 use crate::world::World;
-use crate::{Partner, Settings};
 use bytemuck::bytes_of;
 use coact_messages::{PartnerError, PartnerPhase, Truth};
 use coact_period::CYCLES_PER_SECOND;
@@ -13,12 +13,7 @@ use std::collections::BTreeMap;
 
 fn world(seed: u64, settings: &str) -> World {
     let partner = Partner::load(&format!("random:{settings}"), &task(), seed).unwrap();
-    World::new(
-        &task(),
-        &robot(),
-        Settings { seed, partner, reaches: None, mode: WorldMode::Kinematic, drive: super::safety().drive },
-    )
-    .unwrap()
+    World::new(&task(), &robot(), super::settings(seed, partner, WorldMode::Kinematic)).unwrap()
 }
 
 /// Runs with a helpful robot and calls `look` after each tick with the truth before and after.

@@ -1,5 +1,5 @@
 use super::{Out, config, held_by, onwards, robot};
-use crate::{Partner, Settings, World};
+use crate::{Partner, World};
 use coact_joint_task::Task;
 use coact_messages::{ARM_JOINTS, Command, JOINTS};
 use coact_period::seconds;
@@ -14,13 +14,7 @@ fn scene() -> Task {
 }
 
 fn world(seed: u64) -> World {
-    let settings = Settings {
-        seed,
-        partner: Partner::Synthetic,
-        reaches: None,
-        mode: WorldMode::Physics,
-        drive: super::safety().drive,
-    };
+    let settings = super::settings(seed, Partner::Synthetic, WorldMode::Physics);
     World::new(&scene(), &robot(), settings).unwrap()
 }
 
@@ -128,13 +122,7 @@ fn dropped_part_falls_onto_the_table() {
 fn overlapping_parts_are_refused() {
     let mut task = scene();
     task.parts[1].at = task.parts[0].at;
-    let settings = Settings {
-        seed: 0,
-        partner: Partner::Synthetic,
-        reaches: None,
-        mode: WorldMode::Physics,
-        drive: super::safety().drive,
-    };
+    let settings = super::settings(0, Partner::Synthetic, WorldMode::Physics);
     let message = World::new(&task, &robot(), settings).err().unwrap().to_string();
     assert!(message.contains("overlap"), "{message}");
 }

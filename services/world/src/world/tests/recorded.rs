@@ -67,8 +67,7 @@ fn broken_recordings_are_refused_with_file_and_line() {
 
 /// Runs two minutes; gives movement times, and mean fraction of lost middle-finger tips while reaching.
 fn run(partner: Partner, reaches: Option<RecordedReaches>) -> (Vec<u64>, f64, u64) {
-    let settings =
-        Settings { seed: 2, partner, reaches, mode: WorldMode::Kinematic, drive: super::safety().drive };
+    let settings = Settings { reaches, ..super::settings(2, partner, WorldMode::Kinematic) };
     let (mut world, mut robot) = (World::new(&task(), &robot(), settings).unwrap(), FakeRobot::new());
     let mut out = Out::new();
     let (mut times, mut lost, mut frames) = (Vec::new(), 0.0, 0.0);

@@ -1,5 +1,5 @@
-use super::{Out, robot, safety, task};
-use crate::{Partner, Settings, World};
+use super::{Out, robot, task};
+use crate::{Partner, World};
 use coact_messages::KeypointName;
 use coact_pipeline::WorldMode;
 use std::fmt::Write as _;
@@ -27,8 +27,7 @@ fn load(side: &str, file: &tempfile::NamedTempFile) -> Result<Partner, crate::Wo
 #[test]
 fn the_arm_moves_as_it_was_recorded_and_the_tracker_shows_it_late_and_scattered() {
     let partner = load("right", &file()).unwrap();
-    let settings =
-        Settings { seed: 7, partner, reaches: None, mode: WorldMode::Kinematic, drive: safety().drive };
+    let settings = super::settings(7, partner, WorldMode::Kinematic);
     let (mut world, mut out) = (World::new(&task(), &robot(), settings).unwrap(), Out::new());
     let (mut path, mut off, mut frames) = (Vec::new(), Vec::new(), 0);
     for tick in 1..2_500 {

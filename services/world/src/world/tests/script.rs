@@ -1,5 +1,5 @@
 use super::{Out, config, robot, task};
-use crate::{Partner, Scenario, Settings, World};
+use crate::{Partner, Scenario, World};
 use coact_messages::PartnerPhase;
 use coact_period::CYCLES_PER_SECOND;
 use coact_pipeline::WorldMode;
@@ -55,13 +55,7 @@ fn unknown_partner_is_refused_with_the_known_ones() {
 
 /// Chain names, onset and grasp ticks of the first actions of a script.
 fn actions(partner: Partner, seconds: u64) -> Vec<(String, u64, u64)> {
-    let settings = Settings {
-        seed: 1,
-        partner,
-        reaches: None,
-        mode: WorldMode::Kinematic,
-        drive: super::safety().drive,
-    };
+    let settings = super::settings(1, partner, WorldMode::Kinematic);
     let (mut world, mut out) = (World::new(&task(), &robot(), settings).unwrap(), Out::new());
     let mut begun = Vec::new();
     for tick in 1..=seconds * CYCLES_PER_SECOND {
@@ -93,18 +87,7 @@ pub(super) fn scenario(file: &str) -> World {
     let task = coact_joint_task::Task::load(&config("tasks/toy-vehicle.toml")).unwrap();
     let name = format!("script:{}", config("scenarios").join(file).display());
     let partner = Partner::load(&name, &task, 0).unwrap();
-    World::new(
-        &task,
-        &robot(),
-        Settings {
-            seed: 1,
-            partner,
-            reaches: None,
-            mode: WorldMode::Kinematic,
-            drive: super::safety().drive,
-        },
-    )
-    .unwrap()
+    World::new(&task, &robot(), super::settings(1, partner, WorldMode::Kinematic)).unwrap()
 }
 
 /// Runs `seconds`; `look` sees the world and its messages after each tick.
@@ -236,18 +219,7 @@ fn an_action_without_a_part_is_left_out_and_told() {
     let mut file = tempfile::NamedTempFile::new().unwrap();
     file.write_all(text.as_bytes()).unwrap();
     let partner = Partner::Script(Scenario::load(file.path(), &task()).unwrap());
-    let mut world = World::new(
-        &task(),
-        &robot(),
-        Settings {
-            seed: 1,
-            partner,
-            reaches: None,
-            mode: WorldMode::Kinematic,
-            drive: super::safety().drive,
-        },
-    )
-    .unwrap();
+    let mut world = World::new(&task(), &robot(), super::settings(1, partner, WorldMode::Kinematic)).unwrap();
     run(&mut world, 19, |_, _, _| {});
     assert_eq!(world.skipped(), 0);
     run(&mut world, 3, |_, _, _| {});
