@@ -6,6 +6,7 @@ use crate::perception_state::PerceptionState;
 use crate::pointing::Pointing;
 use crate::present_movement::PresentMovement;
 use crate::preshape::Classifier;
+use crate::reaching::MovementReader;
 use coact_joint_task::{Act, Agent, Task};
 use coact_messages::{MAX_ACTS, Percept};
 use coact_period::cycles;
@@ -102,6 +103,13 @@ impl Acts {
             };
             let cycles = if target > out.act[index] { rise } else { fall };
             follow(&mut out.act[index], target, cycles);
+        }
+    }
+
+    /// One cycle's part of finding out where the hand's movement leads.
+    pub fn look_ahead(&self, state: &mut PerceptionState, reader: &MovementReader, places: &TaskPlaces) {
+        if state.hand.movement.is_moving() {
+            self.grasps.look_ahead(state, reader, places);
         }
     }
 

@@ -4,9 +4,11 @@ use crate::objects::{PartTrack, TaskPlaces};
 use crate::perception_state::PerceptionState;
 use crate::present_movement::PresentMovement;
 use crate::preshape::{Classifier, LAST_READ};
+use crate::reaching::{HANDOVER, MovementReader, PLACES};
 use coact_joint_task::{Kind, PersonGrip, Task};
 use coact_messages::{MAX_KINDS, PERSON, Percept};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
+use std::cmp::Ordering;
 
 /// Phase of contact (see [`crate::SNAPSHOTS`]): in the recorded reaches, within 10 %.
 const CONTACT: f64 = 1.8;
@@ -19,6 +21,11 @@ const SHARPENS: (f64, f64) = (1.0, 1.4);
 const SHARPNESS: f64 = 6.0;
 /// Phases between which the pitch of the hand becomes that of the grip. Chosen by hand.
 const TURNS: (f64, f64) = (0.25, 0.80);
+/// Exponent by which the likelihoods of places are weakened: a model of some people is too sure of another one.
+const TRUSTED: f64 = 0.15;
+/// From one place where an empty hand may be shown to the next, nearer to the person, m: it is held out short of where parts change
+/// hands. Chosen by hand.
+const SHORT_OF_IT: f64 = 0.08;
 /// How well a movement must lead to a part: no, and full evidence that it is meant for one. Chosen by hand.
 const LEADS: (f64, f64) = (0.05, 0.35);
 /// Distance from its target at which a movement that did not begin at rest tells where it goes, m: no, full evidence.
@@ -86,24 +93,58 @@ impl Grasps {
         for (kind, slot) in matches.iter_mut().enumerate().take(self.kinds.len()) {
             *slot = self.best_match(kind, movement, state, places);
         }
-        let Some(best) = matches.iter().flatten().copied().max_by(|a, b| a.leads.total_cmp(&b.leads)) else {
+        let Some(best) = matches.iter().flatten().copied().max_by(TargetMatch::by_likelihood) else {
             return nothing;
         };
         let Reading { trust, gate, sharpness, fit } = reading(movement, &best, state, classifier);
         let possible = matches.iter().flatten().count();
-        let elsewhere = self.elsewhere(movement, &matches);
+        let elsewhere = self.elsewhere(movement, state, &matches);
         let kind = fractions(&matches, &fit, elsewhere, sharpness)
             .map(|fraction| gate * beyond_chance(fraction, possible));
         Preparing { kind, trust }
     }
 
-    /// How well the movement leads to a place where nothing is taken: an empty hand is shown at the handover place, and
-    /// returns to rest.
-    fn elsewhere(&self, movement: &PresentMovement, matches: &[Option<TargetMatch>; MAX_KINDS]) -> f64 {
+    /// One cycle's part of finding out which places the movement leads to.
+    pub fn look_ahead(&self, state: &mut PerceptionState, reader: &MovementReader, places: &TaskPlaces) {
+        let PerceptionState { likelihoods, path, parts, .. } = state;
+        likelihoods.step(reader, path, |index| match index.checked_sub(HANDOVER) {
+            Some(nearer) => Some(self.shown(nearer)),
+            None => {
+                let part = parts.track(index)?;
+                let kind = part.kind().filter(|kind| self.is_takable(*kind, part, places))?;
+                Some(part.above_underside(0.5 * places.size(kind).height).xy())
+            }
+        });
+    }
+
+    /// Where an empty hand may be shown, on the table plane: at the handover place, or nearer to the person.
+    fn shown(&self, nearer: usize) -> Vector2<f64> {
+        let back = (self.rest - self.handover).xy();
+        self.handover.xy() + SHORT_OF_IT * nearer as f64 * back.normalize()
+    }
+
+    /// How the movement relates to a place where nothing is taken: an empty hand is shown at the handover place, and returns to rest.
+    fn elsewhere(
+        &self,
+        movement: &PresentMovement,
+        state: &PerceptionState,
+        matches: &[Option<TargetMatch>; MAX_KINDS],
+    ) -> Lead {
         let offered = matches.iter().flatten().any(|target| target.offered);
-        let shows = if offered { 0.0 } else { movement.heading.leads_to(self.handover) };
-        let returns = if movement.phase.is_some() { 0.0 } else { movement.heading.leads_to(self.rest) };
-        shows.max(returns)
+        let heads = if offered { 0.0 } else { movement.heading.leads_to(self.handover) };
+        match movement.phase {
+            Some(_) => {
+                let shown = (HANDOVER..PLACES).map(|place| state.likelihoods.of(place));
+                Lead { heads, likely: TRUSTED * shown.fold(f64::NEG_INFINITY, f64::max) }
+            }
+            None => Lead { heads: heads.max(movement.heading.leads_to(self.rest)), likely: 0.0 },
+        }
+    }
+
+    /// Whether the person could take a part: it lies there, or the robot offers it.
+    fn is_takable(&self, kind: usize, part: &PartTrack, places: &TaskPlaces) -> bool {
+        let offered = (Vector3::from(part.position) - self.handover).norm() < OFFERED;
+        places.is_free_at(PERSON, kind, part) || (part.is_with_the_robot() && offered)
     }
 
     /// The part of `kind` that the movement leads to best, among those that the person could take.
@@ -114,30 +155,51 @@ impl Grasps {
         state: &PerceptionState,
         places: &TaskPlaces,
     ) -> Option<TargetMatch> {
-        let takable = |part: &PartTrack| {
-            let offered = (Vector3::from(part.position) - self.handover).norm() < OFFERED;
-            places.is_free_at(PERSON, kind, part) || (part.is_with_the_robot() && offered)
-        };
-        let parts = state.parts.parts().filter(|(own, part)| *own == kind && takable(part));
-        let matches = parts.map(|(_, part)| {
+        let parts = state.parts.numbered();
+        let parts = parts.filter(|(_, own, part)| *own == kind && self.is_takable(kind, part, places));
+        let matches = parts.map(|(index, _, part)| {
             let centre = part.above_underside(0.5 * places.size(kind).height);
             let heading = &movement.heading;
+            let likely = if movement.phase.is_some() { TRUSTED * state.likelihoods.of(index) } else { 0.0 };
+            let lead = Lead { heads: heading.leads_to(centre), likely };
             let distance = (centre - heading.centre).norm();
-            TargetMatch { leads: heading.leads_to(centre), distance, offered: part.is_with_the_robot() }
+            TargetMatch { lead, distance, offered: part.is_with_the_robot() }
         });
-        matches.max_by(|a, b| a.leads.total_cmp(&b.leads))
+        matches.max_by(TargetMatch::by_likelihood)
     }
 }
 
 /// How a movement relates to one part.
 #[derive(Debug, Clone, Copy)]
 struct TargetMatch {
-    /// How well it leads there, in (0, 1].
-    leads: f64,
+    lead: Lead,
     /// How far it is away, m.
     distance: f64,
     /// Whether the robot holds it out.
     offered: bool,
+}
+
+impl TargetMatch {
+    fn by_likelihood(one: &Self, other: &Self) -> Ordering {
+        let sum = |target: &Self| target.lead.logarithm(1.0);
+        sum(one).total_cmp(&sum(other))
+    }
+}
+
+/// How well a movement leads to a place.
+#[derive(Debug, Clone, Copy)]
+struct Lead {
+    /// By where it is and where it heads now, in [0, 1].
+    heads: f64,
+    /// By all its way so far, as people reach: a logarithm, against other places; 0 for a movement that did not begin at rest.
+    likely: f64,
+}
+
+impl Lead {
+    /// Both together, as a logarithm; where the hand heads counts the more, the sharper.
+    fn logarithm(&self, sharpness: f64) -> f64 {
+        sharpness * self.heads.max(LEAST).ln() + self.likely
+    }
 }
 
 /// What a movement tells already.
@@ -162,13 +224,18 @@ fn reading(
 ) -> Reading {
     let Some(time) = movement.phase else {
         let near = smooth_step(best.distance, ARRIVES.0, ARRIVES.1);
-        return Reading { trust: near, gate: best.leads * near, sharpness: SHARPNESS, fit: [0.0; MAX_KINDS] };
+        return Reading {
+            trust: near,
+            gate: best.lead.heads * near,
+            sharpness: SHARPNESS,
+            fit: [0.0; MAX_KINDS],
+        };
     };
     let phase = phase_of(time, best, state);
     let shaped = smooth_step(phase, SHAPES.0, SHAPES.1);
     Reading {
         trust: smooth_step(phase, TURNS.0, TURNS.1),
-        gate: smooth_step(best.leads, LEADS.0, LEADS.1),
+        gate: smooth_step(best.lead.heads, LEADS.0, LEADS.1),
         sharpness: 1.0 + (SHARPNESS - 1.0) * smooth_step(phase, SHARPENS.0, SHARPENS.1),
         fit: size_fit(state, classifier).map(|fit| shaped * fit),
     }
@@ -195,22 +262,23 @@ fn size_fit(state: &PerceptionState, classifier: &Classifier) -> [f64; MAX_KINDS
     classifier.likelihoods(&classifier.features(hand, reach), seen, person)
 }
 
-/// How far each kind explains movement and shape, sharpened: fractions of what all explain together. What leads `elsewhere`
+/// How far each kind explains movement and shape: fractions of what all explain together. What leads `elsewhere`
 /// as well, with no shape that would tell, takes its own fraction.
 fn fractions(
     matches: &[Option<TargetMatch>; MAX_KINDS],
     fit: &[f64; MAX_KINDS],
-    elsewhere: f64,
+    elsewhere: Lead,
     sharpness: f64,
 ) -> [f64; MAX_KINDS] {
     let score = |kind: usize| {
-        matches[kind].map_or(f64::NEG_INFINITY, |target| fit[kind] + target.leads.max(LEAST).ln())
+        matches[kind]
+            .map_or(f64::NEG_INFINITY, |target| sharpness * fit[kind] + target.lead.logarithm(sharpness))
     };
     let fits = || fit.iter().zip(matches).filter(|(_, target)| target.is_some()).map(|(fit, _)| *fit);
     let usual = fits().sum::<f64>() / fits().count().max(1) as f64;
-    let other = usual + elsewhere.max(LEAST).ln();
+    let other = sharpness * usual + elsewhere.logarithm(sharpness);
     let best = (0..MAX_KINDS).map(score).fold(other, f64::max);
-    let weights: [f64; MAX_KINDS] = std::array::from_fn(|kind| (sharpness * (score(kind) - best)).exp());
-    let sum = weights.iter().sum::<f64>() + (sharpness * (other - best)).exp();
+    let weights: [f64; MAX_KINDS] = std::array::from_fn(|kind| (score(kind) - best).exp());
+    let sum = weights.iter().sum::<f64>() + (other - best).exp();
     weights.map(|weight| weight / sum)
 }

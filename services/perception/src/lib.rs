@@ -8,6 +8,7 @@
 //!
 //! - *hand*: keypoints bridged over drop-outs; the arm with its uncertainty; speed and pitch; movements from stillness to
 //!   stillness. *present_movement*, *heading*: what the hand is doing, and where it goes.
+//! - *reaching*: how well the hand's way so far fits a reach to each part, by what is known of people's reaches ([`MovementModel`]).
 //! - *preshape*: the size of the part that the hand prepares for, learned from other people and adapted to this
 //!   person from the reaches so far, without labels ([`PreshapeModel`]).
 //! - *objects*: every part that was sighted, who has it, which places are empty.
@@ -32,6 +33,7 @@ mod plausible_cycle;
 mod pointing;
 mod present_movement;
 mod preshape;
+mod reaching;
 mod words;
 
 pub use perception::{Perception, SingularModel};
@@ -40,3 +42,4 @@ pub use preshape::{
     CLASSES, FEATURES, Features, Level, ModelError, PreshapeModel, READ, ReachRecord, SNAPSHOTS, WHOLE,
     WHOLE_LENGTH,
 };
+pub use reaching::{CURVE_BEGINS, CURVE_KNOTS, CURVE_MODES, CURVE_SPACING, MovementModel, TENTH};

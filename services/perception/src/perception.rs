@@ -3,6 +3,7 @@ use crate::hand::TrackedHand;
 use crate::objects::{Hands, PersonHand, TaskPlaces};
 use crate::perception_state::{PerceptionState, ResumeError};
 use crate::preshape::{Classifier, PreshapeModel, ReachRecord};
+use crate::reaching::MovementReader;
 use crate::words::Words;
 use coact_joint_task::Task;
 use coact_messages::{HandPercept, JointReading, Percept, SensorSample};
@@ -20,6 +21,7 @@ pub struct Perception {
     acts: Acts,
     words: Words,
     classifier: Classifier,
+    movements: MovementReader,
     robot: Option<Robot>,
     /// The next percept, without its header and its state words: evidence lasts from cycle to cycle.
     percept: Box<Percept>,
@@ -45,6 +47,7 @@ impl Perception {
             acts: Acts::new(task),
             words: Words::new(task),
             classifier: Classifier::new(model, &task.kinds).ok_or(SingularModel)?,
+            movements: MovementReader::new(&model.movement),
             robot: None,
             percept,
             state: bytemuck::zeroed_box(),
@@ -78,6 +81,7 @@ impl Perception {
             self.places.report(tick, &self.state.parts, &sample.scene, followed, &mut self.percept);
         }
         self.classifier.learn(&mut self.state.preshape);
+        self.acts.look_ahead(&mut self.state, &self.movements, &self.places);
         let heard = self.words.heard(tick);
         self.acts.report(tick, &mut self.state, &self.classifier, &self.places, heard, &mut self.percept);
         self.state.loss.report(tick, self.places.kinds(), &mut self.percept);
@@ -98,6 +102,10 @@ impl Perception {
         if let Some(onset) = state.hand.observe(tick, &sample.hand, sample.scene.occluders > 0) {
             let from_rest = onset && self.acts.is_from_rest(state.hand.movement.departure);
             self.classifier.observe(&state.hand, from_rest, &mut state.preshape);
+            state.path.observe(&state.hand, onset);
+            if onset {
+                state.likelihoods.begin();
+            }
             if self.percept.person_holds.iter().all(|held| *held < HELD) {
                 let pitch = state.hand.pitch();
                 state.keep_pitch(pitch);

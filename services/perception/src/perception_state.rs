@@ -4,6 +4,7 @@ use crate::objects::PartTracks;
 use crate::occlusion::Occlusion;
 use crate::plausible_cycle::cycle;
 use crate::preshape::PreshapeState;
+use crate::reaching::{HandPath, Likelihoods};
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::Percept;
 use coact_stage_state::{Flag, Implausible, StageState, StateError, ensure, finite};
@@ -17,6 +18,10 @@ pub(crate) struct PerceptionState {
     pub hand: TrackedHand,
     /// The present reach's features, and what is known of this person's hand.
     pub preshape: PreshapeState,
+    /// The hand's way since it lay still.
+    pub path: HandPath,
+    /// How well it fits a reach to each place.
+    pub likelihoods: Likelihoods,
     /// Every part that has been sighted.
     pub parts: PartTracks,
     /// A hand that has gone out of sight.
@@ -46,11 +51,13 @@ pub enum ResumeError {
 
 impl StageState for PerceptionState {
     const STAGE: &'static str = "perception";
-    const LAYOUT: u32 = 2;
+    const LAYOUT: u32 = 3;
 
     fn check(&self) -> Result<(), Implausible> {
         self.hand.check()?;
         self.preshape.check()?;
+        self.path.check()?;
+        self.likelihoods.check()?;
         self.parts.check()?;
         self.occlusion.check()?;
         self.loss.check()?;

@@ -177,30 +177,15 @@ impl Player {
         panic!("the {kind} is not taken: {}", self.state());
     }
 
-    /// Takes a part and brings it there, looks whether it has come there, or is in the robot's hand already, and tries again if not: on a
-    /// busy machine fingers that seem to have it may have closed beside it.
+    /// Takes a part, brings it there, and sees that it has come there, or is in the robot's hand already.
     fn brings(&mut self, kind: &str, grip: u32, to: DVec2) {
-        for _ in 0..TRIES {
-            self.takes(kind, grip);
-            // What is in the hand comes along; an open hand over the middle that has lost its part would ask for one.
-            self.go(self.at + 0.08 * (to - self.at).normalize());
-            let comes =
-                |player: &mut Self| player.in_hand(kind).is_some_and(|at| at.distance(player.at) < 0.04);
-            let is_there = |at: DVec2| at.distance(to) < 0.03;
-            let came = |player: &mut Self| {
-                player.in_hand(kind).is_some_and(is_there) || player.part(kind, to, 1).is_some()
-            };
-            if self.sees(LOOKS, comes) {
-                self.go(to);
-                if self.sees(LOOKS, came) {
-                    return;
-                }
-            }
-            self.pressed = false;
-            self.mouse("mouseReleased");
-            std::thread::sleep(Duration::from_millis(500));
-        }
-        panic!("the {kind} is not where the hand is: {}", self.state());
+        self.takes(kind, grip);
+        self.go(to);
+        let is_there = |at: DVec2| at.distance(to) < 0.03;
+        let came = |player: &mut Self| {
+            player.in_hand(kind).is_some_and(is_there) || player.part(kind, to, 1).is_some()
+        };
+        assert!(self.sees(LOOKS, came), "the {kind} is not where the hand is: {}", self.state());
     }
 
     /// Whether somebody who looks for so long sees this.

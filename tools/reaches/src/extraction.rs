@@ -1,7 +1,9 @@
+use crate::movement_fit::{Curve, curve};
 use coact_joint_task::Task;
 use coact_messages::HandView;
 use coact_perception::{
-    CLASSES, FEATURES, Level, Perception, PreshapeModel, READ, ReachRecord, SingularModel, WHOLE_LENGTH,
+    CLASSES, CURVE_KNOTS, CURVE_MODES, FEATURES, Level, MovementModel, Perception, PreshapeModel, READ,
+    ReachRecord, SingularModel, WHOLE_LENGTH,
 };
 use coact_recordings::{Reach, Size};
 use coact_robot::Robot;
@@ -17,6 +19,8 @@ pub(crate) struct LabelledReach {
     /// Size class.
     pub class: usize,
     pub record: ReachRecord,
+    /// The hand's way, where it can be followed.
+    pub curve: Option<Curve>,
 }
 
 /// What perception reads from one person's hand while the reaches are replayed.
@@ -45,6 +49,7 @@ pub(crate) fn extract(
                 participant: reach.participant,
                 class: reach.size.index(),
                 record,
+                curve: curve(reach),
             });
         }
     }
@@ -73,5 +78,12 @@ fn blank() -> PreshapeModel {
         tempo: USUAL_TEMPO,
         phase: vec![level(FEATURES); READ],
         whole: level(WHOLE_LENGTH),
+        movement: MovementModel {
+            duration: 0.5,
+            spread: 0.5,
+            scatter: 0.5,
+            mean: vec![[0.0; 2]; CURVE_KNOTS],
+            modes: vec![vec![[0.0; 2]; CURVE_KNOTS]; CURVE_MODES],
+        },
     }
 }

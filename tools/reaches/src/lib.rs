@@ -8,6 +8,7 @@ mod evaluation;
 mod extraction;
 mod inference_trace;
 mod level_fit;
+mod movement_fit;
 mod reach_outcome;
 mod reaches_report;
 mod subject;

@@ -1,5 +1,6 @@
 use crate::extraction::{LabelledReach, USUAL_TEMPO, extract};
 use crate::level_fit::{PersonFeatures, level, rounded};
+use crate::movement_fit::movement;
 use coact_joint_task::Task;
 use coact_perception::{
     CLASSES, FEATURES, PreshapeModel, READ, ReachRecord, SNAPSHOTS, SingularModel, WHOLE,
@@ -62,6 +63,7 @@ pub(crate) fn fit(labelled: &[LabelledReach]) -> Result<PreshapeModel, TrainErro
         tempo: rounded(median_tempo(labelled)),
         phase,
         whole,
+        movement: movement(labelled.iter().filter_map(|reach| reach.curve.as_ref())).ok_or_else(too_few)?,
     })
 }
 

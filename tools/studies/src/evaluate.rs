@@ -104,6 +104,26 @@ enum Moved {
     Recorded,
 }
 
+impl Laid {
+    /// What the head of the table says of it.
+    fn told(self) -> &'static str {
+        match self {
+            Self::Task => "",
+            Self::Random => ", parts elsewhere in each",
+        }
+    }
+}
+
+impl Moved {
+    /// What the head of the table says of it.
+    fn told(self) -> &'static str {
+        match self {
+            Self::MinimumJerk => "",
+            Self::Recorded => ", reaches of recorded people",
+        }
+    }
+}
+
 /// The robot to compare with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Baseline {

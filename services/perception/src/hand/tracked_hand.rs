@@ -205,6 +205,11 @@ impl TrackedHand {
         }
     }
 
+    /// The newest frames, newest last.
+    pub fn recent(&self) -> &[ViewFrame] {
+        &self.recent[..self.frames as usize]
+    }
+
     /// The hand's shape: the newest frames, averaged.
     pub fn shape(&self) -> ViewFrame {
         self.averaged(AVERAGED)
@@ -331,7 +336,7 @@ impl TrackedHand {
     }
 
     /// Where a keypoint was found last, m.
-    pub(super) fn point(&self, name: KeypointName) -> Vector3<f64> {
+    pub fn point(&self, name: KeypointName) -> Vector3<f64> {
         self.keypoint[name as usize].into()
     }
 }

@@ -30,7 +30,12 @@ pub(crate) struct PartTracks {
 impl PartTracks {
     /// The parts that are followed now.
     pub fn parts(&self) -> impl Iterator<Item = (usize, &PartTrack)> + Clone {
-        self.tracks.iter().filter_map(|track| Some((track.kind()?, track)))
+        self.numbered().map(|(_, kind, track)| (kind, track))
+    }
+
+    /// The same, each with the index of its track.
+    pub fn numbered(&self) -> impl Iterator<Item = (usize, usize, &PartTrack)> + Clone {
+        self.tracks.iter().enumerate().filter_map(|(index, track)| Some((index, track.kind()?, track)))
     }
 
     /// The part in the robot's hand: index of its track and kind.

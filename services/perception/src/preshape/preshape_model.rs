@@ -1,4 +1,5 @@
 use super::{FEATURES, ModelError};
+use crate::reaching::MovementModel;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -14,7 +15,7 @@ pub const WHOLE: [usize; 3] = [2, 4, 5];
 /// Features of a whole reach.
 pub const WHOLE_LENGTH: usize = FEATURES * WHOLE.len();
 
-/// What is known of people's preshaping, from recordings of people: a small file of numbers, made by `coact train`.
+/// What is known of people's reaches, from recordings of people: a small file of numbers, made by `coact train`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PreshapeModel {
@@ -26,6 +27,8 @@ pub struct PreshapeModel {
     pub phase: Vec<Level>,
     /// The level of whole reaches.
     pub whole: Level,
+    /// How their hands move.
+    pub movement: MovementModel,
 }
 
 /// The discriminant at one phase, and the Gaussians of the hierarchy along it.
@@ -82,6 +85,7 @@ impl PreshapeModel {
         if self.phase.len() != READ {
             return Err(format!("phase: expected {READ} levels, found {}", self.phase.len()));
         }
+        self.movement.check().map_err(|message| format!("movement: {message}"))?;
         let all = self.phase.iter().map(|level| (level, FEATURES)).chain([(&self.whole, WHOLE_LENGTH)]);
         all.enumerate().try_for_each(|(index, (level, length))| {
             level.check(length).map_err(|message| format!("level {}: {message}", index + 1))

@@ -6,24 +6,17 @@ use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 
 /// Prints all metrics, beside those of the baseline if there is one.
 pub(super) fn print(evaluation: &Evaluation) {
-    let Evaluation {
-        tasks,
-        layout: _,
-        movement: _,
-        partner,
-        seed,
-        trials,
-        report,
-        without,
-        baseline,
-        comparison,
-    } = evaluation;
+    let Evaluation { tasks, layout, movement, partner, seed, trials, report, without, baseline, comparison } =
+        evaluation;
     let task = match tasks.as_slice() {
         [task] => task.clone(),
         tasks => format!("{} tasks", tasks.len()),
     };
     let lacks = without.unwrap_or_default();
-    println!("{task}: {trials} assemblies with {partner}, seeds from {seed}; 95 % intervals");
+    let (layout, movement) = (layout.told(), movement.told());
+    println!(
+        "{task}: {trials} assemblies with {partner}{layout}{movement}, seeds from {seed}; 95 % intervals"
+    );
     let mut table = Table::new();
     table.load_style(UTF8_HORIZONTAL_ONLY);
     let one = rows(report);
