@@ -21,8 +21,6 @@ const SHARPENS: (f64, f64) = (1.0, 1.4);
 const SHARPNESS: f64 = 6.0;
 /// Phases between which the pitch of the hand becomes that of the grip. Chosen by hand.
 const TURNS: (f64, f64) = (0.25, 0.80);
-/// Exponent by which the likelihoods of places are weakened: a model of some people is too sure of another one.
-const TRUSTED: f64 = 0.15;
 /// From one place where an empty hand may be shown to the next, nearer to the person, m: it is held out short of where parts change
 /// hands. Chosen by hand.
 const SHORT_OF_IT: f64 = 0.08;
@@ -106,8 +104,8 @@ impl Grasps {
 
     /// One cycle's part of finding out which places the movement leads to.
     pub fn look_ahead(&self, state: &mut PerceptionState, reader: &MovementReader, places: &TaskPlaces) {
-        let PerceptionState { likelihoods, path, parts, .. } = state;
-        likelihoods.step(reader, path, |index| match index.checked_sub(HANDOVER) {
+        let PerceptionState { likelihoods, path, person, parts, .. } = state;
+        likelihoods.step(reader, path, person, |index| match index.checked_sub(HANDOVER) {
             Some(nearer) => Some(self.shown(nearer)),
             None => {
                 let part = parts.track(index)?;
@@ -135,7 +133,7 @@ impl Grasps {
         match movement.phase {
             Some(_) => {
                 let shown = (HANDOVER..PLACES).map(|place| state.likelihoods.of(place));
-                Lead { heads, likely: TRUSTED * shown.fold(f64::NEG_INFINITY, f64::max) }
+                Lead { heads, likely: shown.fold(f64::NEG_INFINITY, f64::max) }
             }
             None => Lead { heads: heads.max(movement.heading.leads_to(self.rest)), likely: 0.0 },
         }
@@ -160,7 +158,7 @@ impl Grasps {
         let matches = parts.map(|(index, _, part)| {
             let centre = part.above_underside(0.5 * places.size(kind).height);
             let heading = &movement.heading;
-            let likely = if movement.phase.is_some() { TRUSTED * state.likelihoods.of(index) } else { 0.0 };
+            let likely = if movement.phase.is_some() { state.likelihoods.of(index) } else { 0.0 };
             let lead = Lead { heads: heading.leads_to(centre), likely };
             let distance = (centre - heading.centre).norm();
             TargetMatch { lead, distance, offered: part.is_with_the_robot() }

@@ -114,6 +114,11 @@ impl Perception {
         if state.parts.is_news(tick, &sample.scene) {
             let around = hands(tick, &state.hand, self.robot.as_ref(), &sample.joints);
             state.parts.observe(&sample.scene, &around, &self.places);
+            let from_rest =
+                state.preshape.reach.onset > 0 && state.hand.movement.onset == state.preshape.reach.onset;
+            if state.person.takes(state.parts.is_any_with_the_person()) && from_rest {
+                self.movements.learn(&state.path, state.hand.centre().xy(), &mut state.person);
+            }
             state.loss.look(&state.parts, &around, &self.places);
         }
         state.loss.feel(tick, &sample.joints, &state.parts, &self.places);

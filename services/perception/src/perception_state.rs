@@ -4,7 +4,7 @@ use crate::objects::PartTracks;
 use crate::occlusion::Occlusion;
 use crate::plausible_cycle::cycle;
 use crate::preshape::PreshapeState;
-use crate::reaching::{HandPath, Likelihoods};
+use crate::reaching::{HandPath, Likelihoods, PersonMovement};
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::Percept;
 use coact_stage_state::{Flag, Implausible, StageState, StateError, ensure, finite};
@@ -20,6 +20,8 @@ pub(crate) struct PerceptionState {
     pub preshape: PreshapeState,
     /// The hand's way since it lay still.
     pub path: HandPath,
+    /// How this person's hand moves.
+    pub person: PersonMovement,
     /// How well it fits a reach to each place.
     pub likelihoods: Likelihoods,
     /// Every part that has been sighted.
@@ -57,6 +59,7 @@ impl StageState for PerceptionState {
         self.hand.check()?;
         self.preshape.check()?;
         self.path.check()?;
+        self.person.check()?;
         self.likelihoods.check()?;
         self.parts.check()?;
         self.occlusion.check()?;

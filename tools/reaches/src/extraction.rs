@@ -84,6 +84,8 @@ fn blank() -> PreshapeModel {
             scatter: 0.5,
             mean: vec![[0.0; 2]; CURVE_KNOTS],
             modes: vec![vec![[0.0; 2]; CURVE_KNOTS]; CURVE_MODES],
+            own: vec![0.0; CURVE_MODES],
+            own_pace: 0.0,
         },
     }
 }

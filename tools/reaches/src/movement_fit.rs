@@ -3,6 +3,7 @@ use coact_messages::KeypointName;
 use coact_perception::{CURVE_BEGINS, CURVE_KNOTS, CURVE_MODES, CURVE_SPACING, MovementModel, TENTH};
 use coact_recordings::{Frame, Reach};
 use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector2};
+use std::collections::BTreeSet;
 
 /// When the hand lies still before a reach, s since the labelled onset: the recordings begin half a second before it.
 const REST: (f64, f64) = (-0.46, -0.30);
@@ -14,12 +15,15 @@ const SHORTEST: f64 = 0.2;
 const UNLIKE: f64 = 0.05;
 /// Fewest reaches that tell in what ways they differ: twice as many as there are modes.
 const FEWEST: usize = 2 * CURVE_MODES;
+/// Largest share that may lie between people: nobody's reaches are all alike.
+const MOST_BETWEEN: f64 = 0.95;
 /// Coordinates of a curve: those along come first, those aside after them.
 const LENGTH: usize = 2 * CURVE_KNOTS;
 
 /// The way of the hand in one reach, as perception describes it.
 #[derive(Debug, Clone)]
 pub(crate) struct Curve {
+    participant: u32,
     /// From a tenth of the way to contact, s.
     duration: f64,
     way: DVector<f64>,
@@ -42,16 +46,35 @@ pub(crate) fn movement<'a>(curves: impl Iterator<Item = &'a Curve>) -> Option<Mo
         covariance.ger(1.0 / count, &miss, &miss, 1.0);
     }
     let (modes, left) = modes(covariance);
-    let logs: Vec<f64> = likely.iter().map(|curve| curve.duration.ln()).collect();
-    let log = logs.iter().sum::<f64>() / count;
-    let spread = (logs.iter().map(|own| (own - log).powi(2)).sum::<f64>() / count).sqrt();
+    let along = |mode: &DVector<f64>, curve: &Curve| {
+        mode.dot(&(&curve.way - &mean)) / mode.norm_squared().max(f64::MIN_POSITIVE)
+    };
+    let own = |mode| rounded(between_people(&likely, |curve| along(mode, curve)));
+    let log = likely.iter().map(|curve| curve.duration.ln()).sum::<f64>() / count;
+    let spread = (likely.iter().map(|curve| (curve.duration.ln() - log).powi(2)).sum::<f64>() / count).sqrt();
     Some(MovementModel {
         duration: rounded(log.exp()),
         spread: rounded(spread),
         scatter: rounded(left / LENGTH as f64),
         mean: places(&mean),
+        own: modes.iter().map(own).collect(),
+        own_pace: rounded(between_people(&likely, |curve| curve.duration.ln())),
         modes: modes.iter().map(places).collect(),
     })
+}
+
+/// Share of the variance of `value` that lies between people: that of their means.
+fn between_people(curves: &[&Curve], value: impl Fn(&Curve) -> f64) -> f64 {
+    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len().max(1) as f64;
+    let variance =
+        |of: &[f64]| of.iter().map(|own| (own - mean(of)).powi(2)).sum::<f64>() / of.len().max(1) as f64;
+    let people: BTreeSet<u32> = curves.iter().map(|curve| curve.participant).collect();
+    let of = |person: u32| -> Vec<f64> {
+        curves.iter().filter(|curve| curve.participant == person).map(|curve| value(curve)).collect()
+    };
+    let means: Vec<f64> = people.iter().map(|person| mean(&of(*person))).collect();
+    let all: Vec<f64> = curves.iter().map(|curve| value(curve)).collect();
+    (variance(&means) / variance(&all).max(f64::MIN_POSITIVE)).clamp(0.0, MOST_BETWEEN)
 }
 
 fn mean<'a>(curves: impl Iterator<Item = &'a DVector<f64>> + Clone) -> Option<DVector<f64>> {
@@ -102,7 +125,7 @@ pub(crate) fn curve(reach: &Reach) -> Option<Curve> {
         own[knot] = moved.dot(&whole) / whole.norm_squared();
         own[CURVE_KNOTS + knot] = side * whole.perp(&moved) / whole.norm_squared();
     }
-    (duration > SHORTEST).then_some(Curve { duration, way: own })
+    (duration > SHORTEST).then_some(Curve { participant: reach.participant, duration, way: own })
 }
 
 /// The middle between thumb and index tip wherever both are found, pixels, with single mistakes taken out.

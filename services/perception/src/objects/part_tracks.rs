@@ -1,4 +1,4 @@
-use super::part_track::{FREE, PartTrack};
+use super::part_track::{BY_PERSON, FREE, PartTrack};
 use super::{Hands, TaskPlaces};
 use crate::plausible_cycle::cycle;
 use bytemuck::{Pod, Zeroable};
@@ -43,6 +43,11 @@ impl PartTracks {
         let found =
             self.tracks.iter().position(|track| track.kind().is_some() && track.is_with_the_robot())?;
         Some((found, self.tracks[found].kind()?))
+    }
+
+    /// Whether the person has one.
+    pub fn is_any_with_the_person(&self) -> bool {
+        self.parts().any(|(_, part)| part.holder & BY_PERSON != 0)
     }
 
     /// One track, if it is in use.

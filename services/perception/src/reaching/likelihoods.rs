@@ -1,4 +1,4 @@
-use super::{HandPath, MovementReader};
+use super::{HandPath, MovementReader, PersonMovement};
 use bytemuck::{Pod, Zeroable};
 use coact_messages::MAX_PARTS;
 use coact_stage_state::{Implausible, ensure};
@@ -8,6 +8,11 @@ use nalgebra::Vector2;
 pub(crate) const PLACES: usize = MAX_PARTS + 3;
 /// The first of these.
 pub(crate) const HANDOVER: usize = MAX_PARTS;
+/// Exponent by which likelihoods are weakened: a model of some people is too sure of another one.
+const TRUSTED: f64 = 0.25;
+/// Share of reaches that are taken to be unlike all that the model knows. Chosen by hand, as the one before on the recorded people, each left out
+/// in turn: so the way alone never outweighs where the hand is at last.
+const UNKNOWN: f64 = 0.1;
 /// Of a place that no reach leads to.
 const LEAST: f32 = -1e6;
 
@@ -38,6 +43,7 @@ impl Likelihoods {
         &mut self,
         reader: &MovementReader,
         path: &HandPath,
+        person: &PersonMovement,
         place: impl Fn(usize) -> Option<Vector2<f64>>,
     ) {
         let seen = path.frames().len() as u64;
@@ -48,7 +54,7 @@ impl Likelihoods {
         let rest = self.next as usize..PLACES;
         let found = rest.clone().find_map(|index| Some((index, place(index)?)));
         if let Some((index, place)) = found {
-            let likelihood = reader.likelihood(path, self.frames as usize, place);
+            let likelihood = reader.likelihood(path, self.frames as usize, person, place);
             self.coming[index] = likelihood.max(f64::from(LEAST)) as f32;
         }
         self.next = found.map_or(PLACES, |(index, _)| index + 1) as u64;
@@ -57,9 +63,12 @@ impl Likelihoods {
         }
     }
 
-    /// Logarithm of the density of the way so far, if it leads to that place, up to what is the same for all.
+    /// How likely the way so far leads to that place, against the likeliest one: a logarithm, 0 or less. It is bounded, for some reach in a way
+    /// that no model knows.
     pub fn of(&self, index: usize) -> f64 {
-        f64::from(self.whole[index])
+        let best = self.whole.iter().copied().fold(LEAST, f32::max);
+        let less = TRUSTED * f64::from(self.whole[index] - best);
+        (UNKNOWN + (1.0 - UNKNOWN) * less.exp()).ln()
     }
 
     /// Refuses what is none.

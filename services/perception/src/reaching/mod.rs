@@ -11,14 +11,19 @@
 //! with independent coefficients of unit variance: a probabilistic movement primitive (Paraschos et al. 2013), whose mean and modes are the
 //! principal components of recorded reaches. For a place that the reach might end at, all but its duration is known from what was seen of
 //! it; the duration is integrated over, and so are the coefficients, in closed form.
+//!
+//! How a person's own reaches differ from other people's is learned: when a part is in the hand, it is known where the reach has led, and so
+//! what its coefficients were.
 
 mod hand_path;
 mod likelihoods;
 mod movement_model;
 mod movement_reader;
+mod person_movement;
 
 pub use movement_model::{CURVE_BEGINS, CURVE_KNOTS, CURVE_MODES, CURVE_SPACING, MovementModel, TENTH};
 
 pub(crate) use hand_path::HandPath;
 pub(crate) use likelihoods::{HANDOVER, Likelihoods, PLACES};
 pub(crate) use movement_reader::MovementReader;
+pub(crate) use person_movement::PersonMovement;

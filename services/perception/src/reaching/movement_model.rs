@@ -25,6 +25,10 @@ pub struct MovementModel {
     pub mean: Vec<[f64; 2]>,
     /// In what ways reaches differ from it, each at one standard deviation.
     pub modes: Vec<Vec<[f64; 2]>>,
+    /// Share of each mode's variance that lies between people, not between the reaches of one: what a person's earlier reaches tell.
+    pub own: Vec<f64>,
+    /// The same of the logarithm of duration.
+    pub own_pace: f64,
 }
 
 impl MovementModel {
@@ -38,8 +42,13 @@ impl MovementModel {
                 return Err(format!("{name}: expected a number between 0 and 1, found {value}"));
             }
         }
-        if self.modes.len() != CURVE_MODES {
-            return Err(format!("modes: expected {CURVE_MODES}, found {}", self.modes.len()));
+        for (name, found) in [("modes", self.modes.len()), ("own", self.own.len())] {
+            if found != CURVE_MODES {
+                return Err(format!("{name}: expected {CURVE_MODES}, found {found}"));
+            }
+        }
+        if !self.own.iter().chain([&self.own_pace]).all(|share| (0.0..1.0).contains(share)) {
+            return Err("own and own_pace: expected shares between 0 and 1".into());
         }
         for (name, curve) in
             [("mean", &self.mean)].into_iter().chain(self.modes.iter().map(|mode| ("modes", mode)))

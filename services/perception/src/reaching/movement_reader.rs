@@ -1,5 +1,6 @@
 use super::hand_path::{HandPath, PathFrame};
 use super::movement_model::{CURVE_BEGINS, CURVE_KNOTS, CURVE_MODES, CURVE_SPACING, MovementModel, TENTH};
+use super::person_movement::{Expected, PersonMovement};
 use nalgebra::{SMatrix, SVector, Vector2};
 
 /// Scatter of the middle between two keypoints of a frame, m: somewhat more than the simulated tracker's.
@@ -7,10 +8,6 @@ const SEEN: f64 = 0.003;
 /// How far from a part's middle it is grasped, m: standard deviation along and aside. Chosen by hand, some millimetres: people grasp the
 /// recorded cubes near their middle, and what perception takes for the middle of a part scatters as well.
 const GRASPED: f64 = 0.008;
-/// By how much more a person of whom nothing is known may differ than the recorded ones, in the ways and in the pace of the hand: few people
-/// do not show all. Chosen on the recorded people, each left out in turn.
-const OTHERS_WAYS: f64 = 1.5;
-const OTHERS_PACE: f64 = 1.4;
 /// Length of a reach from which on its ways vary in proportion to it, m: on shorter ones what hand and fingers do by themselves counts. Chosen
 /// by hand, half of the recorded reaches' length.
 const ALIKE: f64 = 0.15;
@@ -21,6 +18,8 @@ const WIDEST: f64 = 2.2;
 const LATE: f64 = 1.08;
 /// Places nearer than this to where the hand lay are no ends of reaches, m.
 const SHORTEST: f64 = 0.05;
+/// Fewest frames of a reach of which something is learned.
+const FEWEST: usize = 12;
 /// Mean and modes.
 const CURVES: usize = CURVE_MODES + 1;
 /// Modes, and those of the place that is grasped.
@@ -29,11 +28,19 @@ const UNKNOWNS: usize = CURVE_MODES + 2;
 /// Reads from the hand's way so far how well it fits a reach to a place.
 #[derive(Debug, Clone)]
 pub(crate) struct MovementReader {
+    model: MovementModel,
     /// At each knot: mean and modes, along and aside.
     knots: [[[f64; 2]; CURVES]; CURVE_KNOTS],
-    scatter: f64,
-    /// Durations from a tenth of the way to contact, s, with the logarithm of how usual each is.
-    durations: [(f64, f64); DURATIONS],
+}
+
+/// The hand's way, against a reach to one place.
+struct Reach<'a> {
+    frames: &'a [PathFrame],
+    /// From where the hand lay to the place, m.
+    way: Vector2<f64>,
+    thumb_side: f64,
+    /// When a tenth of the way was covered, s.
+    begun: f64,
 }
 
 /// What the frames so far say of the unknowns, for one place and one duration.
@@ -41,37 +48,36 @@ struct Evidence {
     precision: SMatrix<f64, UNKNOWNS, UNKNOWNS>,
     pull: SVector<f64, UNKNOWNS>,
     square: f64,
+    frames: f64,
 }
 
 impl MovementReader {
     pub fn new(model: &MovementModel) -> Self {
         let at = |knot: usize, curve: usize| match curve.checked_sub(1) {
             None => model.mean[knot],
-            Some(mode) => model.modes[mode][knot].map(|value| OTHERS_WAYS * value),
+            Some(mode) => model.modes[mode][knot],
         };
-        let deviate = |index: usize| WIDEST * (2.0 * index as f64 / (DURATIONS - 1) as f64 - 1.0);
-        let spread = OTHERS_PACE * model.spread;
-        let duration = |deviate: f64| (model.duration * (spread * deviate).exp(), -0.5 * deviate * deviate);
-        Self {
-            knots: std::array::from_fn(|knot| std::array::from_fn(|curve| at(knot, curve))),
-            scatter: model.scatter,
-            durations: std::array::from_fn(|index| duration(deviate(index))),
-        }
+        let knots = std::array::from_fn(|knot| std::array::from_fn(|curve| at(knot, curve)));
+        Self { knots, model: model.clone() }
     }
 
-    /// Logarithm of the density of what was seen of the hand in the first so many frames, if it reaches for `place` (m, on the table plane), up to what is the same
-    /// for all places; minus infinity where no reach leads.
-    pub fn likelihood(&self, path: &HandPath, frames: usize, place: Vector2<f64>) -> f64 {
-        let way = place - path.start();
-        let length = way.norm();
-        let frames = &path.frames()[..frames.min(path.frames().len())];
-        if length < SHORTEST || frames.is_empty() {
-            return f64::NEG_INFINITY;
-        }
-        let begun = path.time_at(TENTH * length);
-        let each = self
-            .durations
-            .map(|(duration, usual)| usual + self.given(frames, path.thumb_side(), way, begun, duration));
+    /// Logarithm of the density of what was seen of this person's hand in the first so many frames, if it reaches for `place` (m, on the table
+    /// plane), up to what is the same for all places; minus infinity where no reach leads.
+    pub fn likelihood(
+        &self,
+        path: &HandPath,
+        frames: usize,
+        person: &PersonMovement,
+        place: Vector2<f64>,
+    ) -> f64 {
+        let Some(reach) = Reach::new(path, frames, place) else { return f64::NEG_INFINITY };
+        let expected = person.expected(&self.model);
+        let each = self.durations(&expected).map(|(duration, usual)| {
+            usual
+                + self
+                    .evidence(&reach, &expected, duration)
+                    .map_or(f64::NEG_INFINITY, |it| self.density(&reach, &it).0)
+        });
         let best = each.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if best == f64::NEG_INFINITY {
             return best;
@@ -79,34 +85,61 @@ impl MovementReader {
         best + each.iter().map(|log| (log - best).exp()).sum::<f64>().ln()
     }
 
-    /// The same for a reach that takes so long from `begun`, s, to contact.
-    fn given(
-        &self,
-        frames: &[PathFrame],
-        thumb_side: f64,
-        way: Vector2<f64>,
-        begun: f64,
-        duration: f64,
-    ) -> f64 {
-        let newest = frames.last().map_or(0.0, |frame| f64::from(frame.time));
-        if newest - begun > LATE * duration {
-            return f64::NEG_INFINITY;
+    /// Learns how this person reaches, once it is known where the reach has led.
+    pub fn learn(&self, path: &HandPath, place: Vector2<f64>, person: &mut PersonMovement) {
+        let Some(reach) = Reach::new(path, path.frames().len(), place) else { return };
+        if reach.frames.len() < FEWEST {
+            return;
         }
-        let square = way.norm_squared();
-        let grasped = GRASPED / square.sqrt();
-        let varied = (1.0 + ALIKE * ALIKE / square).sqrt();
-        let mut evidence = Evidence { precision: SMatrix::zeros(), pull: SVector::zeros(), square: 0.0 };
+        // Against what is expected of anybody: what the reaches so far have told must not tell once more.
+        let anyone: PersonMovement = bytemuck::Zeroable::zeroed();
+        let expected = anyone.expected(&self.model);
+        let found = self.durations(&expected).into_iter().filter_map(|(duration, usual)| {
+            let (density, unknowns) = self.density(&reach, &self.evidence(&reach, &expected, duration)?);
+            Some((usual + density, duration, unknowns?))
+        });
+        if let Some((_, duration, unknowns)) = found.max_by(|one, other| one.0.total_cmp(&other.0)) {
+            let coefficients = std::array::from_fn(|mode| expected.modes[mode].1 * unknowns[mode]);
+            person.remember(&coefficients, (duration / self.model.duration).ln());
+        }
+    }
+
+    /// Durations from a tenth of the way to contact, s, each with the logarithm of how usual it is.
+    fn durations(&self, expected: &Expected) -> [(f64, f64); DURATIONS] {
+        let (mean, deviation) = expected.pace;
+        std::array::from_fn(|index| {
+            let deviate = WIDEST * (2.0 * index as f64 / (DURATIONS - 1) as f64 - 1.0);
+            (self.model.duration * (mean + deviation * deviate).exp(), -0.5 * deviate * deviate)
+        })
+    }
+
+    /// What was seen says of a reach that takes so long; `None` if it would be over.
+    fn evidence(&self, reach: &Reach, expected: &Expected, duration: f64) -> Option<Evidence> {
+        let newest = reach.frames.last().map_or(0.0, |frame| f64::from(frame.time));
+        if newest - reach.begun > LATE * duration {
+            return None;
+        }
+        let mut evidence = Evidence::none();
         // Every second frame, the newest among them.
-        let read = || frames.iter().rev().step_by(2);
-        for frame in read() {
-            let moved = Vector2::from(frame.moved.map(f64::from));
-            let seen = [moved.dot(&way) / square, thumb_side * way.perp(&moved) / square];
-            evidence.take_in(seen, &self.curves((f64::from(frame.time) - begun) / duration), varied, grasped);
+        for frame in reach.frames.iter().rev().step_by(2) {
+            let curves = self.curves((f64::from(frame.time) - reach.begun) / duration);
+            evidence.take_in(reach, reach.seen(frame), &curves, expected);
         }
-        let variance = self.scatter + SEEN * SEEN / square;
+        Some(evidence)
+    }
+
+    /// Logarithm of the density of what was seen, and the likeliest unknowns, in their standard deviations.
+    fn density(&self, reach: &Reach, evidence: &Evidence) -> (f64, Option<SVector<f64, UNKNOWNS>>) {
+        let square = reach.way.norm_squared();
+        let variance = self.model.scatter + SEEN * SEEN / square;
+        let precision = SMatrix::identity() + evidence.precision / variance;
+        let Some(factor) = precision.cholesky() else { return (f64::NEG_INFINITY, None) };
+        let pull = evidence.pull / variance;
+        let unknowns = factor.solve(&pull);
+        let spread: f64 = factor.l_dirty().diagonal().iter().map(|value| value.ln()).sum();
+        let fits = -0.5 * (evidence.square / variance - pull.dot(&unknowns)) - spread;
         // Two coordinates of each frame.
-        let count = read().count() as f64;
-        evidence.log_density(variance) - count * (variance.ln() + square.ln())
+        (fits - evidence.frames * (variance.ln() + square.ln()), Some(unknowns))
     }
 
     /// Mean and modes at one time, between two knots.
@@ -123,30 +156,47 @@ impl MovementReader {
     }
 }
 
+impl<'a> Reach<'a> {
+    /// `None` where no reach leads.
+    fn new(path: &'a HandPath, frames: usize, place: Vector2<f64>) -> Option<Self> {
+        let way = place - path.start();
+        let frames = path.frames().get(..frames)?;
+        let is_one = way.norm() >= SHORTEST && !frames.is_empty();
+        let begun = path.time_at(TENTH * way.norm());
+        is_one.then_some(Self { frames, way, thumb_side: path.thumb_side(), begun })
+    }
+
+    /// Where the hand was in a frame: along the way and aside, in units of its length.
+    fn seen(&self, frame: &PathFrame) -> [f64; 2] {
+        let moved = Vector2::from(frame.moved.map(f64::from));
+        [moved.dot(&self.way), self.thumb_side * self.way.perp(&moved)]
+            .map(|part| part / self.way.norm_squared())
+    }
+}
+
 impl Evidence {
-    /// Takes in where the hand was in one frame, along and aside. Where a place is grasped off its middle, the whole way turns and stretches.
-    fn take_in(&mut self, seen: [f64; 2], curves: &[[f64; 2]; CURVES], varied: f64, grasped: f64) {
-        let mean = curves[0];
-        let off = [mean, [-mean[1], mean[0]]].map(|own| own.map(|value| grasped * value));
+    fn none() -> Self {
+        Self { precision: SMatrix::zeros(), pull: SVector::zeros(), square: 0.0, frames: 0.0 }
+    }
+
+    /// Takes in where the hand was in one frame. Where a part is grasped off its middle, the whole way turns and stretches.
+    fn take_in(&mut self, reach: &Reach, seen: [f64; 2], curves: &[[f64; 2]; CURVES], expected: &Expected) {
+        let square = reach.way.norm_squared();
+        let (varied, grasped) = ((1.0 + ALIKE * ALIKE / square).sqrt(), GRASPED / square.sqrt());
+        let [along, aside] = curves[0];
+        let off = [[along, -aside], [aside, along]];
+        self.frames += 1.0;
         for axis in 0..2 {
-            let miss = seen[axis] - mean[axis];
+            let mut miss = seen[axis] - curves[0][axis];
             let mut by = SVector::<f64, UNKNOWNS>::zeros();
-            curves[1..].iter().zip(by.iter_mut()).for_each(|(mode, by)| *by = varied * mode[axis]);
-            off.iter().zip(by.iter_mut().skip(CURVE_MODES)).for_each(|(off, by)| *by = off[axis]);
+            for ((by, mode), (mean, deviation)) in by.iter_mut().zip(&curves[1..]).zip(&expected.modes) {
+                *by = varied * deviation * mode[axis];
+                miss -= mean * mode[axis];
+            }
+            by.iter_mut().skip(CURVE_MODES).zip(off[axis]).for_each(|(by, off)| *by = grasped * off);
             self.precision.ger(1.0, &by, &by, 1.0);
             self.pull.axpy(miss, &by, 1.0);
             self.square += miss * miss;
         }
-    }
-
-    /// Logarithm of the density of all that was taken in, where each coordinate scatters with this variance, without that variance's own
-    /// normalisation.
-    fn log_density(&self, variance: f64) -> f64 {
-        let precision = SMatrix::identity() + self.precision / variance;
-        let Some(factor) = precision.cholesky() else { return f64::NEG_INFINITY };
-        let pull = self.pull / variance;
-        let explained = pull.dot(&factor.solve(&pull));
-        let spread: f64 = factor.l_dirty().diagonal().iter().map(|value| value.ln()).sum();
-        -0.5 * (self.square / variance - explained) - spread
     }
 }
