@@ -3,7 +3,7 @@ use crate::level_fit::{PersonFeatures, level, rounded};
 use crate::movement_fit::movement;
 use coact_joint_task::Task;
 use coact_perception::{
-    CLASSES, FEATURES, PreshapeModel, READ, ReachRecord, SNAPSHOTS, SingularModel, WHOLE,
+    CLASSES, CURVE_BEGINS, FEATURES, PreshapeModel, READ, ReachRecord, SNAPSHOTS, SingularModel, WHOLE,
 };
 use coact_recordings::{Order, Reach, Size};
 use coact_robot::Robot;
@@ -109,6 +109,8 @@ pub fn model_file(
          #            {whole:?} together when the reach is over (whole)\n\
          # method     Fisher's discriminant; Gaussian hierarchy of size class, person, person's class, and reach, by\n\
          #            moments in closed form. sizes: widths of the classes, m\n\
+         # movement   way of the middle between thumb and index tip: mean and principal components, [along, aside] the straight\n\
+         #            line in units of its length, from {CURVE_BEGINS} to 1 of the time from a tenth of the way to contact\n\
          # licence    the recordings are under the MIT licence (Dagioglou, Soulounias, Giannakopoulos 2022)\n\n\
          {numbers}",
         read = &SNAPSHOTS[..READ],

@@ -101,6 +101,10 @@ fn training_is_repeatable_bit_by_bit_and_survives_its_file() {
         "larger objects, larger coordinates: {:?}",
         model.whole.mean
     );
+    let way = &model.movement.mean;
+    let [along, aside] = way[way.len() - 1];
+    assert!((along - 1.0).abs() < 1e-9 && aside.abs() < 1e-9, "all end where they end: {along} {aside}");
+    assert!(way.windows(2).all(|pair| pair[1][0] > pair[0][0] - 0.01), "they go there: {way:?}");
 }
 
 #[test]

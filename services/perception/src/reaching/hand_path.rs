@@ -91,6 +91,17 @@ impl HandPath {
         self.frames += 1;
     }
 
+    /// The path of a hand that lay at `start`, and was seen at these times (s) so far from there (m).
+    #[cfg(test)]
+    pub fn of(start: Vector2<f64>, seen: impl Iterator<Item = (f64, Vector2<f64>)>) -> Self {
+        let mut path = Self { start: start.into(), thumb_side: 1.0, begins: 1, ..Self::zeroed() };
+        for ((time, moved), frame) in seen.zip(&mut path.frame) {
+            *frame = PathFrame { time: time as f32, moved: [moved.x as f32, moved.y as f32] };
+            path.frames += 1;
+        }
+        path
+    }
+
     /// When the hand had first come so far from where it lay, m; s since the first frame, between frames where it passed in between. As
     /// long as it has not, the newest frame's.
     pub fn time_at(&self, distance: f64) -> f64 {

@@ -21,6 +21,10 @@ mod movement_model;
 mod movement_reader;
 mod person_movement;
 
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+mod tests;
+
 pub use movement_model::{CURVE_BEGINS, CURVE_KNOTS, CURVE_MODES, CURVE_SPACING, MovementModel, TENTH};
 
 pub(crate) use hand_path::HandPath;
