@@ -78,7 +78,7 @@ fn missed(fault: &FaultEvent, process: &str) -> u64 {
 }
 
 /// The person means what she may not do yet, again and again, at times of her own: what the robot decides does not hang on a
-/// handover, in which one tick of the machine's is a second later on.
+/// handover, in which one tick of the machine's is a second later on, nor on noise, as for the open hand, which does not tell what it asks for.
 const SCENARIO: &str = r#"
 [start]
 achieved = ["wheel on the person's side", "wheel on the robot's side", "nut on the person's side", "nut on the robot's side"]
@@ -91,8 +91,8 @@ gives_up = 1.0
 
 [[action]]
 at = 10.0
-chain = "request"
-kind = "column 3"
+chain = "insert"
+kind = "column 2"
 gives_up = 1.0
 
 [[action]]
@@ -103,8 +103,8 @@ gives_up = 1.0
 
 [[action]]
 at = 24.0
-chain = "request"
-kind = "column 3"
+chain = "insert"
+kind = "column 2"
 gives_up = 1.0
 "#;
 /// What follows from it: a request for the first column, and a correction and another request for each of the four actions.
