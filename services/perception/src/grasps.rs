@@ -110,7 +110,7 @@ impl Grasps {
             None => {
                 let part = parts.track(index)?;
                 let kind = part.kind().filter(|kind| self.is_takable(*kind, part, places))?;
-                Some(part.above_underside(0.5 * places.size(kind).height).xy())
+                Some(part.centre(places.size(kind)).xy())
             }
         });
     }
@@ -156,7 +156,7 @@ impl Grasps {
         let parts = state.parts.numbered();
         let parts = parts.filter(|(_, own, part)| *own == kind && self.is_takable(kind, part, places));
         let matches = parts.map(|(index, _, part)| {
-            let centre = part.above_underside(0.5 * places.size(kind).height);
+            let centre = part.centre(places.size(kind));
             let heading = &movement.heading;
             let likely = if movement.phase.is_some() { state.likelihoods.of(index) } else { 0.0 };
             let lead = Lead { heads: heading.leads_to(centre), likely };

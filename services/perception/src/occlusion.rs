@@ -56,7 +56,7 @@ impl Occlusion {
             self.since = if over { 0 } else { self.since };
             return;
         }
-        let reaches = hand.movement.is_moving() && reach.onset > 0 && hand.movement.onset == reach.onset;
+        let reaches = hand.movement.is_moving() && reach.is_of(&hand.movement);
         let vanished = reaches && (OUT_OF_SIGHT..LATE).contains(&age) && hand.captured != self.last_seen;
         if vanished && leads_behind(sample, hand, places) {
             (self.since, self.last_seen) = (tick.max(1), hand.captured);

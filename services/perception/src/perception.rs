@@ -113,10 +113,10 @@ impl Perception {
         }
         if state.parts.is_news(tick, &sample.scene) {
             let around = hands(tick, &state.hand, self.robot.as_ref(), &sample.joints);
+            let held = state.parts.is_any_with_the_person();
             state.parts.observe(&sample.scene, &around, &self.places);
-            let from_rest =
-                state.preshape.reach.onset > 0 && state.hand.movement.onset == state.preshape.reach.onset;
-            if state.person.takes(state.parts.is_any_with_the_person()) && from_rest {
+            let takes = !held && state.parts.is_any_with_the_person();
+            if takes && state.preshape.reach.is_of(&state.hand.movement) {
                 self.movements.learn(&state.path, state.hand.centre().xy(), &mut state.person);
             }
             state.loss.look(&state.parts, &around, &self.places);
@@ -129,7 +129,7 @@ impl Perception {
     fn report_hand(&mut self, tick: u64) {
         let (hand, reach) = (&self.state.hand, &self.state.preshape.reach);
         let tracked = hand.is_tracked(tick);
-        let reaching = tracked && hand.movement.is_moving() && hand.movement.onset == reach.onset;
+        let reaching = tracked && hand.movement.is_moving() && reach.is_of(&hand.movement);
         self.percept.arm = hand.arm_at(tick);
         self.percept.hand = HandPercept {
             aperture: hand.aperture(),

@@ -47,7 +47,7 @@ impl Pointing {
         };
         let (mut own, mut all, mut nearest) = (0.0, 0.0, f64::INFINITY);
         for (other, part) in state.parts.parts().filter(is_there) {
-            let miss = self.miss(part.above_underside(0.5 * places.size(other).height));
+            let miss = self.miss(part.centre(places.size(other)));
             let nearness = (-0.5 * (miss / SCATTER).powi(2)).exp();
             all += nearness;
             if other == kind {

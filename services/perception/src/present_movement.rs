@@ -21,7 +21,7 @@ impl PresentMovement {
         if !hand.is_tracked(tick) {
             return None;
         }
-        let from_rest = reach.onset > 0 && hand.movement.onset == reach.onset;
+        let from_rest = reach.is_of(&hand.movement);
         let phase = classifier.phase(&state.preshape, tick);
         let phase = (from_rest && phase < OVER).then_some(phase);
         let heading = Heading { centre: hand.centre(), velocity: hand.centre_velocity() };

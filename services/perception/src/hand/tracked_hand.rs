@@ -190,7 +190,7 @@ impl TrackedHand {
 
     /// Mean of the newest frames' points; `cycle` is the newest one's. Zeros before the first frame.
     pub fn averaged(&self, frames: usize) -> ViewFrame {
-        let newest = &self.recent[..self.frames as usize];
+        let newest = self.recent();
         let newest = &newest[newest.len().saturating_sub(frames)..];
         let mean = |of: fn(&ViewFrame) -> [f64; 3]| -> [f64; 3] {
             let sum: Vector3<f64> = newest.iter().map(|frame| Vector3::from(of(frame))).sum();
@@ -229,10 +229,9 @@ impl TrackedHand {
         if frames < AVERAGED {
             return Vector3::zeros();
         }
-        let middle = |frame: &ViewFrame| (Vector3::from(frame.thumb) + Vector3::from(frame.index)) * 0.5;
         let (first, last) = (&self.recent[frames - AVERAGED], &self.recent[frames - 1]);
         let time = seconds(last.cycle.saturating_sub(first.cycle));
-        (middle(last) - middle(first)) / time.max(SHORTEST_SPAN)
+        (last.centre() - first.centre()) / time.max(SHORTEST_SPAN)
     }
 
     /// Middle between thumb and index tip, m: what the hand grasps lies there.

@@ -1,5 +1,6 @@
 use bytemuck::{Pod, Zeroable};
 use coact_stage_state::{Implausible, finite};
+use nalgebra::Vector3;
 
 /// What is kept of one frame of the tracker.
 #[repr(C)]
@@ -18,6 +19,11 @@ pub(crate) struct ViewFrame {
 }
 
 impl ViewFrame {
+    /// Middle between thumb and index tip, m.
+    pub fn centre(&self) -> Vector3<f64> {
+        (Vector3::from(self.thumb) + Vector3::from(self.index)) * 0.5
+    }
+
     /// Refuses what is no frame.
     pub fn check(&self) -> Result<(), Implausible> {
         [self.wrist, self.thumb, self.index, self.middle]

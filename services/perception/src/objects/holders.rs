@@ -39,6 +39,11 @@ pub(crate) struct PartSize {
 }
 
 impl PartTrack {
+    /// Its middle, m.
+    pub fn centre(&self, size: PartSize) -> Vector3<f64> {
+        self.above_underside(0.5 * size.height)
+    }
+
     /// Finds out whether a hand still has the part that it had.
     pub(super) fn let_go(&mut self, size: PartSize, around: &Hands) {
         if let Some(hand) = around.person
@@ -87,7 +92,7 @@ impl PartTrack {
     }
 
     fn away_from(&self, size: PartSize, hand: &PersonHand) -> f64 {
-        (self.above_underside(0.5 * size.height) - hand.centre).norm()
+        (self.centre(size) - hand.centre).norm()
     }
 
     /// Distance of the part's axis from that of the robot's hand, m.

@@ -1,4 +1,5 @@
 use super::{FEATURES, Features, Progress, SNAPSHOTS};
+use crate::hand::HandMovement;
 use crate::plausible_cycle::cycle;
 use bytemuck::{Pod, Zeroable};
 use coact_stage_state::{Implausible, ensure, finite};
@@ -26,6 +27,11 @@ pub struct ReachRecord {
 }
 
 impl ReachRecord {
+    /// Whether it is this movement that is, or was, recorded.
+    pub(crate) fn is_of(&self, movement: &HandMovement) -> bool {
+        self.onset > 0 && movement.onset == self.onset
+    }
+
     /// Whether all phases have passed.
     pub fn is_complete(&self) -> bool {
         self.passed as usize == SNAPSHOTS.len()

@@ -3,7 +3,7 @@ use bytemuck::{Pod, Zeroable};
 use coact_messages::KeypointName;
 use coact_period::seconds;
 use coact_stage_state::{Implausible, ensure};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 
 /// Frames that are kept: a second at 60 Hz, longer than a reach.
 const FRAMES: usize = 64;
@@ -70,9 +70,9 @@ impl HandPath {
 
     fn settle(&mut self, hand: &TrackedHand) {
         let now = hand.centre().xy();
-        let settled = self.frames == 0 && self.begins == 0 && self.thumb_side != 0.0;
+        let settled = self.frames == 0 && self.thumb_side != 0.0;
         let before = if settled { self.start() } else { now };
-        (self.frames, self.begins) = (0, 0);
+        self.frames = 0;
         self.start = (before + (now - before) * SETTLING).into();
         self.thumb_side = thumb_side(hand);
     }
@@ -84,8 +84,7 @@ impl HandPath {
         if self.frames == 0 {
             self.begins = frame.cycle.max(1);
         }
-        let centre = 0.5 * (Vector3::from(frame.thumb) + Vector3::from(frame.index)).xy();
-        let moved = centre - self.start();
+        let moved = frame.centre().xy() - self.start();
         let time = seconds(frame.cycle.saturating_sub(self.begins)) as f32;
         self.frame[self.frames as usize] = PathFrame { time, moved: [moved.x as f32, moved.y as f32] };
         self.frames += 1;

@@ -24,7 +24,7 @@ pub(crate) struct Likelihoods {
     next: u64,
     /// Frames of the path that are reckoned with.
     frames: u64,
-    /// As far as they were reckoned with before, whole.
+    /// How likely each place is against the likeliest one, as far as frames were reckoned with when all had been looked at last.
     whole: [f32; PLACES],
     /// As far as the places have been looked at.
     coming: [f32; PLACES],
@@ -59,16 +59,14 @@ impl Likelihoods {
         }
         self.next = found.map_or(PLACES, |(index, _)| index + 1) as u64;
         if !rest.is_empty() && self.next as usize == PLACES {
-            self.whole = self.coming;
+            self.whole = against_the_likeliest(&self.coming);
         }
     }
 
     /// How likely the way so far leads to that place, against the likeliest one: a logarithm, 0 or less. It is bounded, for some reach in a way
     /// that no model knows.
     pub fn of(&self, index: usize) -> f64 {
-        let best = self.whole.iter().copied().fold(LEAST, f32::max);
-        let less = TRUSTED * f64::from(self.whole[index] - best);
-        (UNKNOWN + (1.0 - UNKNOWN) * less.exp()).ln()
+        f64::from(self.whole[index])
     }
 
     /// Refuses what is none.
@@ -81,4 +79,12 @@ impl Likelihoods {
             "finite numbers",
         )
     }
+}
+
+fn against_the_likeliest(likelihoods: &[f32; PLACES]) -> [f32; PLACES] {
+    let best = likelihoods.iter().copied().fold(LEAST, f32::max);
+    likelihoods.map(|own| {
+        let less = TRUSTED * f64::from(own - best);
+        (UNKNOWN + (1.0 - UNKNOWN) * less.exp()).ln() as f32
+    })
 }

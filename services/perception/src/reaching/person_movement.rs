@@ -1,6 +1,6 @@
 use super::movement_model::{CURVE_MODES, MovementModel};
-use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
-use coact_stage_state::{Flag, Implausible, ensure, finite};
+use bytemuck::{Pod, Zeroable};
+use coact_stage_state::{Implausible, ensure, finite};
 
 /// By how much more a person of whom nothing is known may differ than the recorded ones, in the ways and in the pace of the hand: few people
 /// do not show all. Chosen on the recorded people, each left out in turn.
@@ -9,7 +9,7 @@ const OTHERS_PACE: f64 = 1.4;
 
 /// What this person's reaches so far have told of how the hand moves.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, CheckedBitPattern, NoUninit, Zeroable)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(crate) struct PersonMovement {
     /// How many reaches.
     reaches: u64,
@@ -17,8 +17,6 @@ pub(crate) struct PersonMovement {
     sum: [f64; CURVE_MODES],
     /// Sum of the logarithms of their durations, in units of the usual one.
     pace: f64,
-    /// Whether the person holds something.
-    holds: Flag,
 }
 
 /// What is to be expected of a reach before it is seen: independent Gaussians.
@@ -31,12 +29,6 @@ pub(crate) struct Expected {
 }
 
 impl PersonMovement {
-    /// Whether the person has just taken something; `holds`: has it now.
-    pub fn takes(&mut self, holds: bool) -> bool {
-        let held = std::mem::replace(&mut self.holds, holds.into());
-        holds && !held.is_set()
-    }
-
     /// Remembers a reach by the coefficients of its modes, and the logarithm of its duration in units of the usual one.
     pub fn remember(&mut self, coefficients: &[f64; CURVE_MODES], pace: f64) {
         self.reaches += 1;
