@@ -6,6 +6,7 @@
     tools/watch-layer.py                    lists the layers
     tools/watch-layer.py AEL                live bars, until Ctrl-C
     tools/watch-layer.py AEL --png ael.png  a picture of the newest frame
+    tools/watch-layer.py destination        where on the table the person's hand is going (--png as well)
 
 It is also an example of a client in another language. What such a client needs to know:
 
@@ -34,15 +35,17 @@ import tempfile
 import time
 from pathlib import Path
 
-LAYOUT = 10
-MAX_LAYERS, MAX_POPULATIONS, MAX_SITES = 16, 1216, 12160
+LAYOUT = 11
+MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, MAX_PLACES = 16, 1216, 12160, 4096
 NONE = 0xFFFF_FFFF
+DESTINATION = "destination"
 LAYERS = ["AOL", "OML-robot", "OML-person", "CSGL-achieved", "CSGL-available", "ASL", "IL", "EML", "AEL"]
 
 EXAMPLES = """Examples:
   tools/watch-layer.py                    the layers, their sizes and their peaks
   tools/watch-layer.py AEL                live bars, until Ctrl-C
   tools/watch-layer.py AEL --png ael.png  a picture of the newest frame
+  tools/watch-layer.py destination        where on the table the person's hand is going (--png as well)
 
 Needs: pip install iceoryx2==0.10.0 (and matplotlib, for --png)"""
 
@@ -81,6 +84,12 @@ class Decision(ctypes.Structure):
     _fields_ = [("action", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("since", ctypes.c_uint64)]
 
 
+class TableGrid(ctypes.Structure):
+    """Where the sites of the destination field lie: row after row along x, the sites of a row along y."""
+
+    _fields_ = [("first", ctypes.c_double * 2), ("spacing", ctypes.c_double), ("sites", ctypes.c_uint32 * 2)]
+
+
 class FieldFrame(ctypes.Structure):
     """The whole network at one tick."""
 
@@ -89,12 +98,14 @@ class FieldFrame(ctypes.Structure):
         ("task", ctypes.c_uint64),
         ("noise_seed", ctypes.c_uint64),
         ("layers", LayerTable),
+        ("table", TableGrid),
         ("decision", Decision),
         ("activity", ctypes.c_double * MAX_SITES),
         ("input", ctypes.c_double * MAX_SITES),
         ("resting", ctypes.c_double * MAX_POPULATIONS),
         ("signal", ctypes.c_double * MAX_POPULATIONS),
         ("since", ctypes.c_uint64 * MAX_POPULATIONS),
+        ("destination", ctypes.c_double * MAX_PLACES),
         ("checksum", ctypes.c_uint64),
     ]
 
@@ -183,6 +194,38 @@ def bars(frame, name, sites, populations):
     return lines
 
 
+def destination(frame):
+    """Activity of the destination field, row after row along x."""
+    along_x, along_y = frame.table.sites
+    return [list(frame.destination[row * along_y : (row + 1) * along_y]) for row in range(along_x)]
+
+
+def table(frame):
+    """The destination field seen from the person: active sites in four shades."""
+    shades = " ░▒▓█"
+    rows = destination(frame)
+    least = min(min(row) for row in rows)
+    shade = lambda u: shades[0 if u < least / 2 else 1 if u < least / 4 else 2 if u < 0 else 3 if u < -least / 2 else 4]
+    lines = [f"destination field, cycle {frame.header.cycle}; x grows upwards, y to the right"]
+    return lines + ["".join(shade(u) for u in row) for row in reversed(rows)]
+
+
+def table_picture(frame, path):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    (x, y), spacing, (along_x, along_y) = frame.table.first, frame.table.spacing, frame.table.sites
+    extent = (y, y + (along_y - 1) * spacing, x, x + (along_x - 1) * spacing)
+    figure, axes = pyplot.subplots(figsize=(6, 6))
+    image = axes.imshow(destination(frame), origin="lower", extent=extent, cmap="PuOr_r", vmin=-3, vmax=3)
+    axes.set(title=f"destination field, cycle {frame.header.cycle}", xlabel="y [m]", ylabel="x [m]")
+    figure.colorbar(image, label="activity u")
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+
+
 def picture(frame, name, sites, path):
     import matplotlib
 
@@ -206,8 +249,9 @@ def main():
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    names = f"one of {', '.join(LAYERS)}; without it, list them"
-    parser.add_argument("layer", nargs="?", choices=LAYERS, metavar="LAYER", help=names)
+    layers_and_field = [*LAYERS, DESTINATION]
+    names = f"one of {', '.join(layers_and_field)}; without it, list them"
+    parser.add_argument("layer", nargs="?", choices=layers_and_field, metavar="LAYER", help=names)
     parser.add_argument("--run", help="id or directory of the run [default: the newest]")
     parser.add_argument("--png", metavar="FILE", help="write a picture of the newest frame instead")
     arguments = parser.parse_args()
@@ -220,12 +264,18 @@ def main():
         chosen = {layer: (sites, populations) for layer, sites, populations in layers(frame)}
         if not arguments.layer:
             return list_layers(frame)
+        clear = "\x1b[H\x1b[J" if sys.stdout.isatty() else ""
+        if arguments.layer == DESTINATION:
+            if arguments.png:
+                return table_picture(frame, arguments.png)
+            print(clear + "\n".join(table(frame)), flush=True)
+            time.sleep(0.1)
+            continue
         if arguments.layer not in chosen:
             sys.exit(f"the network has no layer {arguments.layer}; it has {', '.join(chosen)}")
         sites, populations = chosen[arguments.layer]
         if arguments.png:
             return picture(frame, arguments.layer, sites, arguments.png)
-        clear = "\x1b[H\x1b[J" if sys.stdout.isatty() else ""
         print(clear + "\n".join(bars(frame, arguments.layer, sites, populations)), flush=True)
         time.sleep(0.1)
     sys.exit(f"run {name} sends no field frames (any more)")

@@ -3,7 +3,7 @@
 const HEAD = 16;
 
 /** Numbers of each section for these sizes, in the order in which they are sent. */
-function sections({ forms, parts, path, populations }) {
+function sections({ forms, parts, path, warmest, populations }) {
   return {
     robot: forms * 7,
     parts: parts * 9,
@@ -13,6 +13,7 @@ function sections({ forms, parts, path, populations }) {
     path: path * 3,
     nearest: 7,
     expected: 4,
+    destinations: warmest * 3,
     state: 12,
     populations: populations * 3,
   };
@@ -20,9 +21,9 @@ function sections({ forms, parts, path, populations }) {
 
 /**
  * @param {ArrayBuffer} bytes
- * @param {{forms: number, parts: number, path: number, populations: number}} sizes
+ * @param {{forms: number, parts: number, path: number, warmest: number, populations: number}} sizes
  * @returns {null | {past: boolean, at: number, robot: Float32Array, parts: Float32Array, keypoints: Float32Array,
- *   arm: Float32Array, truth: Float32Array, path: Float32Array, nearest: Float32Array, expected: Float32Array,
+ *   arm: Float32Array, truth: Float32Array, path: Float32Array, nearest: Float32Array, expected: Float32Array, destinations: Float32Array,
  *   state: object, populations: Float32Array, sites: Float32Array}} null when it is none of this run
  */
 export function readPicture(bytes, sizes) {

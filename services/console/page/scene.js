@@ -75,6 +75,7 @@ export class Scene {
     this.#putParts(picture, words);
     this.#putPerson(picture);
     this.#putPointer();
+    this.#putDestinations(picture);
     this.#putThoughts(picture, words);
     const matrix = camera.matrix;
     this.forms.draw(matrix);
@@ -167,6 +168,17 @@ export class Scene {
     }
     this.forms.rod([x, y, height], [x, y, z], 0.002, rgb(BLUE), 0.7);
     this.forms.ball([x, y, z], closes ? 0.009 : 0.013, rgb(BLUE), 0.8);
+  }
+
+  /** Where the mind holds that the hand may be going: a pale site is only preshaped, at a strong one a peak stands. */
+  #putDestinations({ destinations }) {
+    const { table } = this.hello.task.scene;
+    for (let index = 0; index < destinations.length; index += 3) {
+      const [x, y, activity] = [destinations[index], destinations[index + 1], destinations[index + 2]];
+      if (!Number.isFinite(x)) break;
+      const strength = 0.08 + 0.5 * Math.min(Math.max(activity + 0.5, 0), 1);
+      this.forms.shape({ cylinder: { radius: 0.011, height: 0.001 } }, [x, y, table.height + 0.002], UPRIGHT, rgb(PURPLE), strength);
+    }
   }
 
   /** The way that is planned, where the person is expected, and how near the two are. */

@@ -73,6 +73,7 @@ impl Greeting<'_> {
                 "forms": maker.forms().len(),
                 "parts": task.parts.len(),
                 "path": PictureMaker::WAY,
+                "warmest": PictureMaker::WARMEST,
                 "populations": plan.populations.len(),
             },
             "tasks": names_of_tasks(settings, *recorded),

@@ -21,10 +21,11 @@ use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 /// 6. the hand's planned way from here on: [`PictureMaker::WAY`] places;
 /// 7. where robot and person are nearest to each other: a place on each, and the distance;
 /// 8. where the person's hand is expected, and the signal of the goal that is inferred;
-/// 9. twelve numbers: speed override, declared handover, phase, action (-1: none), stopped by an supervisor, aperture of the hand,
-///    speed of its tip, speed of the robot's hand, cycle of the person's last onset, whether the person is not seen, two reserved;
-/// 10. each population: signal, highest activity of its sites, cycle since which its peak stands (0: none);
-/// 11. the activity of each site.
+/// 9. the [`PictureMaker::WARMEST`] sites of the destination field that are most active: x, y, activity; none below its resting level's half;
+/// 10. twelve numbers: speed override, declared handover, phase, action (-1: none), stopped by an supervisor, aperture of the hand,
+///     speed of its tip, speed of the robot's hand, cycle of the person's last onset, whether the person is not seen, two reserved;
+/// 11. each population: signal, highest activity of its sites, cycle since which its peak stands (0: none);
+/// 12. the activity of each site.
 #[derive(Debug)]
 pub struct PictureMaker {
     task: Task,
@@ -56,6 +57,8 @@ const DEVIATIONS: f64 = 2.0;
 impl PictureMaker {
     /// Places of the planned way.
     pub const WAY: usize = 24;
+    /// Sites of the destination field: some peaks.
+    pub const WARMEST: usize = 64;
 
     /// For runs of this task with this robot, beside a person who is taken to be so large.
     ///
@@ -105,6 +108,7 @@ impl PictureMaker {
         self.draw_way(seen.command, &mut numbers);
         self.draw_nearest(&links, seen.percept, &mut numbers);
         self.draw_expected(seen, &mut numbers);
+        draw_destinations(seen.frame, &mut numbers);
         self.draw_state(cycle, seen, &mut numbers);
         let sites = self.draw_network(seen.frame, &mut numbers);
         let (signals, since) =
@@ -299,6 +303,21 @@ impl PictureMaker {
     }
 }
 
+/// Where the destination field is active.
+fn draw_destinations(frame: Option<&FieldFrame>, numbers: &mut Numbers) {
+    let sites = frame.map_or(&[][..], |frame| &frame.destination[..frame.table.used()]);
+    let resting = sites.iter().copied().fold(f64::INFINITY, f64::min);
+    let active = sites.iter().enumerate().filter(|(_, activity)| **activity > 0.5 * resting);
+    let mut active: Vec<(usize, f64)> = active.map(|(site, activity)| (site, *activity)).collect();
+    active.sort_by(|one, other| other.1.total_cmp(&one.1));
+    active.truncate(PictureMaker::WARMEST);
+    for (site, activity) in &active {
+        let [x, y] = frame.map_or([f64::NAN; 2], |frame| frame.table.place(*site));
+        numbers.extend(&[x, y, *activity]);
+    }
+    numbers.unknown(3 * (PictureMaker::WARMEST - active.len()));
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -330,7 +349,7 @@ mod tests {
         let glimpse = maker.glimpse(&Seen { frame: Some(&frame), ..Seen::default() }).unwrap();
         let sites = populations * maker.plan.sites_per_population;
         let drawn = numbers(&glimpse.picture);
-        let before = links + parts + person + PictureMaker::WAY * 3 + 7 + 4 + 12;
+        let before = links + parts + person + PictureMaker::WAY * 3 + 7 + 4 + 3 * PictureMaker::WARMEST + 12;
         assert_eq!(drawn.len(), before + 3 * populations + sites);
         assert_eq!(glimpse.picture.cycle, 70);
         assert_eq!(drawn[before + 3 * 2], 1.0);

@@ -48,7 +48,8 @@ impl Explanation {
 /// What all synapses start from: the signals of all populations of the newest frame, then the values of the percept's channels.
 pub fn signals(plan: &NetworkPlan, frame: &FieldFrame, percept: Option<&Percept>) -> Vec<f64> {
     let mut signals = vec![0.0; plan.populations.len() + plan.channels.len()];
-    sources::collect(plan, frame.header.cycle + 1, percept, &frame.signal, &mut signals);
+    let percept = percept.filter(|percept| sources::is_fresh(frame.header.cycle + 1, percept));
+    sources::collect(plan, percept, frame, &mut signals);
     signals
 }
 
@@ -72,6 +73,7 @@ fn shares(group: &[Synapse], pool: Pool, signals: &[f64]) -> Vec<Share> {
 mod tests {
     use super::*;
     use crate::Projections;
+    use coact_messages::MAX_PLACES;
     use rand::{RngExt, SeedableRng};
     use std::path::Path;
 
@@ -89,9 +91,12 @@ mod tests {
             let mut percept: Box<Percept> = bytemuck::zeroed_box();
             percept.act.fill_with(|| random.random_range(0.0..1.0));
             percept.achieved.fill_with(|| random.random_range(0.0..1.0));
+            percept.destinations.grip.fill(1.0);
+            percept.destinations.push(Some(1), [-1.0, 0.3], 1.0);
+            (frame.table, frame.destination) = (plan.destinations.table, [0.4; MAX_PLACES]);
             let mut signals = vec![0.0; plan.populations.len() + plan.channels.len()];
             let mut strength = vec![0.0; plan.populations.len()];
-            sources::collect(&plan, 1, Some(&percept), &frame.signal, &mut signals);
+            sources::collect(&plan, Some(&percept), &frame, &mut signals);
             Projections::of(&plan).gather(&signals, &mut strength);
             for (population, strength) in strength.iter().enumerate() {
                 let explained = Explanation::of(&plan, population, &frame, Some(&percept));

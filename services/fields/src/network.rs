@@ -1,3 +1,4 @@
+use crate::destination_field::DestinationField;
 use crate::{Projections, sources};
 use coact_joint_task::{LayerPlan, NetworkPlan, Synapse};
 use coact_messages::{Decision, FieldFrame, LayerKind, NONE, Percept};
@@ -22,6 +23,7 @@ pub struct Network {
     projections: Projections,
     task: u64,
     seed: u64,
+    destinations: DestinationField,
     fields: Vec<Field>,
     /// Signals of all populations, then the values of the percept's channels.
     sources: Vec<f64>,
@@ -42,6 +44,7 @@ impl Network {
         };
         let populations = plan.populations.len();
         Ok(Self {
+            destinations: DestinationField::new(&plan.destinations)?,
             fields: plan.layers.iter().map(field).collect::<Result<_, _>>()?,
             sources: vec![0.0; populations + plan.channels.len()],
             strength: vec![0.0; populations],
@@ -66,6 +69,7 @@ impl Network {
         out.signal.fill(0.0);
         out.since.fill(0);
         out.decision = Decision { action: NONE, reserved: 0, since: 0 };
+        out.destination.fill(self.plan.destinations.resting);
         for layer in &self.plan.layers {
             let SiteRange { first, last } = sites(layer, width);
             out.activity[first..last].fill(layer.resting);
@@ -85,13 +89,15 @@ impl Network {
             found == (expected, layer.populations.start as u32, layer.populations.len() as u32)
         };
         frame.task == self.task
+            && frame.table == self.plan.destinations.table
             && table.count as usize == self.plan.layers.len()
             && self.plan.layers.iter().enumerate().all(stands_there)
     }
 
     /// Integrates one period from `previous` into `out`.
     ///
-    /// Costs about 14 multiplications per site, one exponential per site and one multiplication per synapse.
+    /// Costs about 14 multiplications per site of a layer, 20 per site of the destination field, one exponential per site and one
+    /// multiplication per synapse.
     pub fn step(
         &mut self,
         tick: u64,
@@ -100,7 +106,10 @@ impl Network {
         out: &mut FieldFrame,
     ) {
         self.describe(out);
-        sources::collect(&self.plan, tick, percept, &previous.signal, &mut self.sources);
+        let percept = percept.filter(|percept| sources::is_fresh(tick, percept));
+        sources::collect(&self.plan, percept, previous, &mut self.sources);
+        let told = percept.map(|percept| &percept.destinations);
+        self.destinations.step(STEP_MS, told, &previous.destination, &mut out.destination);
         self.transmit(tick);
         for index in 0..self.plan.layers.len() {
             self.integrate(index, previous, out);
@@ -122,6 +131,7 @@ impl Network {
         let width = self.plan.sites_per_population;
         out.task = self.task;
         out.noise_seed = self.seed;
+        out.table = self.plan.destinations.table;
         out.layers.count = self.plan.layers.len() as u32;
         out.layers.reserved = 0;
         for (index, layer) in self.plan.layers.iter().enumerate() {

@@ -1,5 +1,6 @@
+use crate::destination_field;
 use coact_joint_task::{Channel, NetworkPlan};
-use coact_messages::Percept;
+use coact_messages::{FieldFrame, MAX_KINDS, Percept};
 use coact_period::cycles;
 use std::time::Duration;
 
@@ -7,29 +8,39 @@ use std::time::Duration;
 /// hand: it bridges gaps of some frames, and is short beside a reach of 350 to 900 ms.
 const PERCEPT_LIFETIME: u64 = cycles(Duration::from_millis(200));
 
-/// Writes what all synapses start from: the signals of all populations, then the values of the percept's channels.
+/// Whether a percept still tells what is now.
+pub(crate) fn is_fresh(tick: u64, percept: &Percept) -> bool {
+    tick.saturating_sub(percept.header.cycle) <= PERCEPT_LIFETIME
+}
+
+/// Writes what all synapses start from: the signals of all populations, then the values of the channels, by what is perceived now and by
+/// where the peaks of the destination field stand.
 pub(crate) fn collect(
     plan: &NetworkPlan,
-    tick: u64,
     percept: Option<&Percept>,
-    signal: &[f64],
+    previous: &FieldFrame,
     sources: &mut [f64],
 ) {
     let populations = plan.populations.len();
-    sources[..populations].copy_from_slice(&signal[..populations]);
-    let fresh = percept.filter(|percept| tick.saturating_sub(percept.header.cycle) <= PERCEPT_LIFETIME);
+    sources[..populations].copy_from_slice(&previous.signal[..populations]);
+    let taken = percept.map(|percept| {
+        destination_field::signals(&plan.destinations, &previous.destination, &percept.destinations)
+    });
     for (source, plan) in sources[populations..].iter_mut().zip(&plan.channels) {
-        let value =
-            fresh.map_or(f64::from(plan.channel == Channel::Always), |percept| read(percept, plan.channel));
+        let value = match (percept, taken) {
+            (Some(percept), Some(taken)) => read(percept, &taken, plan.channel),
+            _ => f64::from(plan.channel == Channel::Always),
+        };
         // A broken sensor may deliver anything; evidence is a number between 0 and 1.
         *source = if value.is_finite() { value.clamp(0.0, 1.0) } else { 0.0 };
     }
 }
 
-fn read(percept: &Percept, channel: Channel) -> f64 {
+fn read(percept: &Percept, taken: &[f64; MAX_KINDS], channel: Channel) -> f64 {
     match channel {
         Channel::Always => 1.0,
         Channel::Act(act) => percept.act[act],
+        Channel::Destination { grip, kind } => taken[kind] * percept.destinations.grip[grip],
         Channel::Seen { workspace, kind } => percept.workspace[workspace].seen[kind],
         Channel::Gone { workspace, kind } => percept.workspace[workspace].gone[kind],
         Channel::Achieved(subgoal) => percept.achieved[subgoal],

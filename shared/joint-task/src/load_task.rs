@@ -11,7 +11,7 @@ use crate::source_file::SourceFile;
 use crate::task_file::{KindEntry, Name, TaskFile};
 use crate::{Gesture, Kind, Part, PersonGrip, Task, TaskError};
 use chains::acts;
-use coact_messages::{MAX_ACTS, MAX_KINDS, MAX_PARTS};
+use coact_messages::{MAX_ACTS, MAX_GRIPS, MAX_KINDS, MAX_PARTS};
 use scene::{corners, scene};
 use std::hash::{DefaultHasher, Hasher};
 use std::path::{Path, PathBuf};
@@ -100,6 +100,7 @@ impl TaskReader<'_> {
     }
 
     fn grips(&self) -> Result<Vec<PersonGrip>, TaskError> {
+        self.within("grip", self.file.grip.len(), MAX_GRIPS, "grips")?;
         self.distinct("grip", self.file.grip.iter().map(|grip| &grip.name))?;
         Ok(self
             .file

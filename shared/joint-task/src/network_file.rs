@@ -8,6 +8,7 @@ use toml::Spanned;
 #[serde(deny_unknown_fields)]
 pub(crate) struct NetworkFile {
     pub sites: SitesEntry,
+    pub destinations: Spanned<DestinationsEntry>,
     pub layer: Vec<LayerEntry>,
     pub synapse: Vec<RuleEntry>,
     #[serde(default)]
@@ -20,6 +21,26 @@ pub(crate) struct SitesEntry {
     pub per_population: Spanned<usize>,
     pub spacing: f64,
     pub input_sigma: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DestinationsEntry {
+    pub tau: f64,
+    pub h: f64,
+    pub slope: f64,
+    pub gain: f64,
+    pub spacing: f64,
+    pub input_sigma: f64,
+    pub excitation: ExcitationEntry,
+    pub inhibition: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ExcitationEntry {
+    pub strength: f64,
+    pub sigma: f64,
 }
 
 #[derive(Deserialize)]

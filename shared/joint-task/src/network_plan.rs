@@ -1,4 +1,4 @@
-use crate::Population;
+use crate::{DestinationPlan, Population};
 use coact_messages::LayerKind;
 use coact_neural_field::{Forgetting, Parameters};
 use std::ops::Range;
@@ -9,6 +9,8 @@ use std::ops::Range;
 /// the channels of the percept. A [`Synapse`] names its ends by their place in that row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NetworkPlan {
+    /// The field over the table that stands before the layers.
+    pub destinations: DestinationPlan,
     /// All layers, in the order of [`LayerKind`].
     pub layers: Vec<LayerPlan>,
     /// All populations, layer after layer.
@@ -55,12 +57,14 @@ pub struct ChannelPlan {
     pub meaning: Population,
 }
 
-/// Where a channel's value stands in the percept; the number is the act's, kind's or subgoal's index.
+/// Where a channel's value stands in the percept, or, of a destination, in the destination field; the number is the act's, kind's, grip's or
+/// subgoal's index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs, reason = "the names are those of the percept's fields")]
 pub enum Channel {
     Always,
     Act(usize),
+    Destination { grip: usize, kind: usize },
     Seen { workspace: usize, kind: usize },
     Gone { workspace: usize, kind: usize },
     Achieved(usize),

@@ -1,5 +1,5 @@
 use crate::population::{Population, acts, objects, subgoals};
-use crate::{Agent, Channel, ChannelPlan, Role, Task};
+use crate::{Act, Agent, Channel, ChannelPlan, Role, Task};
 use std::ops::Range;
 
 /// All channels of the percept, and their names in the network file with their places behind `first`.
@@ -17,6 +17,8 @@ pub(crate) fn channels(task: &Task, first: usize) -> (Vec<ChannelPlan>, Vec<(Str
     };
     add("always", vec![Population::new(Role::Always, "")], &|_| Channel::Always);
     add("acts", acts(task), &Channel::Act);
+    let (meanings, channel): (Vec<_>, Vec<_>) = destinations(task).into_iter().unzip();
+    add("destinations", meanings, &|index| channel[index]);
     for (agent, name) in [(Agent::Robot, "robot"), (Agent::Person, "person")] {
         let workspace = agent.index();
         add(&format!("seen {name}"), objects(task, agent), &|kind| Channel::Seen { workspace, kind });
@@ -28,4 +30,13 @@ pub(crate) fn channels(task: &Task, first: usize) -> (Vec<ChannelPlan>, Vec<(Str
     add("person holds", objects(task, Agent::Person), &Channel::PersonHolds);
     add("lost", objects(task, Agent::Robot), &Channel::Lost);
     (channels, names)
+}
+
+/// Of each grasp, the destination field's peaks at parts of its kind, as far as the hand looks like its grip.
+fn destinations(task: &Task) -> Vec<(Population, Channel)> {
+    let of_grasp = |(meaning, act): (Population, &Act)| match *act {
+        Act::Grasp { grip, kind } => Some((meaning, Channel::Destination { grip, kind })),
+        _ => None,
+    };
+    acts(task).into_iter().zip(&task.acts).filter_map(of_grasp).collect()
 }

@@ -120,8 +120,34 @@ fn unknown_layer_of_a_rule_is_named_with_the_known_ones() {
 
 #[test]
 fn time_scale_too_short_for_the_step_is_refused() {
-    let error = error_after(NETWORK, "tau = 20", "tau = 5");
+    let error = error_after(NETWORK, "name = \"AOL\"\ntau = 20", "name = \"AOL\"\ntau = 5");
     assert!(error.contains("layer[0].tau (AOL): tau is 5; expected at least 20 ms"), "{error}");
+}
+
+#[test]
+fn destination_field_that_cannot_be_is_refused() {
+    for (key, wrong, expected) in [
+        ("tau = 20", "tau = 5", "destinations.tau: 5 is too little; expected at least 20"),
+        (
+            "spacing = 0.025",
+            "spacing = 0.001",
+            "destinations.spacing: 0.001 is too little; expected at least 0.01",
+        ),
+        ("spacing = 0.025", "spacing = nan", "destinations.spacing: NaN is too little"),
+        (
+            "spacing = 0.025",
+            "spacing = 0.01",
+            "destinations.spacing: 0.01 m is too fine for the task's workspaces",
+        ),
+        ("input_sigma = 0.025", "input_sigma = 0.001", "destinations.input_sigma: 0.001 is too little"),
+        ("h = -2.0", "h = 1.0", "destinations.h: expected a resting level below 0"),
+        ("inhibition = 1.0", "inhibition = -1", "destinations.inhibition: -1 is out of range"),
+        ("sigma = 0.025 }", "sigma = 0 }", "destinations.excitation.sigma: 0 is too little"),
+        ("sigma = 0.025 }", "sigma = 1e9 }", "destinations.excitation.sigma: sigma is 1000000000"),
+    ] {
+        let error = error_after(NETWORK, key, wrong);
+        assert!(error.contains(expected), "{wrong}: {error}");
+    }
 }
 
 #[test]

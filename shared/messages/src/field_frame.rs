@@ -1,5 +1,5 @@
 use crate::plausible::{bounded, ensure, index, not_after, optional};
-use crate::{Flaw, Header, MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, Plausible};
+use crate::{Flaw, Header, MAX_LAYERS, MAX_PLACES, MAX_POPULATIONS, MAX_SITES, Plausible, TableGrid};
 use bytemuck::{Pod, Zeroable};
 use coact_stage_state::checksum;
 use iceoryx2::prelude::ZeroCopySend;
@@ -21,6 +21,8 @@ pub struct FieldFrame {
     pub noise_seed: u64,
     /// Where each layer's sites and populations stand.
     pub layers: LayerTable,
+    /// Where the sites of the destination field lie.
+    pub table: TableGrid,
     /// The chosen action of the action execution layer.
     pub decision: Decision,
     /// Activity u(x, t) of each site (chapter, eq. 1).
@@ -33,6 +35,8 @@ pub struct FieldFrame {
     pub signal: [f64; MAX_POPULATIONS],
     /// Cycle at which the population's present peak crossed threshold; 0 when it holds no peak.
     pub since: [u64; MAX_POPULATIONS],
+    /// Activity u(x, y, t) of the destination field, site by site of [`table`](Self::table): a peak is where the person's hand is going.
+    pub destination: [f64; MAX_PLACES],
     /// Of what the next frame is computed from: see [`FieldFrame::is_whole`].
     pub checksum: u64,
 }
@@ -43,21 +47,23 @@ impl FieldFrame {
         self.checksum = self.state_checksum();
     }
 
-    /// Whether activity, resting levels, signals and peaks are as they were when the frame was sealed.
+    /// Whether activities, resting levels, signals and peaks are as they were when the frame was sealed.
     pub fn is_whole(&self) -> bool {
         self.checksum == self.state_checksum()
     }
 
     fn state_checksum(&self) -> u64 {
         let (sites, populations) = (self.layers.used_sites(), self.layers.used_populations());
-        let rows: [&[u64]; 4] = [
+        let rows: [&[u64]; 5] = [
+            bytemuck::cast_slice(&self.destination[..self.table.used()]),
             bytemuck::cast_slice(&self.activity[..sites]),
             bytemuck::cast_slice(&self.resting[..populations]),
             bytemuck::cast_slice(&self.signal[..populations]),
             &self.since[..populations],
         ];
-        let [activity, resting, signal, since] = rows.map(checksum);
-        checksum(&[self.task, sites as u64, populations as u64, activity, resting, signal, since])
+        let [destination, activity, resting, signal, since] = rows.map(checksum);
+        let [sites, populations] = [sites, populations].map(|count| count as u64);
+        checksum(&[self.task, sites, populations, destination, activity, resting, signal, since])
     }
 
     /// Populations of the first layer of this kind, as indices into [`signal`](Self::signal) and
@@ -165,6 +171,8 @@ const MOST: f64 = 1e6;
 impl Plausible for FieldFrame {
     fn check(&self) -> Result<(), Flaw> {
         self.layers.check()?;
+        self.table.check()?;
+        bounded("destination", &self.destination[..self.table.used()], MOST)?;
         let (sites, populations) = (self.layers.used_sites(), self.layers.used_populations());
         bounded("activity", &self.activity[..sites], MOST)?;
         bounded("input", &self.input[..sites], MOST)?;

@@ -45,6 +45,7 @@
 mod arm_path;
 mod command;
 mod description;
+mod destinations;
 mod drive_report;
 mod field_frame;
 mod hand_points;
@@ -60,6 +61,7 @@ mod refusal;
 mod sensor_sample;
 mod speech;
 mod stop_state;
+mod table_grid;
 pub mod topic;
 mod topic_entry;
 mod truth;
@@ -68,6 +70,7 @@ mod world_state;
 pub use arm_path::{ArmPath, PathKnot};
 pub use command::{Command, MotionPhase};
 pub use description::{Described, Description};
+pub use destinations::Destinations;
 pub use drive_report::{CommandRefusal, DriveMode, DriveReport, HoldReason};
 pub use field_frame::{Decision, FieldFrame, LayerKind, LayerTable};
 pub use hand_points::HandPoints;
@@ -82,6 +85,7 @@ pub use refusal::Refusal;
 pub use sensor_sample::{HandView, JointReading, Keypoint, KeypointName, SceneView, SensorSample, Sighting};
 pub use speech::Speech;
 pub use stop_state::StopState;
+pub use table_grid::TableGrid;
 pub use topic_entry::TopicEntry;
 pub use truth::{PartnerError, PartnerPhase, Truth};
 pub use world_state::{PartState, WorldState};
@@ -100,10 +104,14 @@ pub const ARM_JOINTS: usize = 7;
 
 /// Observable acts that a task may name (populations of the action observation layer).
 pub const MAX_ACTS: usize = 192;
+/// Grips that a task may name.
+pub const MAX_GRIPS: usize = 16;
 /// Kinds of part that a task may name.
 pub const MAX_KINDS: usize = 64;
 /// Single parts that a scene may hold.
 pub const MAX_PARTS: usize = 64;
+/// Places that the person's hand may go to: all parts, where it is shown empty, and where it rests.
+pub const MAX_DESTINATIONS: usize = MAX_PARTS + 2;
 /// Subgoals that a plan may name.
 pub const MAX_SUBGOALS: usize = 64;
 /// Layers of the field network.
@@ -112,6 +120,8 @@ pub const MAX_LAYERS: usize = 16;
 pub const MAX_POPULATIONS: usize = 1216;
 /// Samples (field sites) of the whole field network.
 pub const MAX_SITES: usize = 12_160;
+/// Sites of the field over the table.
+pub const MAX_PLACES: usize = 4096;
 /// Workspaces: index 0 is the robot's, index 1 is the person's.
 pub const WORKSPACES: usize = 2;
 /// The robot's workspace or side.

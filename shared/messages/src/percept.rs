@@ -1,5 +1,7 @@
 use crate::plausible::{ensure, fractions, index, orientations, places};
-use crate::{Flaw, Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, PersonArm, Plausible, WORKSPACES};
+use crate::{
+    Destinations, Flaw, Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, PersonArm, Plausible, WORKSPACES,
+};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -16,6 +18,8 @@ pub struct Percept {
     pub hand: HandPercept,
     /// Evidence for each observable act, in the order of `Task::acts`: what drives the action observation layer.
     pub act: [f64; MAX_ACTS],
+    /// Where the hand's movement may lead: what drives the destination field.
+    pub destinations: Destinations,
     /// What lies in each workspace: [`ROBOT`](crate::ROBOT), [`PERSON`](crate::PERSON).
     pub workspace: [WorkspacePercept; WORKSPACES],
     /// Evidence that a subgoal's part is in its place, by subgoal index.
@@ -66,6 +70,7 @@ impl Plausible for Percept {
         self.arm.check()?;
         self.hand.check()?;
         fractions("act", &self.act)?;
+        self.destinations.check()?;
         self.workspace.iter().try_for_each(WorkspacePercept::check)?;
         fractions("achieved", &self.achieved)?;
         fractions("open", &self.open)?;

@@ -75,7 +75,10 @@ fn remove_anticipation(plan: &mut NetworkPlan) {
     let predicted = |synapse: &Synapse| {
         goals.contains(&synapse.from) && subgoals.iter().any(|row| row.contains(&synapse.to))
     };
-    let others = plan.synapses.iter().filter(|synapse| !hidden(synapse) && !predicted(synapse));
+    let foreseen =
+        |synapse: &Synapse| matches!(channel_of(plan, synapse.from), Some(Channel::Destination { .. }));
+    let anticipates = |synapse: &Synapse| hidden(synapse) || predicted(synapse) || foreseen(synapse);
+    let others = plan.synapses.iter().filter(|synapse| !anticipates(synapse));
     let mut synapses: Vec<Synapse> = others.copied().collect();
     let rule = plan.reasons.len();
     let mut gate = |from: Option<usize>, to: usize, weight: f64| {
@@ -84,16 +87,9 @@ fn remove_anticipation(plan: &mut NetworkPlan) {
     for act in acts {
         let strength = evidence(plan, act);
         let meaning = &plan.populations[act];
-        match (meaning.role, meaning.kind) {
-            (Role::Grasp, Some(kind)) => {
-                gate(channel(plan, |own, _| own == Channel::Always), act, -strength);
-                gate(channel(plan, |own, _| own == Channel::PersonHolds(kind)), act, strength);
-            }
-            (Role::Gesture, _) => {
-                let reach = channel(plan, |own, role| matches!(own, Channel::Act(_)) && role == Role::Reach);
-                gate(reach, act, -strength);
-            }
-            _ => {}
+        if meaning.role == Role::Gesture {
+            let reach = channel(plan, |own, role| matches!(own, Channel::Act(_)) && role == Role::Reach);
+            gate(reach, act, -strength);
         }
     }
     plan.synapses = synapses;
@@ -104,11 +100,14 @@ fn remove_anticipation(plan: &mut NetworkPlan) {
 /// Weight with which perception's evidence drives an act.
 fn evidence(plan: &NetworkPlan, act: usize) -> f64 {
     let from_acts = |synapse: &&Synapse| {
-        let channel =
-            synapse.from.checked_sub(plan.populations.len()).map(|index| plan.channels[index].channel);
-        synapse.to == act && matches!(channel, Some(Channel::Act(_)))
+        synapse.to == act && matches!(channel_of(plan, synapse.from), Some(Channel::Act(_)))
     };
     plan.synapses.iter().filter(from_acts).map(|synapse| synapse.weight).sum()
+}
+
+/// The channel that a synapse comes from, if it is one.
+fn channel_of(plan: &NetworkPlan, from: usize) -> Option<Channel> {
+    Some(plan.channels[from.checked_sub(plan.populations.len())?].channel)
 }
 
 /// Index of a channel, which follow the populations.

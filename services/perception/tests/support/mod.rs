@@ -151,16 +151,34 @@ impl Stage {
         }
     }
 
-    /// Evidence for one act.
+    /// Evidence for one act; of a grasp also that the hand is on its way to one.
     pub fn act(&self, act: Act) -> f64 {
-        self.percept.act[self.task.acts.iter().position(|own| *own == act).unwrap()]
+        let shown = self.percept.act[self.task.acts.iter().position(|own| *own == act).unwrap()];
+        match act {
+            Act::Grasp { grip, kind } => shown + self.on_the_way(kind) * self.percept.destinations.grip[grip],
+            _ => shown,
+        }
+    }
+
+    /// By how much more than mere chance the hand's movement leads to parts of a kind, as far as it tells anything.
+    fn on_the_way(&self, kind: usize) -> f64 {
+        let destinations = &self.percept.destinations;
+        let best = |kind: Option<usize>| {
+            let of_kind = destinations.iter().filter(|(own, _, _)| *own == kind);
+            of_kind.map(|(_, _, fit)| fit).fold(0.0, f64::max)
+        };
+        let kinds = || (0..self.task.kinds.len()).map(|kind| best(Some(kind)));
+        let all = best(None) + kinds().sum::<f64>();
+        let lie_there = kinds().filter(|best| *best > 0.0).count();
+        let chance = if lie_there > 1 { 1.0 / lie_there as f64 } else { 0.0 };
+        let share = best(Some(kind)) / all.max(f64::MIN_POSITIVE);
+        destinations.told * ((share - chance) / (1.0 - chance)).max(0.0)
     }
 
     /// The strongest grasp that is not `act`.
     pub fn rival(&self, act: Act) -> f64 {
-        let others = self.task.acts.iter().enumerate().filter(|(_, own)| **own != act);
-        let grasps = others.filter(|(_, own)| matches!(own, Act::Grasp { .. }));
-        grasps.map(|(index, _)| self.percept.act[index]).fold(0.0, f64::max)
+        let grasps = self.task.acts.iter().filter(|own| matches!(own, Act::Grasp { .. }));
+        grasps.filter(|own| **own != act).map(|own| self.act(*own)).fold(0.0, f64::max)
     }
 
     pub fn kind(&self, name: &str) -> usize {

@@ -91,9 +91,15 @@ fn percept(examined: &ExaminedTask, state: &PlanState, person: PersonActivity, c
             (Act::Rest, PersonActivity::Rests | PersonActivity::Idles)
             | (Act::Idle, PersonActivity::Idles) => true,
             (Act::Reach, PersonActivity::Shows(chain)) => matches!(task.chains[chain].act, Act::Grasp { .. }),
+            // Where the hand goes for a part, the destination field tells.
+            (Act::Grasp { .. }, PersonActivity::Shows(_)) => false,
             (act, PersonActivity::Shows(chain) | PersonActivity::Carries(chain)) => {
                 act == task.chains[chain].act
             }
+            _ => false,
+        },
+        Channel::Destination { grip, kind } => match person {
+            PersonActivity::Shows(chain) => task.chains[chain].act == Act::Grasp { grip, kind },
             _ => false,
         },
         Channel::Seen { workspace, kind } => lies(workspace, kind),

@@ -1,0 +1,224 @@
+use coact_joint_task::DestinationPlan;
+use coact_messages::{Destinations, MAX_KINDS, TableGrid};
+use coact_neural_field::{MetricField, ParameterError, sigmoid};
+
+/// Standard deviations beyond which a place's input is cut off: there it is a hundredth.
+const CUT_OFF: f64 = 3.0;
+
+/// The field over the table in which the places that the person's hand may go to compete (chapter, eq. 1, in two dimensions): a peak is
+/// where it is going.
+#[derive(Debug, Clone)]
+pub(crate) struct DestinationField {
+    plan: DestinationPlan,
+    field: MetricField<2>,
+    input: Vec<f64>,
+}
+
+impl DestinationField {
+    /// # Errors
+    /// A constant that is out of its range.
+    pub fn new(plan: &DestinationPlan) -> Result<Self, ParameterError> {
+        let field = MetricField::new(plan.constants, plan.interaction()?)?;
+        Ok(Self { plan: *plan, input: vec![0.0; field.lattice().sites()], field })
+    }
+
+    /// One step of `dt` ms from the activity `now` to `next`, driven by what is told of the hand's movement, if anything is.
+    pub fn step(&mut self, dt: f64, told: Option<&Destinations>, now: &[f64], next: &mut [f64]) {
+        self.input.fill(0.0);
+        if let Some(destinations) = told.filter(|destinations| destinations.told > 0.0) {
+            self.drive(destinations);
+        }
+        let sites = self.input.len();
+        self.field.step(dt, &now[..sites], &self.input, self.plan.resting, &mut next[..sites]);
+    }
+
+    /// A Gaussian of input at each place. Places hold each other back before the field does: each by its share of all that the
+    /// movement may lead to (divisive normalisation, Carandini and Heeger 2012).
+    fn drive(&mut self, destinations: &Destinations) {
+        let all = alternatives(destinations);
+        if all <= 0.0 {
+            return;
+        }
+        let gain = self.plan.gain * destinations.told / all;
+        let (table, sigma) = (self.plan.table, self.plan.input_sigma);
+        for (_, place, fit) in destinations.iter().filter(|(_, _, fit)| *fit > 0.0) {
+            add_gaussian(&table, place, sigma, gain * fit, &mut self.input);
+        }
+    }
+}
+
+/// How well all that the movement may lead to fits: each kind counts once, however many of its parts lie there, and so does that nothing is
+/// taken.
+fn alternatives(destinations: &Destinations) -> f64 {
+    let mut of_kind = [0.0_f64; MAX_KINDS];
+    let mut nothing = 0.0_f64;
+    for (kind, _, fit) in destinations.iter() {
+        let best = kind.map_or(&mut nothing, |kind| &mut of_kind[kind]);
+        *best = best.max(fit);
+    }
+    nothing + of_kind.iter().sum::<f64>()
+}
+
+/// Adds a Gaussian of this strength around `place`.
+fn add_gaussian(table: &TableGrid, place: [f64; 2], sigma: f64, strength: f64, input: &mut [f64]) {
+    let range = |axis: usize| {
+        let end = f64::from(table.sites[axis]);
+        let number = |at: f64| ((at - table.first[axis]) / table.spacing).clamp(0.0, end).ceil() as usize;
+        number(place[axis] - CUT_OFF * sigma)..number(place[axis] + CUT_OFF * sigma)
+    };
+    let share = |axis: usize, site: usize| {
+        let deviation = (table.first[axis] + site as f64 * table.spacing - place[axis]) / sigma;
+        (-0.5 * deviation * deviation).exp()
+    };
+    let width = table.sites[1] as usize;
+    for along_x in range(0) {
+        let strength = strength * share(0, along_x);
+        for along_y in range(1) {
+            input[along_x * width + along_y] += strength * share(1, along_y);
+        }
+    }
+}
+
+/// Of each kind of part, the signal of the highest peak at one of its parts: 0 below threshold, 1 with a full peak (eq. 4). Where other kinds lie at
+/// the same place, the place tells nothing of them apart, and each has its share by how well it fits.
+pub(crate) fn signals(
+    plan: &DestinationPlan,
+    activity: &[f64],
+    destinations: &Destinations,
+) -> [f64; MAX_KINDS] {
+    let mut signals = [0.0_f64; MAX_KINDS];
+    let slope = plan.constants.slope;
+    for (kind, place, fit) in destinations.iter() {
+        let Some((kind, site)) = kind.zip(plan.table.site(place)) else { continue };
+        let u = activity[site] - plan.constants.threshold;
+        if u > 0.0 && fit > 0.0 {
+            let beside = beside(destinations, kind, place, plan.input_sigma);
+            let signal = (2.0 * sigmoid(u, slope, 0.0) - 1.0) * fit / (fit + beside);
+            signals[kind] = signals[kind].max(signal);
+        }
+    }
+    signals
+}
+
+/// How well other kinds fit that lie where this one does.
+fn beside(destinations: &Destinations, kind: usize, place: [f64; 2], sigma: f64) -> f64 {
+    let others = destinations.iter().filter(|(other, _, _)| *other != Some(kind));
+    let near = others.filter_map(|(_, other, fit)| {
+        let square = (other[0] - place[0]).powi(2) + (other[1] - place[1]).powi(2);
+        let deviations = square / (sigma * sigma);
+        (deviations < CUT_OFF * CUT_OFF).then(|| fit * (-0.5 * deviations).exp())
+    });
+    near.sum()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+mod tests {
+    use super::*;
+    use coact_joint_task::NetworkPlan;
+    use std::path::Path;
+
+    /// Three kinds of part, and a place where nothing is taken, m.
+    const PLACES: [(Option<usize>, [f64; 2]); 4] =
+        [(Some(0), [-1.0, 0.2]), (Some(1), [-1.0, 0.26]), (Some(2), [-0.95, 0.5]), (None, [-0.6, 0.15])];
+
+    struct Bench {
+        plan: DestinationPlan,
+        field: DestinationField,
+        activity: Vec<f64>,
+    }
+
+    impl Bench {
+        fn new() -> Self {
+            let task = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/toy-vehicle.toml");
+            let plan = NetworkPlan::load(&task).unwrap().1.destinations;
+            let field = DestinationField::new(&plan).unwrap();
+            Self { activity: vec![plan.resting; field.input.len()], plan, field }
+        }
+
+        /// Goes on for so many ms; then each kind's signal.
+        fn run(&mut self, ms: usize, told: &Destinations) -> [f64; 3] {
+            for _ in 0..ms {
+                let now = self.activity.clone();
+                self.field.step(1.0, Some(told), &now, &mut self.activity);
+            }
+            let signals = signals(&self.plan, &self.activity, told);
+            [signals[0], signals[1], signals[2]]
+        }
+
+        /// Place of the highest activity, m, and whether it is a peak.
+        fn highest(&self) -> ([f64; 2], bool) {
+            let by_activity =
+                |one: &usize, other: &usize| self.activity[*one].total_cmp(&self.activity[*other]);
+            let site = (0..self.activity.len()).max_by(by_activity).unwrap();
+            (self.field.field.lattice().place(site), self.activity[site] > 0.0)
+        }
+    }
+
+    fn told(places: impl IntoIterator<Item = (Option<usize>, [f64; 2], f64)>) -> Destinations {
+        let mut destinations = Destinations { told: 1.0, ..bytemuck::Zeroable::zeroed() };
+        places.into_iter().for_each(|(kind, place, fit)| destinations.push(kind, place, fit));
+        destinations
+    }
+
+    fn fitting(fits: [f64; 4]) -> Destinations {
+        told(PLACES.into_iter().zip(fits).map(|((kind, place), fit)| (kind, place, fit)))
+    }
+
+    #[test]
+    fn the_place_that_fits_best_by_far_gets_the_peak_and_its_neighbour_none() {
+        for best in 0..3 {
+            let mut fits = [0.05; 4];
+            fits[best] = 1.0;
+            let mut bench = Bench::new();
+            let signals = bench.run(100, &fitting(fits));
+            let ([x, y], is_peak) = bench.highest();
+            let [expected_x, expected_y] = PLACES[best].1;
+            assert!(is_peak && (x - expected_x).hypot(y - expected_y) < bench.plan.table.spacing, "{x} {y}");
+            for (kind, signal) in signals.into_iter().enumerate() {
+                assert_eq!(signal > 0.5, kind == best, "{best}: {signals:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn between_places_that_fit_alike_nothing_is_decided() {
+        for fits in [[1.0, 1.0, 0.0, 0.0], [1.0, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 1.0], [1.0, 0.9, 0.8, 0.0]] {
+            let mut bench = Bench::new();
+            assert_eq!(bench.run(500, &fitting(fits)), [0.0; 3], "{fits:?}");
+            assert!(!bench.highest().1);
+        }
+    }
+
+    #[test]
+    fn several_parts_of_one_kind_do_not_hide_which_kind_it_is() {
+        let places =
+            [(Some(0), [-1.0, 0.2], 1.0), (Some(0), [-1.0, 0.4], 0.95), (Some(1), [-0.95, 0.55], 0.05)];
+        let signals = Bench::new().run(100, &told(places));
+        assert!(signals[0] > 0.5 && signals[1] == 0.0, "{signals:?}");
+    }
+
+    #[test]
+    fn of_kinds_at_one_place_each_has_its_share() {
+        let places = [(Some(0), [-1.0, 0.2], 1.0), (Some(1), [-1.0, 0.2], 0.25)];
+        let signals = Bench::new().run(100, &told(places));
+        assert!((signals[0] / signals[1] - 4.0).abs() < 1e-9, "{signals:?}");
+    }
+
+    #[test]
+    fn the_peak_goes_with_the_movement_and_follows_it_to_another_place() {
+        let mut bench = Bench::new();
+        assert!(bench.run(100, &fitting([1.0, 0.0, 0.0, 0.0]))[0] > 0.5);
+        let turned = bench.run(100, &fitting([0.05, 0.0, 1.0, 0.0]));
+        assert!(turned[0] == 0.0 && turned[2] > 0.5, "{turned:?}");
+        let still = Destinations { told: 0.0, ..fitting([0.05, 0.0, 1.0, 0.0]) };
+        assert_eq!(bench.run(100, &still), [0.0; 3]);
+    }
+
+    #[test]
+    fn places_beside_the_table_are_left_out() {
+        let mut bench = Bench::new();
+        let far = [(Some(0), [1e3, -1e3], 1.0), (Some(1), [-1e300, 1e300], 1.0)];
+        assert_eq!(bench.run(10, &told(far)), [0.0; 3]);
+    }
+}

@@ -1,0 +1,71 @@
+use crate::Scene;
+use coact_messages::{MAX_PLACES, TableGrid};
+use coact_neural_field::{Axis, Gaussian, Interaction, Lattice, MetricConstants, ParameterError};
+use std::f64::consts::TAU;
+
+/// The destination field: a field over the table in which the places that the person's hand may go to compete.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DestinationPlan {
+    /// Time scale and sigmoid.
+    pub constants: MetricConstants,
+    /// Resting level h.
+    pub resting: f64,
+    /// Input at a place that the hand goes to for certain.
+    pub gain: f64,
+    /// Standard deviation of the input about a place, m.
+    pub input_sigma: f64,
+    /// Excitation of a site by its neighbours: its integral over the plane, and its standard deviation, m.
+    pub excitation: (f64, f64),
+    /// Inhibition of each site by a peak as large as the excitation's Gaussian, wherever it stands.
+    pub inhibition: f64,
+    /// Where its sites lie.
+    pub table: TableGrid,
+}
+
+impl DestinationPlan {
+    /// Its sites, as neural fields have them.
+    ///
+    /// # Errors
+    /// The table's extents or the spacing are none.
+    pub fn lattice(&self) -> Result<Lattice<2>, ParameterError> {
+        let TableGrid { first, spacing, sites } = self.table;
+        let axis =
+            |axis: usize| Axis { sites: sites[axis] as usize, spacing, origin: first[axis], circular: false };
+        Lattice::new([axis(0), axis(1)])
+    }
+
+    /// How they act on each other.
+    ///
+    /// # Errors
+    /// A constant that is out of its range.
+    pub fn interaction(&self) -> Result<Interaction<2>, ParameterError> {
+        let (strength, sigma) = self.excitation;
+        let area = TAU * sigma * sigma;
+        let excitation = Gaussian { amplitude: strength / area, sigma: [sigma; 2] };
+        Ok(Interaction::none(self.lattice()?)
+            .with(excitation)?
+            .with_inhibition_everywhere(self.inhibition / area))
+    }
+}
+
+/// How far the field reaches beyond workspaces, handover place and resting hand, m: peaks at its edge are whole. Chosen by hand.
+const BEYOND: f64 = 0.10;
+
+/// Sites at this distance, m, over all places that a hand may go to; `None` if there are more than a frame holds.
+pub(crate) fn over_the_table(scene: &Scene, spacing: f64) -> Option<TableGrid> {
+    let corners = scene.workspace.into_iter().flatten();
+    let places = corners.chain([scene.handover, scene.person_rest].map(|[x, y, _]| [x, y]));
+    let places: Vec<[f64; 2]> = places.collect();
+    let along = |axis: usize| {
+        let most = places.iter().map(|place| place[axis]).fold(f64::NEG_INFINITY, f64::max);
+        let least = places.iter().map(|place| place[axis]).fold(f64::INFINITY, f64::min);
+        Axis::open(least - BEYOND, most + BEYOND, spacing)
+    };
+    let [x, y] = [along(0), along(1)];
+    let fits = x.sites.saturating_mul(y.sites) <= MAX_PLACES;
+    fits.then(|| TableGrid {
+        first: [x.origin, y.origin],
+        spacing,
+        sites: [x, y].map(|axis| axis.sites as u32),
+    })
+}
