@@ -11,7 +11,8 @@ use coact_run_records::{ActionEvent, Event};
 /// that frames may be missing, and a peak that rose and fell again does not count. A wrong peak counts only if it rose
 /// during the reach; one that stood before belongs to what the robot was doing already. An action without an answer at
 /// grasp completion may still be answered late, until the partner rests or reaches again. Where the partner takes the
-/// part that the robot is giving, the robot cannot act on it, for its hand is full: there the inferred goal counts.
+/// part that the robot is giving, the robot cannot act on it, for its hand is full: there the inferred goal counts. Where
+/// the partner changes the mind in mid-reach, what was meant at last counts.
 #[derive(Debug)]
 pub struct Anticipation {
     task: Task,
@@ -69,8 +70,13 @@ impl Anticipation {
         }
         let Some(mut open) = self.open.filter(|open| open.number == truth.actions) else { return };
         open.grasp = open.grasp.or(Some(truth.grasp_cycle).filter(|&cycle| cycle != 0));
-        if open.error != truth.error {
-            // Its turn has come on the way.
+        let turned = truth.phase == PartnerPhase::Reach as u32
+            && (open.chain, open.subgoal) != (truth.chain as usize, truth.subgoal as usize);
+        if turned {
+            (open.chain, open.subgoal) = (truth.chain as usize, truth.subgoal as usize);
+        }
+        if turned || open.error != truth.error {
+            // The hand has turned to another part, or its turn has come on the way.
             open.error = truth.error;
             open.expectation = self.expected(truth);
         }

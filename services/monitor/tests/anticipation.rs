@@ -76,6 +76,23 @@ fn a_mistake_whose_turn_comes_on_the_way_is_answered_like_any_action() {
 }
 
 #[test]
+fn hand_that_turns_in_mid_reach_is_answered_by_what_it_is_after_at_last() {
+    let answered = |first: usize, then: usize| {
+        let ticks = (0..1200).map(|cycle| {
+            let grasp = if cycle >= 800 { 800 } else { 0 };
+            let (chain, subgoal) = if cycle < 400 { (MOUNT, LID) } else { (PASS, HINGE) };
+            let truth = acting(cycle, u32::from(cycle >= 100), chain, subgoal, 100, grasp);
+            (truth, if cycle < 550 { from(200, cycle, first) } else { from(550, cycle, then) })
+        });
+        play(ticks).remove(0)
+    };
+    let followed = answered(STEADY_LID, RECEIVE_HINGE);
+    assert_eq!(followed.subgoal, "hinge");
+    assert_eq!((followed.anticipated(), followed.lead_ms), (true, Some(250)));
+    assert!(answered(STEADY_LID, STEADY_LID).wrong());
+}
+
+#[test]
 fn bringing_what_the_next_step_needs_answers_by_understanding() {
     let brings = |understood: bool| {
         one_action(MOUNT, LID, move |cycle| {

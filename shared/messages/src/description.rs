@@ -178,7 +178,8 @@ described! {
     }
     Speech { header, length, text }
     Truth {
-        header, actions, phase, chain, subgoal, onset_cycle, grasp_cycle, achieved, assemblies, error, waiting, hidden, reserved,
+        header, actions, phase, chain, subgoal, onset_cycle, grasp_cycle, turn_cycle, heading_cycle, achieved, assemblies, error,
+        waiting, hidden, reserved,
         joints, arm, held
     }
 }

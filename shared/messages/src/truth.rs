@@ -22,6 +22,12 @@ pub struct Truth {
     pub onset_cycle: u64,
     /// Cycle at which the fingers closed on the part (a gesture: at which it was fully shown); 0 until then.
     pub grasp_cycle: u64,
+    /// Cycle at which the action's reach turned from the part for which the hand had set out to another one: the second movement began
+    /// then. From there on `chain`, `subgoal` and `error` are those of the new part. 0: it has not turned.
+    pub turn_cycle: u64,
+    /// First cycle after that from which on, for 50 ms at least, the hand moved more in the direction of the new part than in that of the
+    /// old one; 0 until then, and again where it has not lasted so long.
+    pub heading_cycle: u64,
     /// Bit i set: subgoal i's part is really in its place.
     pub achieved: u64,
     /// Completed assemblies before the present one (the scene is laid out again after each).
@@ -79,7 +85,11 @@ impl Plausible for Truth {
         index("phase", self.phase, PartnerPhase::Withdraw as usize + 1)?;
         optional("chain", self.chain, MAX_POPULATIONS)?;
         subgoal("subgoal", self.subgoal)?;
-        not_after("cycles", &self.header, &[self.onset_cycle, self.grasp_cycle])?;
+        not_after(
+            "cycles",
+            &self.header,
+            &[self.onset_cycle, self.grasp_cycle, self.turn_cycle, self.heading_cycle],
+        )?;
         index("error", self.error, PartnerError::AtHand as usize + 1)?;
         index("waiting", self.waiting, 2)?;
         index("hidden", self.hidden, 2)

@@ -1,7 +1,8 @@
 //! At rest: what to do next, and what it will be like.
 
 use crate::person::error;
-use crate::{ActivityPhase, Choice, Intention, Person, PersonState, Surroundings};
+use crate::{ActivityPhase, Choice, Intention, Person, PersonState, ReachTurn, Surroundings};
+use bytemuck::Zeroable;
 use coact_random::Stream;
 use coact_stage_state::Slot;
 use rand::RngExt;
@@ -34,14 +35,20 @@ impl Person {
 
     /// What the activity will be like: how the hand will reach, and what stands in the way of the robot's sight.
     fn intend(&self, intention: Intention, state: &mut PersonState, around: &Surroundings) {
+        self.mean(intention, state, around);
+        state.turn = ReachTurn::zeroed();
+        state.movement = self.reach_movement(state, around);
+        state.set_occluder(self.occluder(state, around));
+    }
+
+    /// What the activity is from now on: its meaning, and whose recorded hand shows it.
+    pub(crate) fn mean(&self, intention: Intention, state: &mut PersonState, around: &Surroundings) {
         state.chain = Slot::of(intention.chain);
         state.subgoal = intention.subgoal.map_or(Slot::EMPTY, Slot::of);
         state.part = intention.part.map_or(Slot::EMPTY, Slot::of);
         state.activity = intention.activity;
         state.variation = intention.variation;
         state.recording = self.choose_recording(intention, around);
-        state.movement = self.reach_movement(state, around);
-        state.set_occluder(self.occluder(state, around));
     }
 
     /// One of the recorded reaches for a part of this width.

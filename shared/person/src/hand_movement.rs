@@ -1,6 +1,7 @@
 use crate::HandPose;
 use crate::reach_profile::minimum_jerk;
 use bytemuck::{Pod, Zeroable};
+use coact_period::PERIOD_S;
 use coact_stage_state::{Implausible, ensure, finite};
 
 /// Fraction of a grasping movement in which the hand's pitch reaches that of the grip: about when the aperture is largest.
@@ -35,6 +36,11 @@ impl HandMovement {
     pub(crate) fn time(&self, tick: u64) -> f64 {
         let span = self.end.saturating_sub(self.start).max(1);
         (tick.saturating_sub(self.start) as f64 / span as f64).min(1.0)
+    }
+
+    /// Time since its onset, s; negative before.
+    pub(crate) fn since_onset(&self, tick: u64) -> f64 {
+        (tick as f64 - self.onset as f64) * PERIOD_S
     }
 
     pub(crate) fn is_over(&self, tick: u64) -> bool {

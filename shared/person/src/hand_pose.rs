@@ -25,6 +25,18 @@ impl HandPose {
         self.wrist.into()
     }
 
+    /// This pose with what a second movement, which began at `from` and is at `now`, adds to it in each of its parts.
+    pub(crate) fn moved_by(&self, from: &Self, now: &Self) -> Self {
+        Self {
+            wrist: std::array::from_fn(|axis| self.wrist[axis] + (now.wrist[axis] - from.wrist[axis])),
+            heading: self.heading + (now.heading - from.heading),
+            pitch: self.pitch + (now.pitch - from.pitch),
+            aperture: self.aperture + (now.aperture - from.aperture),
+            extension: self.extension + (now.extension - from.extension),
+            aside: self.aside + (now.aside - from.aside),
+        }
+    }
+
     /// The pose at fraction `along` of the way from `self` to `end`.
     pub(crate) fn towards(&self, end: &Self, along: f64) -> Self {
         let mix = |from: f64, to: f64| from + (to - from) * along;

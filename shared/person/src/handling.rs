@@ -29,7 +29,10 @@ const MOUNTING: Range<u64> = cycles(Duration::from_millis(400))..cycles(Duration
 
 impl Person {
     pub(crate) fn reach(&self, state: &mut PersonState, around: &Surroundings, done: &mut Manipulation) {
+        self.change_mind(state, around);
+        let before = state.hand;
         self.move_towards(state, around);
+        self.see_heading(state, &before, around.tick);
         if state.phase() == ActivityPhase::Reach && state.movement.is_over(around.tick) {
             state.hand = state.movement.to;
             self.arrive(state, around, done);
@@ -44,10 +47,7 @@ impl Person {
             }
             self.aim(state, around.parts.centre(part, around.task));
         }
-        state.hand = match state.recording.get() {
-            None => state.movement.pose(around.tick),
-            Some(_) => self.recorded_pose(state, around.tick).unwrap_or(state.hand),
-        };
+        state.hand = self.reaching_pose(state, around.tick).unwrap_or(state.hand);
     }
 
     /// The fingers close on the part, or the gesture is fully shown.

@@ -1,5 +1,5 @@
 use crate::live_hand::LiveHand;
-use crate::{Activity, ActivityPhase, HandMovement, HandPose, Intention, Variation};
+use crate::{Activity, ActivityPhase, HandMovement, HandPose, Intention, ReachTurn, Variation};
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_joint_task::Task;
 use coact_messages::PartnerError;
@@ -48,6 +48,8 @@ pub struct PersonState {
     pub hand: HandPose,
     /// Its present movement.
     pub movement: HandMovement,
+    /// How the present activity's reach has turned to another part, if it has.
+    pub turn: ReachTurn,
     /// Orientation of the carried part where it was taken.
     pub(crate) turn_from: [f64; 4],
     /// Orientation where it goes to.
@@ -127,6 +129,7 @@ impl PersonState {
             [self.ended >> 16, self.actions, self.skipped, self.script_done, self.variation.gives_up_after];
         ensure(counts.iter().all(|count| *count <= u64::from(u32::MAX)), "person: count", "32 bits at most")?;
         self.movement.check()?;
+        self.turn.check(recordings, now)?;
         self.live.check(now)?;
         self.check_numbers()
     }

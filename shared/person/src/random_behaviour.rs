@@ -15,6 +15,7 @@ use std::ops::RangeInclusive;
 /// | `dropouts` | per second | bursts in which the tracker loses the hand, 50 to 300 ms long; at most 2 |
 /// | `withdraws` | fraction | of handovers, the person lets go of the robot's part again, or takes the given part back, too early |
 /// | `late` | fraction | of parts that the robot gives, the person comes for 2 to 6 s late |
+/// | `changes` | fraction | of valid, plain reaches to a part, the hand turns to another one at 25 to 90 % of its way; 0 unless given |
 /// | `movement` | range in ms | movement time of a reach, 300 to 3000 |
 ///
 /// A fraction is from 0 to 1; the six fractions of all choices add up to at most 1. To receive what the robot gives is
@@ -31,11 +32,12 @@ pub struct RandomBehaviour {
     pub(crate) dropouts: f64,
     pub(crate) withdraws: f64,
     pub(crate) late: f64,
+    pub(crate) changes: f64,
     pub(crate) movement: RangeInclusive<f64>,
 }
 
 impl Default for RandomBehaviour {
-    /// One choice in ten goes wrong; all fractions are chosen by hand. Movement time goes from the 5th percentile of
+    /// One choice in ten goes wrong; all fractions are chosen by hand. Nobody changes the mind in mid-reach. Movement time goes from the 5th percentile of
     /// recorded reaches to the longest one.
     fn default() -> Self {
         Self {
@@ -49,13 +51,15 @@ impl Default for RandomBehaviour {
             dropouts: 0.05,
             withdraws: 0.05,
             late: 0.05,
+            changes: 0.0,
             movement: 429.0..=895.0,
         }
     }
 }
 
 /// What an error names.
-const KEYS: &str = "idle, goal, request, means, hidden, words, clarity, dropouts, withdraws, late, movement";
+const KEYS: &str =
+    "idle, goal, request, means, hidden, words, clarity, dropouts, withdraws, late, changes, movement";
 
 impl RandomBehaviour {
     /// Reads `KEY=VALUE,...`; an empty text leaves all defaults.
@@ -89,6 +93,7 @@ impl RandomBehaviour {
             "words" => self.words = fraction(value)?,
             "withdraws" => self.withdraws = fraction(value)?,
             "late" => self.late = fraction(value)?,
+            "changes" => self.changes = fraction(value)?,
             "dropouts" => self.dropouts = number(value, 2.0, "bursts per second, from 0 to 2")?,
             "clarity" => self.clarity = range(value, 0.0..=1.0, "LOW..HIGH within 0..1")?,
             "movement" => self.movement = range(value, 300.0..=3000.0, "LOW..HIGH within 300..3000 ms")?,
@@ -122,9 +127,10 @@ mod tests {
 
     #[test]
     fn keys_set_their_values_and_leave_the_others() {
-        let behaviour =
-            RandomBehaviour::parse("goal=0.2,hidden=0.1,words=0.5,clarity=0..0.25,movement=600..600")
-                .unwrap();
+        let behaviour = RandomBehaviour::parse(
+            "goal=0.2,hidden=0.1,words=0.5,clarity=0..0.25,changes=1,movement=600..600",
+        )
+        .unwrap();
         assert_eq!(
             behaviour,
             RandomBehaviour {
@@ -132,6 +138,7 @@ mod tests {
                 hidden: 0.1,
                 words: 0.5,
                 clarity: 0.0..=0.25,
+                changes: 1.0,
                 movement: 600.0..=600.0,
                 ..RandomBehaviour::default()
             }
@@ -148,6 +155,7 @@ mod tests {
             ("goal=NaN", "expected a fraction"),
             ("hidden=1.5", "expected a fraction from 0 to 1"),
             ("words=often", "expected a fraction from 0 to 1"),
+            ("changes=-0.1", "expected a fraction from 0 to 1"),
             ("dropouts=-1", "expected bursts per second"),
             ("clarity=0.9..0.2", "expected LOW..HIGH within 0..1"),
             ("movement=10..500", "expected LOW..HIGH within 300..3000 ms"),

@@ -88,6 +88,15 @@ pub(crate) fn is_lost<R: Rng>(behaviour: &RandomBehaviour, tick: u64, rng_of: im
     happens && (begins..begins + length).contains(&(tick % DROPOUT_INTERVAL))
 }
 
+/// To take an own part for a goal that is not available, among those that are `wanted`.
+pub(crate) fn wrong_taking<R: Rng>(
+    around: &Surroundings,
+    rng: &mut R,
+    wanted: impl Fn(&Intention) -> bool,
+) -> Option<Intention> {
+    one_of(around, rng, |around, chain| wrong_goal(around, chain).filter(&wanted))
+}
+
 /// One of the intentions that `make` finds among the chains.
 fn one_of<R: Rng>(
     around: &Surroundings,

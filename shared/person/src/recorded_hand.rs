@@ -1,9 +1,11 @@
 //! A recorded person's hand in place of the model's: while a recorded reach drives it.
 
+use crate::reach_profile::minimum_jerk;
 use crate::recorded_reach::{LEAD, RecordedFrame, RecordedReach};
-use crate::{ActivityPhase, HandPose, Person, PersonState};
+use crate::{ActivityPhase, HandMovement, HandPose, Person, PersonState};
 use coact_messages::{Keypoint, KeypointName};
-use coact_period::{PERIOD_S, cycles};
+use coact_period::{PERIOD_S, cycles, seconds};
+use coact_stage_state::Slot;
 use glam::DVec3;
 use std::time::Duration;
 
@@ -13,15 +15,23 @@ const TRAIL: u64 = cycles(Duration::from_millis(150));
 impl Person {
     /// The recording that drives the hand now.
     pub(crate) fn recording(&self, state: &PersonState) -> Option<&RecordedReach> {
-        let recorded = self.recorded.as_ref()?;
-        state.recording.get().and_then(|index| recorded.reaches.get(index))
+        self.recording_at(state.recording)
     }
 
-    /// The hand on a recorded path, `None` while the recording shows nothing.
-    pub(crate) fn recorded_pose(&self, state: &PersonState, tick: u64) -> Option<HandPose> {
-        let reach = self.recording(state)?;
-        let movement = &state.movement;
-        let frame = reach.at((tick as f64 - movement.onset as f64) * PERIOD_S)?;
+    /// The recording with this index, if there is one.
+    pub(crate) fn recording_at(&self, index: Slot) -> Option<&RecordedReach> {
+        let recorded = self.recorded.as_ref()?;
+        index.get().and_then(|index| recorded.reaches.get(index))
+    }
+
+    /// The hand that makes a movement as `reach` was made, `None` while the recording shows nothing.
+    pub(crate) fn recorded_pose(
+        &self,
+        reach: &RecordedReach,
+        movement: &HandMovement,
+        tick: u64,
+    ) -> Option<HandPose> {
+        let frame = reach.at(movement.since_onset(tick))?;
         let mut pose = movement.pose(tick);
         let (from, to) = (movement.from.wrist(), movement.to.wrist());
         let along = frame.progress.clamp(0.0, 1.0);
@@ -35,17 +45,43 @@ impl Person {
     pub fn recorded_keypoints(&self, state: &PersonState, tick: u64) -> Option<[Keypoint; 9]> {
         let reach = self.recording(state)?;
         let begins = state.movement.onset;
+        let turned = state.turn.begun > 0;
         let (onset, fraction) = match state.phase() {
             ActivityPhase::Prepare => (begins, 1.0 - begins.saturating_sub(tick) as f64 / LEAD as f64),
             ActivityPhase::Reach => (begins, 1.0),
-            _ => (state.onset, 1.0 - tick.saturating_sub(state.grasped) as f64 / TRAIL as f64),
+            _ if turned => (state.grasped.saturating_sub(reach.movement_time), trail(state, tick)),
+            _ => (state.onset, trail(state, tick)),
         };
         if fraction <= 0.0 {
             return None;
         }
         let lost = [Keypoint::default(); 9];
-        let frame = reach.at((tick as f64 - onset as f64) * PERIOD_S);
+        let frame = match state.phase() {
+            ActivityPhase::Reach if turned => self.turning_frame(state, tick),
+            _ => reach.at((tick as f64 - onset as f64) * PERIOD_S),
+        };
         Some(frame.map_or(lost, |frame| self.shaped(&state.hand, &frame, fraction)))
+    }
+
+    /// What the recordings of both movements of a reach that has turned show at `tick`. The fingers go over from the first one's shape to the
+    /// second one's as the hand does; that is as far from its grasp as the hand is.
+    fn turning_frame(&self, state: &PersonState, tick: u64) -> Option<RecordedFrame> {
+        let (first, second) = (self.recording_at(state.turn.recording)?, self.recording(state)?);
+        let over = seconds(first.movement_time);
+        let going = first.at(state.turn.first.since_onset(tick).min(over));
+        let left = seconds(state.movement.end.saturating_sub(tick));
+        let coming = second.at(seconds(second.movement_time) - left);
+        let along = minimum_jerk(state.movement.time(tick));
+        match (going, coming) {
+            (Some(going), Some(coming)) => Some(going.mixed_with(&coming, along)),
+            (going, coming) => {
+                if along < 0.5 {
+                    going
+                } else {
+                    coming
+                }
+            }
+        }
     }
 
     /// The recorded shape of the hand in the plane of `pose`, mixed with the model's: this `fraction` is recorded.
@@ -62,4 +98,9 @@ impl Person {
             Keypoint { position: place.into(), confidence: frame.confidence[joint] }
         })
     }
+}
+
+/// How much of the hand's shape is the recorded one's still, after the grasp.
+fn trail(state: &PersonState, tick: u64) -> f64 {
+    1.0 - tick.saturating_sub(state.grasped) as f64 / TRAIL as f64
 }

@@ -85,15 +85,21 @@ impl RecordedReach {
             return None;
         }
         let along = ((time - before.time) / gap.max(1e-9)).clamp(0.0, 1.0);
+        Some(RecordedFrame { time, ..before.mixed_with(after, along) })
+    }
+}
+
+impl RecordedFrame {
+    /// What lies at fraction `along` of the way from this frame to another one; keypoints are as sure as in the nearer one.
+    pub fn mixed_with(&self, other: &Self, along: f64) -> Self {
         let mix = |from: f64, to: f64| from + (to - from) * along;
-        let nearest = if along < 0.5 { before } else { after };
-        Some(RecordedFrame {
-            time,
-            progress: mix(before.progress, after.progress),
-            detour: mix(before.detour, after.detour),
-            shape: std::array::from_fn(|joint| before.shape[joint].lerp(after.shape[joint], along)),
-            confidence: nearest.confidence,
-        })
+        Self {
+            time: mix(self.time, other.time),
+            progress: mix(self.progress, other.progress),
+            detour: mix(self.detour, other.detour),
+            shape: std::array::from_fn(|joint| self.shape[joint].lerp(other.shape[joint], along)),
+            confidence: if along < 0.5 { self.confidence } else { other.confidence },
+        }
     }
 }
 

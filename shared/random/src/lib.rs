@@ -40,6 +40,8 @@ pub enum Stream {
     Placement = 9,
     /// Where parts lie when an assembly begins.
     Layout = 10,
+    /// Whether, when and to what a random partner changes the mind in mid-reach.
+    ChangeOfMind = 11,
 }
 
 /// The random generators of one run.

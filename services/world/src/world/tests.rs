@@ -17,6 +17,7 @@ mod recorded_arm;
 mod resume;
 mod script;
 mod spoken;
+mod turning;
 
 use super::World;
 use crate::{Partner, Settings};

@@ -2,8 +2,9 @@ use super::fake_robot::FakeRobot;
 use super::{Out, robot, task};
 use crate::{Partner, Settings, World};
 use coact_messages::{KeypointName, PartnerPhase};
-use coact_person::{RandomBehaviour, RecordedReaches};
+use coact_person::{ActivityPhase, RandomBehaviour, RecordedReaches};
 use coact_pipeline::WorldMode;
+use glam::DVec3;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -119,4 +120,65 @@ fn a_partner_who_errs_reaches_as_the_participant_did() {
     assert!(times.len() > 10 && times.iter().all(|time| *time == 600), "{times:?}");
     let nobody = RecordedReaches::load_participant(folder.path(), 3).unwrap_err().to_string();
     assert!(nobody.contains("participant 3"), "{nobody}");
+}
+
+/// A partner whose hand moves as that of a recorded participant, and who changes the mind in this fraction of reaches.
+fn who_changes(fraction: u8, seed: u64) -> World {
+    let reaches = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/reaches");
+    let reaches = RecordedReaches::load_participant(&reaches, 3).unwrap();
+    let behaviour = format!("goal=0,hidden=0,words=0,dropouts=0,changes={fraction}");
+    let partner = Partner::Random(RandomBehaviour::parse(&behaviour).unwrap());
+    let settings =
+        Settings { reaches: Some(reaches), ..super::settings(seed, partner, WorldMode::Kinematic) };
+    World::new(&task(), &robot(), settings).unwrap()
+}
+
+#[test]
+fn recorded_reach_goes_on_unmodified_beneath_the_turn() {
+    for seed in 0..3 {
+        let mut worlds = [who_changes(1, seed), who_changes(0, seed)];
+        let (mut robots, mut outs) = ([FakeRobot::new(), FakeRobot::new()], [Out::new(), Out::new()]);
+        let mut added = DVec3::ZERO;
+        for tick in 1..=60_000 {
+            for ((world, robot), out) in worlds.iter_mut().zip(&mut robots).zip(&mut outs) {
+                robot.step(tick, world, out);
+            }
+            let [turning, straight] = worlds.each_ref().map(|world| &world.simulation.person);
+            let before = std::mem::replace(&mut added, turning.hand.wrist() - straight.hand.wrist());
+            let since = tick.saturating_sub(turning.turn.begun);
+            match turning.turn.begun {
+                0 => assert_eq!(added, DVec3::ZERO),
+                // A movement of minimum jerk that takes 0.4 s or longer has covered a thousandth of its way after 20 ms.
+                _ if since <= 20 => assert!(added.length() < 1e-3, "seed {seed}, {since} ms: {added}"),
+                _ if straight.phase() == ActivityPhase::Reach => {
+                    assert!(added.distance(before) < 2.5e-3, "seed {seed}, {since} ms: {added}");
+                }
+                _ => break,
+            }
+        }
+        assert!(added.length() > 0.01, "seed {seed}: {added}");
+    }
+}
+
+#[test]
+fn recorded_hand_that_turned_has_the_new_part_in_its_fingers() {
+    let (mut world, mut robot) = (who_changes(1, 2), FakeRobot::new());
+    let (mut out, mut turned) = (Out::new(), 0);
+    for tick in 1..=100_000 {
+        robot.step(tick, &mut world, &mut out);
+        let person = &world.simulation.person;
+        if person.turn.begun == 0 || person.grasped != tick {
+            continue;
+        }
+        turned += 1;
+        let centre = world.parts.view().centre(person.part.get().unwrap(), &world.task);
+        let missed = centre.distance(world.person.hand_centre(person));
+        assert!(missed < 0.001, "fingers closed {missed} m beside the part");
+        let shown = world.person.recorded_keypoints(person, tick).unwrap();
+        let tips = [KeypointName::ThumbTip, KeypointName::IndexTip].map(|name| shown[name as usize]);
+        let middle = DVec3::from(tips[0].position).midpoint(tips[1].position.into());
+        let seen = tips.iter().all(|tip| tip.confidence > 0.0);
+        assert!(!seen || middle.distance(centre) < 0.02, "{} m", middle.distance(centre));
+    }
+    assert!(turned >= 5, "{turned} reaches turned");
 }
