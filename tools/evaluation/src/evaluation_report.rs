@@ -1,5 +1,5 @@
 use crate::statistics::{Estimate, Proportion, Spread};
-use crate::{Detection, ErrorKind, Inference, NetworkVariant, PartnerAction, Trial};
+use crate::{ChangesOfMind, Detection, ErrorKind, Inference, NetworkVariant, PartnerAction, Trial};
 use coact_run_records::SeparationReport;
 use serde::Serialize;
 
@@ -70,6 +70,12 @@ pub struct EvaluationReport {
     pub answer_delay_ms: Option<Estimate>,
     /// Waiting of the person within actions.
     pub human_waits: Option<Estimate>,
+    /// Changes of mind in mid-reach to what was valid; none where nobody made one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub changes_of_mind: Option<ChangesOfMind>,
+    /// ... to what was wrong: the plan left nothing else.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub changes_to_errors: Option<ChangesOfMind>,
 }
 
 /// How often one kind of error was noticed.
@@ -150,6 +156,8 @@ impl EvaluationReport {
             functional_delay: mean(&|trial| trial.fluency.functional_delay),
             answer_delay_ms: mean(&Trial::answer_delay_ms),
             human_waits: mean(&|trial| trial.fluency.human_waits),
+            changes_of_mind: ChangesOfMind::new(valid.iter().copied()),
+            changes_to_errors: ChangesOfMind::new(wrong.iter().copied()),
         }
     }
 }

@@ -7,20 +7,24 @@
 //! An [`Encounter`] is the working robot beside a recorded person's arm, to measure how near they come.
 
 mod campaign;
+mod changes_of_mind;
 mod comparison;
 mod encounter;
 mod encounters;
 mod evaluation_report;
 mod fluency;
 mod network_variant;
+mod open_action;
 mod parallel;
 mod plots;
 mod recorded_person;
 mod statistics;
 mod trial;
 mod trial_recorder;
+mod turned_reach;
 
 pub use campaign::{Campaign, run};
+pub use changes_of_mind::ChangesOfMind;
 pub use comparison::Comparison;
 pub use encounter::Encounter;
 pub use encounters::{Encounters, encounter};
@@ -31,3 +35,4 @@ pub use plots::{draw_fluency, draw_leads};
 pub use recorded_person::RecordedPerson;
 pub use statistics::{Estimate, Proportion, Spread};
 pub use trial::{Alarm, Detection, DoublePeak, ErrorKind, Inference, PartnerAction, Trial};
+pub use turned_reach::TurnedReach;

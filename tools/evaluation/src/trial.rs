@@ -1,4 +1,4 @@
-use crate::Fluency;
+use crate::{Fluency, TurnedReach};
 use coact_run_records::SeparationReport;
 use serde::Serialize;
 
@@ -77,6 +77,8 @@ pub struct PartnerAction {
     pub detection: Option<Detection>,
     /// What the layers showed at grasp completion.
     pub fields: Vec<String>,
+    /// How the person changed the mind on the way. What was meant, and what was wrong with it, is as it was from then on.
+    pub turn: Option<TurnedReach>,
 }
 
 /// What is wrong with an action.

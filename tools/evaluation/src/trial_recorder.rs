@@ -1,6 +1,8 @@
+use crate::TurnedReach;
 use crate::fluency::FluencyCounter;
-use crate::trial::{Alarm, Detection, DoublePeak, ErrorKind, Inference, PartnerAction, Trial};
-use coact_joint_task::{Act, NetworkPlan, Population, Role, Task};
+use crate::open_action::{Meant, OpenAction, meant};
+use crate::trial::{Alarm, Detection, DoublePeak, Inference, PartnerAction, Trial};
+use coact_joint_task::{NetworkPlan, Role, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
 use coact_monitor::{ActiveAgents, Anticipation, Intentions};
@@ -32,14 +34,6 @@ pub(crate) struct TrialRecorder<'a> {
     open: Option<OpenAction>,
     /// Populations of EML whose peaks stand.
     alarmed: Vec<bool>,
-}
-
-/// The person's present action.
-#[derive(Debug, Clone)]
-struct OpenAction {
-    /// Its populations of IL and EML: what should be inferred, and what should be detected.
-    goal: Option<usize>,
-    errors: Vec<usize>,
 }
 
 impl<'a> TrialRecorder<'a> {
@@ -128,6 +122,7 @@ impl<'a> TrialRecorder<'a> {
         } else if truth.phase == PartnerPhase::Idle as u32 {
             self.close();
         }
+        self.follow_turn(truth, frame);
         let Some(open) = &self.open else { return };
         let inferred = self.highest(LayerKind::Intention, frame);
         let grasped =
@@ -150,33 +145,43 @@ impl<'a> TrialRecorder<'a> {
         }
     }
 
-    fn begin(&mut self, truth: &Truth) {
-        let (chain, subgoal) = (truth.chain as usize, truth.subgoal as usize);
-        let (Some(rule), Some(goal)) = (self.task.chains.get(chain), self.task.subgoals.get(subgoal)) else {
+    /// The hand may turn to another part, which the action then is about; until the grasp it is seen since when its goal stands.
+    fn follow_turn(&mut self, truth: &Truth, frame: &FieldFrame) {
+        let inferred = self.highest(LayerKind::Intention, frame);
+        let (Some(open), Some(action)) = (&mut self.open, self.trial.actions.last_mut()) else { return };
+        if truth.turn_cycle == 0 || action.grasp_ms.is_some() {
             return;
-        };
-        let requests = matches!(rule.act, Act::Gesture(_));
-        let error = match truth.error {
-            error if error == PartnerError::None as u32 => None,
-            error if error == PartnerError::AtHand as u32 => Some(ErrorKind::AtHand),
-            _ if requests => Some(ErrorKind::Requested),
-            error if error == PartnerError::Done as u32 => Some(ErrorKind::Done),
-            _ => Some(ErrorKind::Early),
-        };
-        let counts = |meaning: &Population| match error {
-            None => false,
-            // A gesture names no part, so that any error counts.
-            Some(ErrorKind::AtHand | ErrorKind::Requested) => meaning.role != Role::Loss,
-            Some(ErrorKind::Early) => meaning.role == Role::Goal && meaning.subgoal == Some(subgoal),
-            Some(ErrorKind::Done) => meaning.role == Role::Done && meaning.subgoal == Some(subgoal),
-        };
-        let row = self.plan.layer(LayerKind::ErrorMonitoring).populations.clone();
-        let errors = row.filter(|&index| counts(&self.plan.populations[index])).collect();
-        self.open = Some(OpenAction { goal: self.plan.goal(chain, subgoal), errors });
+        }
+        if action.turn.is_none() {
+            let decided = frame.decision.action as usize;
+            action.turn = Some(TurnedReach {
+                turned_ms: truth.turn_cycle,
+                headed_ms: None,
+                chain_before: action.chain.clone(),
+                subgoal_before: action.subgoal.clone(),
+                inferred_before: inferred.is_some() && inferred == open.goal,
+                decided_before: open.answer == Some(decided),
+                followed_ms: None,
+            });
+            let Some(meant) = meant(self.task, self.plan, truth) else { return };
+            (action.chain, action.subgoal, action.error) = (meant.chain, meant.subgoal, meant.error);
+            *open = meant.open;
+        }
+        let stands = inferred.is_some() && inferred == open.goal;
+        open.stands_since = stands.then(|| open.stands_since.unwrap_or(truth.header.cycle));
+        if let Some(turn) = &mut action.turn {
+            turn.headed_ms = Some(truth.heading_cycle).filter(|cycle| *cycle > 0);
+            turn.followed_ms = open.stands_since;
+        }
+    }
+
+    fn begin(&mut self, truth: &Truth) {
+        let Some(Meant { open, chain, subgoal, error }) = meant(self.task, self.plan, truth) else { return };
+        self.open = Some(open);
         self.trial.actions.push(PartnerAction {
             number: truth.actions,
-            chain: format!("{}: {}", rule.name, self.task.kinds[rule.kind].name),
-            subgoal: goal.name.clone(),
+            chain,
+            subgoal,
             error,
             hidden: truth.hidden != 0,
             onset_ms: truth.onset_cycle,
@@ -189,6 +194,7 @@ impl<'a> TrialRecorder<'a> {
             detected_ms: None,
             detection: None,
             fields: Vec::new(),
+            turn: None,
         });
     }
 

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_evaluation::{
-    Ablation, Campaign, EvaluationReport, NetworkVariant, Trial, draw_fluency, draw_leads, run,
+    Ablation, Campaign, EvaluationReport, Inference, NetworkVariant, Trial, draw_fluency, draw_leads, run,
 };
 use coact_joint_task::NetworkPlan;
 use coact_messages::LayerKind;
@@ -106,6 +106,37 @@ fn hidden_actions_have_rows_of_their_own() {
     assert_eq!(inferred.map(|proportion| proportion.of), [valid(true); 3]);
     assert_eq!(inferred.iter().map(|proportion| proportion.count).sum::<usize>(), valid(true));
     assert_eq!(report.false_alarms.of, valid(true) + valid(false));
+}
+
+#[test]
+fn reaches_in_which_the_mind_was_changed_are_judged_by_the_new_goal() {
+    let network = NetworkVariant::default();
+    let trials = trials("random:changes=1,hidden=0,words=0,withdraws=0", &network, 3, 2);
+    let report = EvaluationReport::new(&network, &trials);
+    let actions = || trials.iter().flat_map(|trial| &trial.actions);
+    let grasped: Vec<_> = actions().filter(|own| own.turn.is_some() && own.grasp_ms.is_some()).collect();
+    let counted = [report.changes_of_mind, report.changes_to_errors]
+        .iter()
+        .flatten()
+        .map(|changes| changes.followed_in_time.of)
+        .sum::<usize>();
+    assert!(counted >= 5 && counted == grasped.len(), "{counted} counted, {} made", grasped.len());
+    for action in grasped {
+        let turn = action.turn.as_ref().unwrap();
+        assert_ne!((&action.chain, &action.subgoal), (&turn.chain_before, &turn.subgoal_before));
+        assert!((action.onset_ms..action.grasp_ms.unwrap()).contains(&turn.turned_ms), "{action:?}");
+        // What stands until the grasp, and the verdict at the grasp, are one.
+        assert_eq!(turn.followed_ms.is_some(), action.inference == Some(Inference::Right), "{action:?}");
+    }
+}
+
+#[test]
+fn nobody_changes_the_mind_who_is_not_said_to() {
+    let network = NetworkVariant::default();
+    let trials = trials("random", &network, 2, 2);
+    let report = EvaluationReport::new(&network, &trials);
+    assert!(trials.iter().flat_map(|trial| &trial.actions).all(|action| action.turn.is_none()));
+    assert_eq!((report.changes_of_mind, report.changes_to_errors), (None, None));
 }
 
 #[test]

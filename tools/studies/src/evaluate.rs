@@ -29,6 +29,8 @@ use std::process::ExitCode;
   coact evaluate --baseline unguarded                 what keeping clear of the person costs
   coact evaluate --ablate oml                         without object memory
   coact evaluate --partner random:goal=0.2,clarity=0.3..1
+  coact evaluate --partner random:changes=0.5         who changes the mind in mid-reach, and how soon
+                                                      the robot follows
   coact evaluate --layout random                      parts lie elsewhere in each
   coact evaluate --movement recorded                  the hand reaches as recorded people did
   coact evaluate --task a.toml b.toml --trials 20     ten of each task
@@ -43,6 +45,8 @@ Keys of random, after a colon, separated by commas:
   dropouts                    bursts per second in which the tracker loses the hand
   withdraws, late             fractions of handovers: the person lets go, or takes back, too early;
                               the person comes 2 to 6 s late for the part
+  changes                     fraction of valid reaches to a part in which the person changes the mind
+                              in mid-reach: the hand turns to another part
   movement=LOW..HIGH          movement time of a reach, ms
 
 Exit status: 0, or 2 for bad usage or configuration.")]

@@ -1,7 +1,7 @@
 //! The metrics of an evaluation as a table.
 
 use super::Evaluation;
-use coact_evaluation::{Comparison, Estimate, EvaluationReport, Proportion};
+use coact_evaluation::{ChangesOfMind, Comparison, Estimate, EvaluationReport, Proportion, Spread};
 use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 
 /// Prints all metrics, beside those of the baseline if there is one.
@@ -57,8 +57,6 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
     let millimetres =
         |length: Option<f64>| length.map_or("-".into(), |length| format!("{:.0}", 1e3 * length));
     let percent = |fraction: Option<Estimate>| interval(fraction, 100.0, 1, " %");
-    let lead =
-        report.lead_ms.map_or("-".into(), |lead| format!("{:.0} {:.0} {:.0}", lead.p5, lead.p50, lead.p95));
     let mut rows = vec![
         row("completed", proportion(&report.completed)),
         row("deadlocks", proportion(&report.deadlocks)),
@@ -80,7 +78,7 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
         row("  wrongly, hidden hands", proportion(&report.wrong_of_hidden)),
         row("  not, hidden hands", proportion(&report.absent_of_hidden)),
         row("answer decided before grasp", proportion(&report.anticipated)),
-        row("decision lead p5 p50 p95, ms", lead),
+        row("decision lead p5 p50 p95, ms", spread(report.lead_ms)),
         row("  mean", interval(report.mean_lead_ms, 1.0, 0, "")),
     ];
     for tally in &report.errors {
@@ -100,7 +98,43 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
         row("functional delay of answers, ms", interval(report.answer_delay_ms, 1.0, 1, "")),
         row("person waits within actions", percent(report.human_waits)),
     ]);
+    for (changes, to) in
+        [(report.changes_of_mind, "mind changed"), (report.changes_to_errors, "mind changed to a mistake")]
+    {
+        rows.extend(changes.iter().flat_map(|changes| rows_of_changes(changes, to)));
+    }
     rows
+}
+
+/// Name and value of every metric of changes of mind in mid-reach.
+fn rows_of_changes(changes: &ChangesOfMind, to: &str) -> Vec<(String, String)> {
+    let mut rows = vec![
+        (format!("{to}: first goal inferred before the turn"), proportion(&changes.inferred_before)),
+        ("  its answer decided".into(), proportion(&changes.decided_before)),
+        ("  new goal inferred within 150 ms of the turn".into(), proportion(&changes.followed_in_time)),
+        ("    from the turn p5 p50 p95, ms".into(), spread(changes.delay_ms)),
+        (
+            "    where the first goal was inferred before".into(),
+            proportion(&changes.followed_in_time_of_inferred),
+        ),
+        ("    from the turn p5 p50 p95, ms".into(), spread(changes.delay_of_inferred_ms)),
+        ("  not at grasp".into(), proportion(&changes.never_followed)),
+        ("    but another one".into(), proportion(&changes.wrong)),
+        ("  hand heads for the new part, from the turn p5 p50 p95, ms".into(), spread(changes.heading_ms)),
+        ("    goal inferred within 150 ms of that".into(), proportion(&changes.followed_heading_in_time)),
+        ("    from that p5 p50 p95, ms".into(), spread(changes.delay_after_heading_ms)),
+    ];
+    if changes.answered_in_time.of > 0 {
+        rows.extend([
+            ("  new answer decided within 150 ms of the turn".into(), proportion(&changes.answered_in_time)),
+            ("    from the turn p5 p50 p95, ms".into(), spread(changes.answer_delay_ms)),
+        ]);
+    }
+    rows
+}
+
+fn spread(spread: Option<Spread>) -> String {
+    spread.map_or("-".into(), |Spread { p5, p50, p95 }| format!("{p5:.0} {p50:.0} {p95:.0}"))
 }
 
 fn proportion(proportion: &Proportion) -> String {
