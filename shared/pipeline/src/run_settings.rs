@@ -78,6 +78,16 @@ pub enum WorldMode {
     Kinematic,
 }
 
+impl WorldMode {
+    /// As it is given and told.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Physics => "physics",
+            Self::Kinematic => "kinematic",
+        }
+    }
+}
+
 impl std::str::FromStr for WorldMode {
     type Err = String;
 

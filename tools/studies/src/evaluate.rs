@@ -20,7 +20,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Runs whole assemblies in lockstep with the kinematic world, on all cores, and counts what the robot understood.
+/// Runs whole assemblies in lockstep, on all cores, and counts what the robot understood.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   coact evaluate                                      100 with a partner who errs now and then
@@ -33,6 +33,7 @@ use std::process::ExitCode;
                                                       the robot follows
   coact evaluate --layout random                      parts lie elsewhere in each
   coact evaluate --movement recorded                  the hand reaches as recorded people did
+  coact evaluate --world physics --trials 20          with contact forces; takes longer
   coact evaluate --task a.toml b.toml --trials 20     ten of each task
 
 Keys of random, after a colon, separated by commas:
@@ -61,6 +62,9 @@ pub struct Args {
     /// read by a model of preshaping that was made without them
     #[arg(long, value_enum, default_value = "minimum-jerk")]
     movement: Moved,
+    /// How the world computes: kinematic (no contact forces), or physics
+    #[arg(long, default_value = "kinematic")]
+    world: WorldMode,
     /// How many assemblies
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..))]
     trials: u64,
@@ -157,6 +161,7 @@ struct Evaluation {
     tasks: Vec<String>,
     layout: Laid,
     movement: Moved,
+    world: WorldMode,
     partner: String,
     seed: u64,
     trials: u64,
@@ -207,6 +212,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         tasks,
         layout: args.layout,
         movement: args.movement,
+        world: args.world,
         partner: settings.partner.clone(),
         seed: args.seed,
         trials: args.trials,
@@ -259,7 +265,7 @@ fn settings(args: &Args) -> Result<RunSettings> {
         },
         seed: args.seed,
         partner: partner::setting(&args.partner, &reaches),
-        world: WorldMode::Kinematic,
+        world: args.world,
         ..shipped
     })
 }

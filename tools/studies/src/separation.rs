@@ -91,10 +91,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     if args.seed.checked_add(count).is_none() {
         bail!("--seed {}: too large for {count} encounters", args.seed);
     }
-    let (world, name) = match args.physics {
-        true => (WorldMode::Physics, "physics"),
-        false => (WorldMode::Kinematic, "kinematic"),
-    };
+    let world = if args.physics { WorldMode::Physics } else { WorldMode::Kinematic };
     let settings = RunSettings { seed: args.seed, world, ..RunSettings::shipped(&configuration) };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = args.threads.map_or(cores, usize::from);
@@ -104,7 +101,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let encounters = encounter(&encounters, || bar.inc(1));
     bar.finish_and_clear();
     let encounters = encounters?;
-    let separation = Separation { world: name, seed: args.seed, total: Total::of(&encounters), encounters };
+    let separation =
+        Separation { world: world.name(), seed: args.seed, total: Total::of(&encounters), encounters };
     match args.json {
         true => println!("{}", serde_json::to_string_pretty(&separation)?),
         false => tables::print(&separation, &folder),

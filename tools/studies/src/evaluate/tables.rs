@@ -6,16 +6,27 @@ use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 
 /// Prints all metrics, beside those of the baseline if there is one.
 pub(super) fn print(evaluation: &Evaluation) {
-    let Evaluation { tasks, layout, movement, partner, seed, trials, report, without, baseline, comparison } =
-        evaluation;
+    let Evaluation {
+        tasks,
+        layout,
+        movement,
+        world,
+        partner,
+        seed,
+        trials,
+        report,
+        without,
+        baseline,
+        comparison,
+    } = evaluation;
     let task = match tasks.as_slice() {
         [task] => task.clone(),
         tasks => format!("{} tasks", tasks.len()),
     };
     let lacks = without.unwrap_or_default();
-    let (layout, movement) = (layout.told(), movement.told());
+    let (layout, movement, world) = (layout.told(), movement.told(), world.name());
     println!(
-        "{task}: {trials} assemblies with {partner}{layout}{movement}, seeds from {seed}; 95 % intervals"
+        "{task}: {trials} assemblies with {partner} in the {world} world{layout}{movement}, seeds from {seed}; 95 % intervals"
     );
     let mut table = Table::new();
     table.load_style(UTF8_HORIZONTAL_ONLY);
