@@ -114,6 +114,11 @@ impl Drive {
         }
     }
 
+    /// Whether the joints' motion is part of a handover: the command that they followed last declares one.
+    pub fn hands_over(&self) -> bool {
+        self.state.last.hands_over.is_set()
+    }
+
     /// What it does, for control and the monitor.
     pub fn report(&self) -> DriveReport {
         let DriveState { setpoints, path, last, refused, mode, hold, .. } = &self.state;
@@ -144,7 +149,7 @@ impl Drive {
             Ok(setpoints) => {
                 self.state.setpoints = setpoints;
                 self.state.path.take(command);
-                self.state.last = FollowedCommand::of(&command.header);
+                self.state.last = FollowedCommand::of(command);
                 (self.state.silent, self.state.late) = (0, 0);
                 self.state.mode = DriveMode::Following;
                 true

@@ -1,24 +1,28 @@
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
-use coact_messages::Header;
+use coact_messages::{Command, Header};
 use coact_stage_state::Flag;
 
-/// Which command was followed last: what the next one must come after.
+/// Which command was followed last: what the next one must come after, and what the joints' motion is part of.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, CheckedBitPattern, NoUninit, Zeroable)]
 pub(crate) struct FollowedCommand {
     pub cycle: u64,
     sequence: u64,
     generation: u64,
+    /// Whether it declares a handover.
+    pub hands_over: Flag,
     /// Whether there was one.
     exists: Flag,
 }
 
 impl FollowedCommand {
-    pub fn of(header: &Header) -> Self {
+    pub fn of(command: &Command) -> Self {
+        let Header { cycle, sequence, generation, .. } = command.header;
         Self {
-            cycle: header.cycle,
-            sequence: header.sequence,
-            generation: header.generation.into(),
+            cycle,
+            sequence,
+            generation: generation.into(),
+            hands_over: Flag::from(command.handover != 0),
             exists: Flag::Set,
         }
     }

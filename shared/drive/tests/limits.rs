@@ -363,6 +363,30 @@ fn a_standby_that_counts_on_is_followed_at_once() {
 }
 
 #[test]
+fn the_motion_is_part_of_a_handover_as_the_command_says_that_is_followed() {
+    let mut rig = Rig::new();
+    let next = |rig: &mut Rig, handover| {
+        rig.next_good(1.0);
+        rig.command.handover = handover;
+    };
+    assert!(!rig.drive.hands_over());
+    next(&mut rig, 1);
+    rig.step(true, HoldReason::None);
+    assert!(rig.drive.hands_over());
+    let mut resumed = Drive::new(limits(), safety());
+    resumed.resume(rig.drive.state()).unwrap();
+    assert!(resumed.hands_over(), "after a restart");
+    // Bridging and braking, until it stands, are motions of the last command; what is refused declares nothing.
+    next(&mut rig, 0);
+    rig.command.position[2] = 1.0;
+    (0..10).for_each(|_| drop(rig.step(true, HoldReason::None)));
+    assert!(rig.drive.hands_over() && rig.before.mode == DriveMode::Standing as u32);
+    next(&mut rig, 0);
+    rig.step(true, HoldReason::None);
+    assert!(!rig.drive.hands_over());
+}
+
+#[test]
 fn a_repeated_command_is_counted_once() {
     let mut rig = Rig::new();
     rig.next_good(0.0);

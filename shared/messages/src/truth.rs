@@ -40,8 +40,8 @@ pub struct Truth {
     pub waiting: u32,
     /// 1 while the person's action leads behind something that hides the part, and the hand at it, from the robot. Else 0.
     pub hidden: u32,
-    /// Reserved, zero.
-    pub reserved: u32,
+    /// 1 while the command that the joints follow declares a handover, in which the robot's hand may touch the person's. Else 0.
+    pub handover: u32,
     /// Where the joints are, rad.
     pub joints: [f64; JOINTS],
     /// Where the person's shoulder, elbow, wrist and middle finger tip are, m; zeros: there is no person.
@@ -92,6 +92,7 @@ impl Plausible for Truth {
         )?;
         index("error", self.error, PartnerError::AtHand as usize + 1)?;
         index("waiting", self.waiting, 2)?;
-        index("hidden", self.hidden, 2)
+        index("hidden", self.hidden, 2)?;
+        index("handover", self.handover, 2)
     }
 }

@@ -53,7 +53,8 @@ impl SeparationMeter {
         self.report = report;
     }
 
-    /// Adds one tick, in which this command was the newest. Truth without a person's arm counts for nothing.
+    /// Adds one tick. Truth without a person's arm counts for nothing. Whether a motion is part of a handover the truth tells: `command`,
+    /// the newest one known, may be older or younger than the motion, and only its speed counts.
     pub fn tick(&mut self, truth: &Truth, command: &Command) {
         if truth.arm.as_flattened().iter().all(|number| *number == 0.0) {
             self.before = None;
@@ -64,7 +65,7 @@ impl SeparationMeter {
         self.place_links(&truth.joints);
         self.count_speed(command);
         let cycle = truth.header.cycle;
-        if command.handover == 0 {
+        if truth.handover == 0 {
             self.count_distance(cycle, &person);
         }
         self.before = Some((cycle, person));

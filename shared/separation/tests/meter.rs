@@ -95,6 +95,21 @@ fn whoever_moves_is_who_closes() {
     assert_eq!((report.robot_closing_ms, report.person_closing_ms), (1, 1), "{report:?}");
 }
 
+/// Whoever looks at the messages now and then knows an older command, or a younger one, than what the joints follow.
+#[test]
+fn whether_a_motion_is_part_of_a_handover_no_command_tells_but_the_truth() {
+    let closing_ms = |followed, known| {
+        let mut scene = Scene::with_gap(0.03);
+        let command = Box::new(Command { handover: known, ..*bytemuck::zeroed_box::<Command>() });
+        for first in [0.0, 0.001] {
+            let truth = Truth { handover: followed, ..*scene.truth(first, 0.5, 0.0) };
+            scene.meter.tick(&truth, &command);
+        }
+        scene.meter.report().robot_closing_ms
+    };
+    assert_eq!([closing_ms(1, 0), closing_ms(0, 1)], [0, 1]);
+}
+
 #[test]
 fn beyond_the_protective_separation_everybody_may_close() {
     let mut scene = Scene::with_gap(0.05);

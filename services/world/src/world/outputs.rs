@@ -69,6 +69,7 @@ impl World {
         truth.waiting = u32::from(person.phase().waits_for_robot());
         truth.joints = self.joints.position;
         truth.arm = self.person_arm();
+        truth.handover = u32::from(self.drive.hands_over());
         truth.hidden = u32::from(phase != PartnerPhase::Idle && person.occluder().is_some());
     }
 
