@@ -35,9 +35,9 @@ impl Control {
         match self.state.skill.phase() {
             SkillPhase::Idle => {}
             SkillPhase::Plan | SkillPhase::Move if self.servo.arm_stands() && self.is_taken(inputs) => {
-                // The person comes to meet a hand that does not get on: no movement begins any more.
+                // The person comes to meet a hand that does not get on: no movement begins any more but out of her hand.
                 self.state.planning.query = MovementQuery::NONE;
-                self.state.arm.braking = Flag::Set;
+                self.state.arm.rest_in_hand(self.servo.posture());
                 self.move_fingers(SkillPhase::Open);
             }
             SkillPhase::Plan => self.ask_again(inputs),

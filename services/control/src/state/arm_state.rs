@@ -13,7 +13,7 @@ pub(crate) struct ArmState {
     pub progress: PathProgress,
     /// Whether the arm brakes: a trajectory begins anew, from rest, when it stands.
     pub braking: Flag,
-    /// How far the hand was in a narrow place when the arm last braked to a stand: fraction of the way into it.
+    /// How far the hand was in a narrow place when the arm last came to rest on its way: fraction of the way into it.
     enclosed: f64,
     /// The fastest speed override that the guard admits, 0 to 1.
     pub fastest: f64,
@@ -46,6 +46,12 @@ impl ArmState {
     pub fn rest(&mut self, posture: Posture) {
         self.enclosed = self.enclosed();
         self.follow(&ArmTrajectory::resting(posture));
+    }
+
+    /// The same where the person's hand has come to meet the robot's: however short of its goal that is, it leads out of her hand.
+    pub fn rest_in_hand(&mut self, posture: Posture) {
+        self.rest(posture);
+        self.enclosed = 1.0;
     }
 
     /// State of the arm `ahead` s from now, at the trajectory's planned speed.

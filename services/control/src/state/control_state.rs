@@ -54,10 +54,12 @@ impl ControlState {
 
     /// Whether a handover is declared for `t` s after the start of the trajectory, in which the robot's hand may touch the
     /// person's: where it receives what the person gives, where its fingers take their shape for that, where it brings a part to the
-    /// person's hand and lets it go, and while it leaves that hand. On the way there it keeps clear of it.
+    /// person's hand and lets it go, while it stands there and the next movement is planned, and while it leaves that hand. On the way
+    /// there it keeps clear of it.
     pub fn may_touch_person(&self, t: f64) -> bool {
-        let leaves = self.hand.hands_over.is_set() && self.arm.trajectory.is_leaving(t);
-        leaves
+        let stays = matches!(self.skill.phase(), SkillPhase::Idle | SkillPhase::Plan) && self.arm.is_at_end();
+        let leaves = stays || self.arm.trajectory.is_leaving(t);
+        (self.hand.hands_over.is_set() && leaves)
             || match self.skill.skill {
                 Skill::Receive => !self.skill.stops_before.is_set() || self.waits_for_fingers(),
                 Skill::Give => self.arm.trajectory.is_approach(t) || self.skill.phase() == SkillPhase::Open,
@@ -103,4 +105,28 @@ impl ControlState {
 /// Arm and fingers of a row of all joints.
 pub(crate) fn split(position: [f64; JOINTS]) -> (Posture, [f64; FINGER_JOINTS]) {
     (std::array::from_fn(|joint| position[joint]), std::array::from_fn(|joint| position[ARM_JOINTS + joint]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_handover_lasts_while_the_hand_stands_in_the_persons_and_until_it_has_left() {
+        let mut state = ControlState::at_rest([0.1; JOINTS]);
+        state.skill.skill = Skill::Give;
+        state.arm.rest_in_hand([0.1; ARM_JOINTS]);
+        assert_eq!(state.arm.enclosed(), 1.0, "the next movement leads out");
+        let mut declared = |skill, phase| {
+            state.skill.skill = skill;
+            state.skill.enter(phase);
+            state.note_handover();
+            state.may_touch_person(0.0)
+        };
+        assert!(!declared(Skill::Give, SkillPhase::Plan), "not there yet");
+        assert!(declared(Skill::Give, SkillPhase::Open));
+        assert!(declared(Skill::Give, SkillPhase::Idle) && declared(Skill::Steady, SkillPhase::Plan));
+        // A movement that leaves nothing ends it.
+        assert!(!declared(Skill::Steady, SkillPhase::Move) && !declared(Skill::Steady, SkillPhase::Plan));
+    }
 }
