@@ -14,6 +14,10 @@ fn step(criterion: &mut Criterion) {
     let mut percept: Box<Percept> = bytemuck::zeroed_box();
     percept.workspace[1].seen[..4].fill(1.0);
     percept.act[0] = 1.0;
+    percept.destinations.told = 1.0;
+    for (kind, fit) in [1.0, 0.5, 0.2, 0.1].into_iter().enumerate() {
+        percept.destinations.push(Some(kind), [-1.0, 0.1 * kind as f64], fit);
+    }
     let (mut now, mut next): (Box<FieldFrame>, Box<FieldFrame>) =
         (bytemuck::zeroed_box(), bytemuck::zeroed_box());
     network.rest(&mut now);

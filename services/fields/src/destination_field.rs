@@ -32,31 +32,43 @@ impl DestinationField {
         self.field.step(dt, &now[..sites], &self.input, self.plan.resting, &mut next[..sites]);
     }
 
-    /// A Gaussian of input at each place. Places hold each other back before the field does: each by its share of all that the
-    /// movement may lead to (divisive normalisation, Carandini and Heeger 2012).
+    /// A Gaussian of input at each place. Places hold each other back before the field does: each counts by its share of all that the
+    /// movement may lead to (divisive normalisation, Carandini and Heeger 2012), as far as that is more than mere chance.
     fn drive(&mut self, destinations: &Destinations) {
-        let all = alternatives(destinations);
+        let Alternatives { all, kinds } = Alternatives::of(destinations);
         if all <= 0.0 {
             return;
         }
-        let gain = self.plan.gain * destinations.told / all;
+        let chance = if kinds > 1 { 1.0 / kinds as f64 } else { 0.0 };
+        let gain = self.plan.gain * destinations.told / (1.0 - chance);
         let (table, sigma) = (self.plan.table, self.plan.input_sigma);
-        for (_, place, fit) in destinations.iter().filter(|(_, _, fit)| *fit > 0.0) {
-            add_gaussian(&table, place, sigma, gain * fit, &mut self.input);
+        for (_, place, fit) in destinations.iter().filter(|(_, _, fit)| *fit > chance * all) {
+            add_gaussian(&table, place, sigma, gain * (fit / all - chance), &mut self.input);
         }
     }
 }
 
-/// How well all that the movement may lead to fits: each kind counts once, however many of its parts lie there, and so does that nothing is
-/// taken.
-fn alternatives(destinations: &Destinations) -> f64 {
-    let mut of_kind = [0.0_f64; MAX_KINDS];
-    let mut nothing = 0.0_f64;
-    for (kind, _, fit) in destinations.iter() {
-        let best = kind.map_or(&mut nothing, |kind| &mut of_kind[kind]);
-        *best = best.max(fit);
+/// What the movement may lead to: each kind counts once, however many of its parts lie there, and so does that nothing is taken.
+struct Alternatives {
+    /// How well all of them fit together.
+    all: f64,
+    /// How many kinds could be taken.
+    kinds: usize,
+}
+
+impl Alternatives {
+    fn of(destinations: &Destinations) -> Self {
+        let mut of_kind = [None; MAX_KINDS];
+        let mut nothing = 0.0_f64;
+        for (kind, _, fit) in destinations.iter() {
+            match kind {
+                Some(kind) => of_kind[kind] = Some(of_kind[kind].map_or(fit, |best: f64| best.max(fit))),
+                None => nothing = nothing.max(fit),
+            }
+        }
+        let known = || of_kind.iter().copied().flatten();
+        Self { all: nothing + known().sum::<f64>(), kinds: known().count() }
     }
-    nothing + of_kind.iter().sum::<f64>()
 }
 
 /// Adds a Gaussian of this strength around `place`.
