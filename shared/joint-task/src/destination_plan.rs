@@ -1,5 +1,4 @@
-use crate::Scene;
-use coact_messages::{MAX_PLACES, TableGrid};
+use coact_messages::TableGrid;
 use coact_neural_field::{Axis, Gaussian, Interaction, Lattice, MetricConstants, ParameterError};
 use std::f64::consts::TAU;
 
@@ -46,26 +45,4 @@ impl DestinationPlan {
             .with(excitation)?
             .with_inhibition_everywhere(self.inhibition / area))
     }
-}
-
-/// How far the field reaches beyond workspaces, handover place and resting hand, m: peaks at its edge are whole. Chosen by hand.
-const BEYOND: f64 = 0.10;
-
-/// Sites at this distance, m, over all places that a hand may go to; `None` if there are more than a frame holds.
-pub(crate) fn over_the_table(scene: &Scene, spacing: f64) -> Option<TableGrid> {
-    let corners = scene.workspace.into_iter().flatten();
-    let places = corners.chain([scene.handover, scene.person_rest].map(|[x, y, _]| [x, y]));
-    let places: Vec<[f64; 2]> = places.collect();
-    let along = |axis: usize| {
-        let most = places.iter().map(|place| place[axis]).fold(f64::NEG_INFINITY, f64::max);
-        let least = places.iter().map(|place| place[axis]).fold(f64::INFINITY, f64::min);
-        Axis::open(least - BEYOND, most + BEYOND, spacing)
-    };
-    let [x, y] = [along(0), along(1)];
-    let fits = x.sites.saturating_mul(y.sites) <= MAX_PLACES;
-    fits.then(|| TableGrid {
-        first: [x.origin, y.origin],
-        spacing,
-        sites: [x, y].map(|axis| axis.sites as u32),
-    })
 }

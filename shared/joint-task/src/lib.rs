@@ -28,6 +28,7 @@ mod action;
 mod agent;
 mod chain;
 mod check;
+mod destination_field;
 mod destination_plan;
 mod fixture;
 mod gesture;

@@ -1,15 +1,15 @@
 //! From the network file's rules and a task to layers, populations and synapses.
 
-use crate::destination_plan::{DestinationPlan, over_the_table};
-use crate::network_file::{DestinationsEntry, KernelEntry, LayerEntry, NetworkFile};
+use crate::destination_field::destination_field;
+use crate::network_file::{KernelEntry, LayerEntry, NetworkFile};
 use crate::network_plan::{LayerPlan, NetworkPlan};
 use crate::percept_channels::channels;
 use crate::population::{Population, populations};
 use crate::source_file::SourceFile;
 use crate::synapse_rules::SynapseRules;
 use crate::{Task, TaskError};
-use coact_messages::{LayerKind, MAX_PLACES, MAX_POPULATIONS, MAX_SITES};
-use coact_neural_field::{Forgetting, Kernel, MetricConstants, Parameters};
+use coact_messages::{LayerKind, MAX_POPULATIONS, MAX_SITES};
+use coact_neural_field::{Forgetting, Kernel, Parameters};
 use std::hash::{DefaultHasher, Hasher};
 use std::ops::Range;
 use std::path::Path;
@@ -17,11 +17,9 @@ use std::path::Path;
 /// Fewest sites of a population: fewer do not hold the middle of its input, a Gaussian of some sites' width. Chosen by
 /// hand; the shipped networks have 10.
 const LEAST_SITES: usize = 6;
-/// Finest destination field, m: finer, no table would fit.
-const LEAST_SPACING: f64 = 0.01;
 /// Shortest time scale of a layer, ms: explicit Euler steps of one period follow a field's equation as long as they are at
 /// most a twentieth of tau, for slopes of the sigmoid about 5.
-const LEAST_TAU: f64 = 20.0;
+pub(crate) const LEAST_TAU: f64 = 20.0;
 
 impl NetworkPlan {
     /// Makes the network of the task file at `path` by the rules of the network file that it names.
@@ -80,63 +78,13 @@ impl Wiring<'_> {
             forgetting: rules.connect("forgetting", &self.file.forgetting)?,
             reasons: self.file.synapse.iter().map(|rule| rule.why.clone()).collect(),
             pools: self.file.synapse.iter().map(|rule| rule.pool).collect(),
-            destinations: self.destinations()?,
+            destinations: destination_field(self.source, &self.file.destinations, &self.task.scene)?,
             sites_per_population: *self.file.sites.per_population.get_ref(),
             layers,
             populations,
             channels,
             synapses,
         })
-    }
-
-    /// The destination field, checked.
-    fn destinations(&self) -> Result<DestinationPlan, TaskError> {
-        let entry = &self.file.destinations;
-        let DestinationsEntry { tau, h, slope, gain, spacing, input_sigma, ref excitation, inhibition } =
-            *entry.get_ref();
-        let refuse = |key: &str, problem: String| {
-            self.source.error(entry.span(), format!("destinations.{key}"), problem)
-        };
-        for (key, value, least) in [
-            ("tau", tau, LEAST_TAU),
-            ("spacing", spacing, LEAST_SPACING),
-            ("input_sigma", input_sigma, spacing),
-            ("excitation.sigma", excitation.sigma, spacing),
-        ] {
-            // No number is none of these.
-            if value.is_nan() || value < least {
-                return Err(refuse(key, format!("{value} is too little; expected at least {least}")));
-            }
-        }
-        for (key, value) in
-            [("gain", gain), ("inhibition", inhibition), ("excitation.strength", excitation.strength)]
-        {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(refuse(key, format!("{value} is out of range; expected 0 or more")));
-            }
-        }
-        if !(h < 0.0 && h.is_finite()) {
-            return Err(refuse("h", "expected a resting level below 0".into()));
-        }
-        let table = over_the_table(&self.task.scene, spacing).ok_or_else(|| {
-            let problem = format!(
-                "{spacing} m is too fine for the task's workspaces; expected at most {MAX_PLACES} sites around them"
-            );
-            refuse("spacing", problem)
-        })?;
-        let plan = DestinationPlan {
-            constants: MetricConstants { tau, slope, threshold: 0.0 },
-            resting: h,
-            gain,
-            input_sigma,
-            excitation: (excitation.strength, excitation.sigma),
-            inhibition,
-            table,
-        };
-        plan.constants.check().map_err(|error| refuse(error.name, error.to_string()))?;
-        plan.interaction()
-            .map_err(|error| refuse(&format!("excitation.{}", error.name), error.to_string()))?;
-        Ok(plan)
     }
 
     fn layers(&self) -> Result<(Vec<LayerPlan>, Vec<Population>), TaskError> {

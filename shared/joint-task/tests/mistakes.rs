@@ -127,11 +127,11 @@ fn time_scale_too_short_for_the_step_is_refused() {
 #[test]
 fn destination_field_that_cannot_be_is_refused() {
     for (key, wrong, expected) in [
-        ("tau = 20", "tau = 5", "destinations.tau: 5 is too little; expected at least 20"),
+        ("tau = 20", "tau = 5", "destinations.tau: 5 is too little; expected a number of at least 20"),
         (
             "spacing = 0.025",
             "spacing = 0.001",
-            "destinations.spacing: 0.001 is too little; expected at least 0.01",
+            "destinations.spacing: 0.001 is too little; expected a number of at least 0.01",
         ),
         ("spacing = 0.025", "spacing = nan", "destinations.spacing: NaN is too little"),
         (
@@ -141,7 +141,7 @@ fn destination_field_that_cannot_be_is_refused() {
         ),
         ("input_sigma = 0.025", "input_sigma = 0.001", "destinations.input_sigma: 0.001 is too little"),
         ("h = -2.0", "h = 1.0", "destinations.h: expected a resting level below 0"),
-        ("inhibition = 1.0", "inhibition = -1", "destinations.inhibition: -1 is out of range"),
+        ("inhibition = 1.0", "inhibition = -1", "destinations.inhibition: -1 is too little"),
         ("sigma = 0.025 }", "sigma = 0 }", "destinations.excitation.sigma: 0 is too little"),
         ("sigma = 0.025 }", "sigma = 1e9 }", "destinations.excitation.sigma: sigma is 1000000000"),
     ] {

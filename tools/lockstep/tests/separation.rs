@@ -28,7 +28,7 @@ fn measured(world: WorldMode) -> [SeparationReport; 2] {
         late.tick(&stages.truth, &seen);
         handovers += u64::from(followed > handed_over);
         handed_over = followed;
-        if stages.ticks() % HELD_UP == 0 {
+        if stages.ticks().is_multiple_of(HELD_UP) {
             seen.clone_from(&stages.command);
         }
     }
