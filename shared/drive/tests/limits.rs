@@ -379,7 +379,9 @@ fn the_motion_is_part_of_a_handover_as_the_command_says_that_is_followed() {
     // Bridging and braking, until it stands, are motions of the last command; what is refused declares nothing.
     next(&mut rig, 0);
     rig.command.position[2] = 1.0;
-    (0..10).for_each(|_| drop(rig.step(true, HoldReason::None)));
+    for _ in 0..10 {
+        rig.step(true, HoldReason::None);
+    }
     assert!(rig.drive.hands_over() && rig.before.mode == DriveMode::Standing as u32);
     next(&mut rig, 0);
     rig.step(true, HoldReason::None);
