@@ -1,7 +1,9 @@
 //! `tools/watch-layer.py` reads the messages as they are laid out now.
 #![allow(clippy::unwrap_used)]
 
-use coact_messages::{FieldFrame, LAYOUT, LayerKind, MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, NONE};
+use coact_messages::{
+    FieldFrame, LAYOUT, LayerKind, MAX_LAYERS, MAX_PLACES, MAX_POPULATIONS, MAX_SITES, NONE,
+};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -14,7 +16,9 @@ fn the_python_client_has_the_constants_of_the_messages() {
     let program = std::fs::read_to_string(client()).unwrap();
     for line in [
         format!("LAYOUT = {LAYOUT}"),
-        format!("MAX_LAYERS, MAX_POPULATIONS, MAX_SITES = {MAX_LAYERS}, {MAX_POPULATIONS}, {MAX_SITES}"),
+        format!(
+            "MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, MAX_PLACES = {MAX_LAYERS}, {MAX_POPULATIONS}, {MAX_SITES}, {MAX_PLACES}"
+        ),
         format!("NONE = 0x{:04X}_{:04X}", NONE >> 16, NONE & 0xFFFF),
         // On its command line a layer is one word.
         format!("LAYERS = {:?}", LayerKind::ALL.map(|layer| layer.name().replace(' ', "-"))),
