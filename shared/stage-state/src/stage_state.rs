@@ -117,7 +117,7 @@ const fn mark<S: StageState>() -> u64 {
     mixed(mixed(hash, S::LAYOUT as u64), size_of::<S>() as u64)
 }
 
-/// FNV-1a by words. In four strands, so that the processor mixes four words in the time of one: a state of 2000 words is stored
+/// FNV-1a by words, with a shift. In four strands, so that the processor mixes four words in the time of one: a state of 2000 words is stored
 /// in each cycle.
 pub fn checksum(words: &[u64]) -> u64 {
     let mut strands = [1_u64, 2, 3, 4].map(|strand| mixed(BASIS, strand));
@@ -131,7 +131,9 @@ pub fn checksum(words: &[u64]) -> u64 {
 }
 
 const fn mixed(hash: u64, value: u64) -> u64 {
-    (hash ^ value).wrapping_mul(0x100_0000_01b3)
+    let product = (hash ^ value).wrapping_mul(0x100_0000_01b3);
+    // FNV alone carries a word's highest bit nowhere: two numbers whose signs change would hide each other.
+    product ^ (product >> 32)
 }
 
 fn read<S: StageState>(words: &[u64]) -> Option<S> {

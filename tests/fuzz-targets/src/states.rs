@@ -51,9 +51,10 @@ pub(crate) fn fields(bytes: &[u8]) -> bool {
 }
 
 /// The bits of what the next frame is computed from.
-fn rows(frame: &FieldFrame) -> [&[u64]; 4] {
+fn rows(frame: &FieldFrame) -> [&[u64]; 5] {
     let (sites, populations) = (frame.layers.used_sites(), frame.layers.used_populations());
     [
+        bytemuck::cast_slice(&frame.destination[..frame.table.used()]),
         bytemuck::cast_slice(&frame.activity[..sites]),
         bytemuck::cast_slice(&frame.resting[..populations]),
         bytemuck::cast_slice(&frame.signal[..populations]),
