@@ -29,8 +29,7 @@ use std::process::ExitCode;
   coact evaluate --baseline unguarded                 what keeping clear of the person costs
   coact evaluate --ablate oml                         without object memory
   coact evaluate --partner random:goal=0.2,clarity=0.3..1
-  coact evaluate --partner random:changes=0.5         who changes the mind in mid-reach, and how soon
-                                                      the robot follows
+  coact evaluate --partner random:changes=0.5         who changes the mind in mid-reach
   coact evaluate --layout random                      parts lie elsewhere in each
   coact evaluate --movement recorded                  the hand reaches as recorded people did
   coact evaluate --world physics --trials 20          with contact forces; takes longer
