@@ -69,7 +69,7 @@ impl Network {
         out.signal.fill(0.0);
         out.since.fill(0);
         out.decision = Decision { action: NONE, reserved: 0, since: 0 };
-        out.destination.fill(self.plan.destinations.resting);
+        out.destination[..self.plan.destinations.table.used()].fill(self.plan.destinations.resting);
         for layer in &self.plan.layers {
             let SiteRange { first, last } = sites(layer, width);
             out.activity[first..last].fill(layer.resting);
