@@ -24,12 +24,25 @@ impl DestinationField {
 
     /// One step of `dt` ms from the activity `now` to `next`, driven by what is told of the hand's movement, if anything is.
     pub fn step(&mut self, dt: f64, told: Option<&Destinations>, now: &[f64], next: &mut [f64]) {
+        let sites = self.input.len();
+        let (now, next) = (&now[..sites], &mut next[..sites]);
+        let told = told.filter(|destinations| destinations.told > 0.0);
+        if told.is_none() && self.is_quiet(now) {
+            let rate = dt / self.plan.constants.tau;
+            next.iter_mut().zip(now).for_each(|(next, u)| *next = u + rate * (self.plan.resting - u));
+            return;
+        }
         self.input.fill(0.0);
-        if let Some(destinations) = told.filter(|destinations| destinations.told > 0.0) {
+        if let Some(destinations) = told {
             self.drive(destinations);
         }
-        let sites = self.input.len();
-        self.field.step(dt, &now[..sites], &self.input, self.plan.resting, &mut next[..sites]);
+        self.field.step(dt, now, &self.input, self.plan.resting, next);
+    }
+
+    /// Whether all sites are so far below threshold that none acts on another one: there f(u) is below a hundredth. Without input they only
+    /// go back to rest then, at a tenth of the cost.
+    fn is_quiet(&self, now: &[f64]) -> bool {
+        now.iter().fold(f64::NEG_INFINITY, |most, u| most.max(*u)) < 0.5 * self.plan.resting
     }
 
     /// A Gaussian of input at each place. Places hold each other back before the field does: each counts by its share of all that the
