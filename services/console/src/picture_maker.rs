@@ -305,14 +305,15 @@ impl PictureMaker {
 
 /// Where the destination field is active.
 fn draw_destinations(frame: Option<&FieldFrame>, numbers: &mut Numbers) {
-    let sites = frame.map_or(&[][..], |frame| &frame.destination[..frame.table.used()]);
+    let Some(frame) = frame else { return numbers.unknown(3 * PictureMaker::WARMEST) };
+    let sites = &frame.destination[..frame.table.used()];
     let resting = sites.iter().copied().fold(f64::INFINITY, f64::min);
     let active = sites.iter().enumerate().filter(|(_, activity)| **activity > 0.5 * resting);
     let mut active: Vec<(usize, f64)> = active.map(|(site, activity)| (site, *activity)).collect();
     active.sort_by(|one, other| other.1.total_cmp(&one.1));
     active.truncate(PictureMaker::WARMEST);
     for (site, activity) in &active {
-        let [x, y] = frame.map_or([f64::NAN; 2], |frame| frame.table.place(*site));
+        let [x, y] = frame.table.place(*site);
         numbers.extend(&[x, y, *activity]);
     }
     numbers.unknown(3 * (PictureMaker::WARMEST - active.len()));

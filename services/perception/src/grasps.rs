@@ -6,7 +6,7 @@ use crate::present_movement::PresentMovement;
 use crate::preshape::{Classifier, LAST_READ};
 use crate::reaching::{HANDOVER, MovementReader, PLACES};
 use coact_joint_task::{PersonGrip, Task};
-use coact_messages::{MAX_KINDS, PERSON, Percept};
+use coact_messages::{MAX_KINDS, MAX_PARTS, PERSON, Percept};
 use nalgebra::{Vector2, Vector3};
 use std::cmp::Ordering;
 
@@ -71,7 +71,9 @@ impl Grasps {
         out.told = 0.0;
         let Some(movement) = movement else { return };
         out.count = 0;
-        let targets = || self.targets(movement, state, places);
+        let mut found = [None; MAX_PARTS];
+        found.iter_mut().zip(self.targets(movement, state, places)).for_each(|(slot, own)| *slot = Some(own));
+        let targets = || found.iter().copied().flatten();
         let Some(best) = targets().max_by(TargetMatch::by_likelihood) else { return };
         let Reading { trust, gate, sharpness, fit } = reading(movement, &best, state, classifier);
         out.told = (1.0 - held) * gate;
