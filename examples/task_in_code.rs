@@ -67,7 +67,8 @@ fn task() -> Task {
         socket: [x, 0.3, 0.89],
         axis: [0.0, 0.0, 1.0],
         steadied,
-        after: Vec::new(), // subgoals that must be achieved before
+        after: Vec::new(),         // subgoals that must be achieved before
+        after_choices: Vec::new(), // choices that must be made before
     };
     let action = |rule: &str, action_type, subgoal| Action {
         name: format!("{rule} the block"),
@@ -86,6 +87,7 @@ fn task() -> Task {
             subgoal("block on the person's side", Agent::Person, -0.69, true),
             subgoal("block on the robot's side", Agent::Robot, -0.55, false),
         ],
+        choices: Vec::new(),
         grips: vec![grip("top", -75.0), grip("side", -10.0)],
         gestures: Vec::new(),
         acts: vec![

@@ -9,7 +9,7 @@ const SURE = 0.5;
 export class Plan {
   constructor(hello) {
     this.hello = hello;
-    /** Of each subgoal: "done", "open" or "later". */
+    /** Of each subgoal: "done", "open", "later", or "spared" where another one was chosen. */
     this.states = hello.task.subgoals.map(() => "later");
     const items = hello.task.subgoals.map(({ name, side }) => element("li", `${name} \u2014 ${side === "person" ? "yours" : "the robot's"}`));
     document.getElementById("plan").replaceChildren(...items);
@@ -28,8 +28,12 @@ export class Plan {
     if (!layer) return;
     const items = document.getElementById("plan").children;
     const isDone = (index) => populations[3 * (layer.first + index)] > SURE;
-    this.hello.task.subgoals.forEach(({ after }, index) => {
-      const state = isDone(index) ? "done" : after.every(isDone) ? "open" : "later";
+    const isMade = ({ of, count }) => of.filter(isDone).length >= count;
+    const { subgoals, choices } = this.hello.task;
+    const isSpared = (index) => choices.some((choice) => choice.spares.includes(index) && isMade(choice));
+    const isOpen = ({ after }) => after.subgoals.every(isDone) && after.choices.every((choice) => isMade(choices[choice]));
+    subgoals.forEach((subgoal, index) => {
+      const state = isDone(index) ? "done" : isSpared(index) ? "spared" : isOpen(subgoal) ? "open" : "later";
       this.states[index] = state;
       if (items[index].dataset.state !== state) items[index].dataset.state = state;
     });

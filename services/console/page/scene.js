@@ -54,7 +54,7 @@ export class Scene {
     this.gl?.clear(this.gl.COLOR_BUFFER_BIT);
   }
 
-  /** @param {object} picture what `readPicture` gives; `states` says of each subgoal whether it is "done", "open" or "later" */
+  /** @param {object} picture what `readPicture` gives; `states` says of each subgoal whether it is "done", "open", "later" or "spared" */
   draw(picture, states) {
     if (this.canvas.clientWidth === 0) return;
     if (!this.forms) return this.words.say("This browser draws no three dimensions (WebGL 2). Everything else works.");

@@ -1,6 +1,6 @@
 use crate::PictureMaker;
 use crate::supervisor_link::tasks;
-use coact_joint_task::{Act, Agent, Chain, NetworkPlan, Shape, Subgoal, Task};
+use coact_joint_task::{Act, Agent, Chain, Choice, NetworkPlan, Shape, Subgoal, Task};
 use coact_messages::{LayerKind, MotionPhase};
 use coact_motion::{Capsule, Solid};
 use coact_pipeline::{Pipeline, RunSettings, Trigger};
@@ -95,15 +95,22 @@ fn of_task(task: &Task) -> Value {
         Shape::Box { size } => json!({ "box": size }),
     };
     let kinds = task.kinds.iter().map(|kind| json!({ "name": kind.name, "shape": shape(kind.shape) }));
-    let subgoals = task.subgoals.iter().map(|Subgoal { name, kind, side, socket, axis, after, .. }| {
-        let socket = json!({ "at": socket, "axis": axis });
-        json!({ "name": name, "kind": kind, "side": agent(*side), "after": after, "socket": socket })
+    let subgoals = task.subgoals.iter().map(
+        |Subgoal { name, kind, side, socket, axis, after, after_choices, .. }| {
+            let socket = json!({ "at": socket, "axis": axis });
+            let after = json!({ "subgoals": after, "choices": after_choices });
+            json!({ "name": name, "kind": kind, "side": agent(*side), "after": after, "socket": socket })
+        },
+    );
+    let choices = task.choices.iter().map(|Choice { name, of, count, spares }| {
+        json!({ "name": name, "of": of, "count": count, "spares": spares })
     });
     let postures = |name: &str, pitch: f64| json!({ "name": name, "pitch_deg": pitch.to_degrees() });
     let scene = &task.scene;
     json!({
         "kinds": kinds.collect::<Vec<_>>(),
         "subgoals": subgoals.collect::<Vec<_>>(),
+        "choices": choices.collect::<Vec<_>>(),
         "actions": task.actions.iter().map(|action| &action.name).collect::<Vec<_>>(),
         "grips": task.grips.iter().map(|grip| postures(&grip.name, grip.pitch)).collect::<Vec<_>>(),
         "gestures": task.gestures.iter().map(|gesture| postures(&gesture.name, gesture.pitch)).collect::<Vec<_>>(),

@@ -78,7 +78,7 @@ impl Findings<'_> {
             tracking_error_rad: tracking,
             movement_reaction_ms: reaction,
             anticipation: AnticipationReport::new(events),
-            task: TaskReport::new(task.subgoals.len(), events, duration_s),
+            task: TaskReport::new(|achieved| task.needed(achieved), events, duration_s),
             refused: ignored(metrics, refused.map(u64::from)),
             operator_stops,
             faults: FaultReport::all(events, start_ns),

@@ -60,7 +60,7 @@ impl TaskWatch {
                 events.push(Event::Subgoal { at_ms, assembly, subgoal, name });
             }
         }
-        if self.achieved.count_ones() as usize == self.task.subgoals.len() {
+        if self.task.is_complete(self.achieved) {
             self.complete(truth.assemblies + 1, at_ms, events);
         }
     }

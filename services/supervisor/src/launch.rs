@@ -181,7 +181,7 @@ impl Launch {
         }
         // Whatever of its log cannot be read is missing in the summary, which says that it is not complete.
         let events = RunLog::<Event>::read(report).unwrap_or_default();
-        let task = TaskReport::new(self.task.subgoals.len(), &events, 0.0);
+        let task = TaskReport::new(|achieved| self.task.needed(achieved), &events, 0.0);
         let reason = "the monitor wrote no summary: it was dead when the run ended, and nothing but its log of events is \
                       left; supervisor.jsonl says why";
         if let Err(error) = Summary::unmeasured(task, reason.into()).write(report) {

@@ -8,9 +8,9 @@ use std::time::Duration;
 /// The state of the run, as the person at the terminal sees it; each change becomes a [`Note`].
 #[derive(Debug)]
 pub struct RunProgress {
-    subgoals: Vec<String>,
-    actions: Vec<String>,
-    achieved: Vec<bool>,
+    task: Task,
+    /// Bit i is set when subgoal i is achieved.
+    achieved: u64,
     decision: Option<usize>,
     /// What the pulses of each process counted: deadline misses, of its dead generations and of the present one, and ignored
     /// messages.
@@ -38,9 +38,8 @@ impl RunProgress {
     /// Of a run of this task, at its beginning.
     pub fn new(task: &Task) -> Self {
         Self {
-            subgoals: task.subgoals.iter().map(|subgoal| subgoal.name.clone()).collect(),
-            actions: task.actions.iter().map(|action| action.name.clone()).collect(),
-            achieved: vec![false; task.subgoals.len()],
+            task: task.clone(),
+            achieved: 0,
             decision: None,
             missed: BTreeMap::new(),
             restarts: 0,
@@ -52,21 +51,24 @@ impl RunProgress {
     /// The newest field frame: achieved subgoals and decision.
     pub fn frame(&mut self, frame: &FieldFrame) {
         let populations = frame.populations(LayerKind::SubgoalsAchieved);
-        let Self { subgoals, achieved, notes, .. } = self;
-        for ((population, achieved), name) in populations.zip(achieved.iter_mut()).zip(subgoals) {
-            let now = frame.signal[population] > ACHIEVED;
-            if now && !*achieved {
-                notes.push(Note::new(NoteKind::Achieved, format!("achieved: {name}")));
+        let mut now = 0;
+        // Behind the subgoals stand the choices.
+        for (index, (population, subgoal)) in populations.zip(&self.task.subgoals).enumerate() {
+            let bit = u64::from(frame.signal[population] > ACHIEVED) << index;
+            if bit & !self.achieved != 0 {
+                self.notes.push(Note::new(NoteKind::Achieved, format!("achieved: {}", subgoal.name)));
             }
-            *achieved = now;
+            now |= bit;
         }
+        self.achieved = now;
         self.decided(usize::try_from(frame.decision.action).ok());
     }
 
     fn decided(&mut self, action: Option<usize>) {
-        let action = action.filter(|&index| index < self.actions.len());
+        let action = action.filter(|&index| index < self.task.actions.len());
         if let (Some(index), true) = (action, action != self.decision) {
-            self.notes.push(Note::new(NoteKind::Decision, format!("decides: {}", self.actions[index])));
+            self.notes
+                .push(Note::new(NoteKind::Decision, format!("decides: {}", self.task.actions[index].name)));
         }
         self.decision = action;
     }
@@ -151,9 +153,9 @@ impl RunProgress {
         self.notes.push(note);
     }
 
-    /// Every subgoal is achieved.
+    /// Every subgoal is achieved that the plan asks for.
     pub fn all_achieved(&self) -> bool {
-        !self.achieved.is_empty() && self.achieved.iter().all(|&achieved| achieved)
+        self.task.is_complete(self.achieved)
     }
 
     /// What has changed since the last call.
@@ -163,14 +165,14 @@ impl RunProgress {
 
     /// The run in one line.
     pub fn status(&self, elapsed: Duration) -> String {
-        let reached = self.achieved.iter().filter(|&&achieved| achieved).count();
+        let reached = self.achieved.count_ones();
         let missed: u64 = self.missed.values().map(|missed| missed.before + missed.now).sum();
-        let decision = self.decision.map_or("no decision", |index| &self.actions[index]);
+        let decision = self.decision.map_or("no decision", |index| &self.task.actions[index].name);
         let stopped = if self.stopped { "  STOPPED (coact resume)" } else { "" };
         format!(
             "{:>6.1} s{stopped}  subgoals {reached}/{}  missed {missed}  restarts {}  {decision}",
             elapsed.as_secs_f64(),
-            self.achieved.len(),
+            self.task.needed(self.achieved),
             self.restarts
         )
     }
@@ -205,7 +207,8 @@ mod tests {
     #[test]
     fn each_achieved_subgoal_and_each_new_decision_is_told_once() {
         let mut progress = progress();
-        let (subgoal, action) = (progress.subgoals[1].clone(), progress.actions[2].clone());
+        let (subgoal, action) =
+            (progress.task.subgoals[1].name.clone(), progress.task.actions[2].name.clone());
         for _ in 0..3 {
             progress.frame(&frame(&[0.4, 0.9], 2));
         }
@@ -220,7 +223,7 @@ mod tests {
     #[test]
     fn all_is_achieved_when_every_population_is_above_threshold() {
         let mut progress = progress();
-        let count = progress.subgoals.len();
+        let count = progress.task.subgoals.len();
         progress.frame(&frame(&vec![0.6; count], NONE));
         assert!(progress.all_achieved());
         progress.frame(&frame(&vec![0.0; count], NONE));

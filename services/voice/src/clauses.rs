@@ -47,17 +47,22 @@ pub(crate) fn announced(task: &Task, action: &Action) -> Option<String> {
     })
 }
 
-/// What is wrong with bringing about `subgoal`, by the goal that is `meant` if that stands, and what could be done instead.
+/// What is wrong with bringing about `subgoal`, by the goal that is `meant` if that stands, and what could be done instead; `achieved`: bit i
+/// is set when subgoal i is.
 pub(crate) fn objected(
     task: &Task,
     subgoal: usize,
     meant: Option<Goal>,
-    achieved: bool,
+    achieved: u64,
     available: &[usize],
 ) -> String {
     let name = &task.subgoals[subgoal].name;
-    let (mut text, next) = match (achieved, meant.map(|goal| &task.chains[goal.chain])) {
+    let is_achieved = achieved & (1 << subgoal) != 0;
+    let (mut text, next) = match (is_achieved, meant.map(|goal| &task.chains[goal.chain])) {
         (true, _) => (format!("The {name} is done already"), "now we need"),
+        _ if task.is_spared(subgoal, achieved) => {
+            (format!("Nobody needs the {name} any more"), "now we need")
+        }
         (false, Some(chain)) => {
             (format!("You cannot {} the {} yet", chain.name, task.kinds[chain.kind].name), "first we need")
         }

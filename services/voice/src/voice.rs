@@ -116,7 +116,9 @@ impl Voice {
             Some(Mistake::Goal(_)) | None => None,
         });
         if let Some(Mistake::Goal(subgoal)) = subject.error {
-            let achieved = peaks(frame, LayerKind::SubgoalsAchieved).any(|(index, _)| index == subgoal);
+            let done = peaks(frame, LayerKind::SubgoalsAchieved).map(|(index, _)| index);
+            let achieved =
+                done.filter(|&index| index < task.subgoals.len()).fold(0, |mask, index| mask | 1 << index);
             let available = peaks(frame, LayerKind::SubgoalsAvailable)
                 .map(|(index, _)| index)
                 .filter(|&index| index < task.subgoals.len())

@@ -30,7 +30,16 @@ fn chain(name: &str, answer: &str) -> Chain {
 
 fn subgoal(name: &str) -> Subgoal {
     let (name, axis, side) = (name.into(), [0.0, 0.0, 1.0], Agent::Robot);
-    Subgoal { name, kind: 0, side, socket: [0.0; 3], axis, steadied: true, after: vec![] }
+    Subgoal {
+        name,
+        kind: 0,
+        side,
+        socket: [0.0; 3],
+        axis,
+        steadied: true,
+        after: vec![],
+        after_choices: vec![],
+    }
 }
 
 /// Three subgoals; one action for each motor skill, all for the first subgoal.
@@ -49,6 +58,7 @@ fn task() -> Task {
         }],
         parts: vec![],
         subgoals: ["lid on the box", "hinge on the left", "foot below"].map(subgoal).into(),
+        choices: Vec::new(),
         grips: vec![],
         gestures: vec![],
         acts: vec![],

@@ -252,7 +252,7 @@ impl World {
     /// Lays the scene out again some time after the assembly was completed, once the robot's hand is out of the way.
     fn begin_again(&mut self, tick: u64, palm: &Palm) {
         let Self { task, parts, simulation, .. } = self;
-        if parts.achieved().count_ones() as usize != task.subgoals.len() || task.subgoals.is_empty() {
+        if !task.is_complete(parts.achieved()) {
             simulation.complete_since = 0;
             return;
         }

@@ -2,6 +2,7 @@
 
 mod actions;
 mod chains;
+mod choices;
 mod ranges;
 mod references;
 mod scene;
@@ -41,6 +42,8 @@ impl TaskReader<'_> {
     fn task(&self) -> Result<Task, TaskError> {
         let kinds = self.kinds()?;
         let subgoals = self.subgoals()?;
+        let choices = self.choices(&subgoals)?;
+        self.acyclic(&subgoals, &choices)?;
         let grips = self.grips()?;
         let gestures = self.gestures()?;
         let chains = self.chains(&kinds)?;
@@ -57,6 +60,7 @@ impl TaskReader<'_> {
             scene: scene(&self.file.scene),
             fingerprint: hash.finish(),
             kinds,
+            choices,
             subgoals,
             grips,
             gestures,

@@ -90,6 +90,7 @@ pub(crate) struct RuleEntry {
     pub pool: Pool,
     #[serde(default)]
     pub weight: f64,
+    pub times: Option<Times>,
     #[serde(default)]
     pub why: String,
 }
@@ -119,12 +120,24 @@ pub(crate) enum Attribute {
     Chain,
 }
 
+/// What a rule's weight is multiplied by.
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Times {
+    /// How many of what the target's choice offers are enough; 1 for what is no choice.
+    Count,
+}
+
 /// A relation that the task itself defines.
 #[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Relation {
     /// The plan puts the source's subgoal before the target's.
     Before,
+    /// The source's subgoal is one of those that the target's choice offers.
+    Offered,
+    /// The source's choice, once it is made, spares the target's subgoal.
+    Spares,
     /// The source's chain names the target's rule as its answer.
     Answers,
 }

@@ -1,4 +1,4 @@
-use crate::{Act, Action, Agent, Chain, Kind, Role, Task};
+use crate::{Act, Action, Agent, Chain, Choice, Kind, Role, Task};
 use coact_messages::LayerKind;
 
 /// One population of a layer, or one channel of the percept, and what it stands for in the task.
@@ -18,6 +18,8 @@ pub struct Population {
     pub gesture: Option<usize>,
     /// Index of the subgoal.
     pub subgoal: Option<usize>,
+    /// Index of the choice.
+    pub choice: Option<usize>,
     /// Whose subgoal.
     pub side: Option<Agent>,
     /// In whose workspace the part is.
@@ -45,6 +47,7 @@ impl Population {
             grip: None,
             gesture: None,
             subgoal: None,
+            choice: None,
             side: None,
             workspace: None,
             chain: None,
@@ -62,7 +65,8 @@ pub(crate) fn populations(task: &Task, layer: LayerKind) -> Vec<Population> {
         LayerKind::ActionObservation => acts(task),
         LayerKind::ObjectMemoryRobot => objects(task, Agent::Robot),
         LayerKind::ObjectMemoryPerson => objects(task, Agent::Person),
-        LayerKind::SubgoalsAchieved | LayerKind::SubgoalsAvailable => subgoals(task),
+        LayerKind::SubgoalsAchieved => subgoals(task).into_iter().chain(choices(task)).collect(),
+        LayerKind::SubgoalsAvailable => subgoals(task),
         LayerKind::ActionSimulation => chains(task),
         LayerKind::Intention => goals(task),
         LayerKind::ErrorMonitoring => errors(task),
@@ -104,6 +108,14 @@ pub(crate) fn objects(task: &Task, workspace: Agent) -> Vec<Population> {
 
 pub(crate) fn subgoals(task: &Task) -> Vec<Population> {
     (0..task.subgoals.len()).map(|index| of_subgoal(task, index)).collect()
+}
+
+fn choices(task: &Task) -> impl Iterator<Item = Population> {
+    let choice = |(index, choice): (usize, &Choice)| Population {
+        choice: Some(index),
+        ..Population::new(Role::Choice, &choice.name)
+    };
+    task.choices.iter().enumerate().map(choice)
 }
 
 /// What can be wrong: the goal (its turn has not come, or it is done already), the means (a part is asked for that is at

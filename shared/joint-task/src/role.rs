@@ -28,6 +28,8 @@ pub enum Role {
     Object,
     /// A step of the plan.
     Subgoal,
+    /// Of several steps of the plan, enough are achieved.
+    Choice,
     /// Error: the turn of the goal has not come.
     Goal,
     /// Error: the goal has been achieved already.

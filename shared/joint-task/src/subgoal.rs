@@ -17,4 +17,6 @@ pub struct Subgoal {
     pub steadied: bool,
     /// Indices of the subgoals that must be achieved before.
     pub after: Vec<usize>,
+    /// Indices of the choices that must be made before.
+    pub after_choices: Vec<usize>,
 }

@@ -1,8 +1,8 @@
-use crate::network_file::{Attribute, Relation, RuleEntry, Selector};
+use crate::network_file::{Attribute, Relation, RuleEntry, Selector, Times};
 use crate::network_plan::Synapse;
 use crate::population::Population;
 use crate::source_file::SourceFile;
-use crate::{Role, Task, TaskError};
+use crate::{Choice, Role, Subgoal, Task, TaskError};
 use coact_messages::LayerKind;
 use std::ops::Range;
 
@@ -26,7 +26,7 @@ impl SynapseRules<'_> {
             for &to in &targets {
                 let related = |&&from: &&usize| self.related(rule, &self.meanings[from], &self.meanings[to]);
                 let found: Vec<usize> = sources.iter().filter(related).copied().collect();
-                let weight = rule.weight;
+                let weight = rule.weight * self.times(rule, &self.meanings[to]);
                 synapses.extend(found.into_iter().map(|from| Synapse { from, to, weight, rule: index }));
             }
         }
@@ -54,6 +54,14 @@ impl SynapseRules<'_> {
             .collect())
     }
 
+    /// How many times a rule's weight counts for this target.
+    fn times(&self, rule: &RuleEntry, to: &Population) -> f64 {
+        match (rule.times, to.choice) {
+            (Some(Times::Count), Some(choice)) => self.choice(choice).count as f64,
+            _ => 1.0,
+        }
+    }
+
     /// Where the layers end and the channels begin.
     fn layer_end(&self) -> usize {
         self.names[LayerKind::ALL.len() - 1].1.end
@@ -68,6 +76,14 @@ impl SynapseRules<'_> {
             && match rule.relation {
                 None => true,
                 Some(Relation::Before) => self.comes_before(from, to),
+                Some(Relation::Offered) => to
+                    .choice
+                    .zip(from.subgoal)
+                    .is_some_and(|(choice, goal)| self.choice(choice).of.contains(&goal)),
+                Some(Relation::Spares) => from
+                    .choice
+                    .zip(to.subgoal)
+                    .is_some_and(|(choice, goal)| self.choice(choice).spares.contains(&goal)),
                 Some(Relation::Answers) => {
                     from.answer.is_some()
                         && from.answer == to.rule
@@ -77,11 +93,18 @@ impl SynapseRules<'_> {
             }
     }
 
-    /// Whether the plan puts the subgoal of `from` directly before that of `to`; of a population that stands for a kind
-    /// of part, before one of the subgoals that need it.
+    fn choice(&self, index: usize) -> &Choice {
+        &self.task.choices[index]
+    }
+
+    /// Whether the plan puts the subgoal or the choice of `from` directly before the subgoal of `to`; of a population that stands for
+    /// a kind of part, before one of the subgoals that need it.
     fn comes_before(&self, from: &Population, to: &Population) -> bool {
-        let Some(before) = from.subgoal else { return false };
-        let follows = |after: &usize| self.task.subgoals[*after].after.contains(&before);
+        let follows = |after: &usize| {
+            let Subgoal { after, after_choices, .. } = &self.task.subgoals[*after];
+            from.subgoal.is_some_and(|before| after.contains(&before))
+                || from.choice.is_some_and(|before| after_choices.contains(&before))
+        };
         match to.subgoal {
             Some(after) => follows(&after),
             None => (0..self.task.subgoals.len())

@@ -1,4 +1,6 @@
-use crate::{Act, Action, ActionType, Chain, Gesture, Kind, Part, PersonGrip, Scene, Subgoal, TaskError};
+use crate::{
+    Act, Action, ActionType, Chain, Choice, Gesture, Kind, Part, PersonGrip, Scene, Subgoal, TaskError,
+};
 use std::path::Path;
 
 /// A joint task as its file describes it: parts, plan, what the person's hand can show, what the robot can do.
@@ -15,6 +17,8 @@ pub struct Task {
     pub parts: Vec<Part>,
     /// The plan: subgoals in partial order.
     pub subgoals: Vec<Subgoal>,
+    /// The plan's alternatives.
+    pub choices: Vec<Choice>,
     /// Grips that tell what is meant.
     pub grips: Vec<PersonGrip>,
     /// Gestures of the empty hand.
@@ -38,6 +42,37 @@ impl Task {
     /// A [`TaskError`] that names file, line, key and what was expected.
     pub fn load(path: &Path) -> Result<Self, TaskError> {
         crate::NetworkPlan::load(path).map(|(task, _)| task)
+    }
+
+    /// Whether all that the plan puts before `subgoal` is achieved, and every choice made; bit i of `achieved` is set when subgoal i is
+    /// achieved, here and below.
+    pub fn is_prepared(&self, subgoal: usize, achieved: u64) -> bool {
+        let Subgoal { after, after_choices, .. } = &self.subgoals[subgoal];
+        after.iter().all(|&before| is_set(achieved, before))
+            && after_choices.iter().all(|&choice| self.choices[choice].is_made(achieved))
+    }
+
+    /// Whether the turn of `subgoal` has come: it is prepared, and neither achieved nor spared.
+    pub fn is_available(&self, subgoal: usize, achieved: u64) -> bool {
+        !is_set(achieved, subgoal)
+            && self.is_prepared(subgoal, achieved)
+            && !self.is_spared(subgoal, achieved)
+    }
+
+    /// Whether nobody needs `subgoal` any more: it is not achieved, and another one was chosen.
+    pub fn is_spared(&self, subgoal: usize, achieved: u64) -> bool {
+        let spares = |choice: &Choice| choice.spares.contains(&subgoal) && choice.is_made(achieved);
+        !is_set(achieved, subgoal) && self.choices.iter().any(spares)
+    }
+
+    /// How many subgoals the plan asks for: all but those that choices have spared.
+    pub fn needed(&self, achieved: u64) -> usize {
+        (0..self.subgoals.len()).filter(|&subgoal| !self.is_spared(subgoal, achieved)).count()
+    }
+
+    /// Whether the plan is carried out.
+    pub fn is_complete(&self, achieved: u64) -> bool {
+        (0..self.subgoals.len()).all(|subgoal| is_set(achieved, subgoal) || self.is_spared(subgoal, achieved))
     }
 
     /// The observable act at `index`, in words.
@@ -81,4 +116,8 @@ impl Task {
             action.rule == *answer && wanted && action.subgoal.is_none_or(|own| own == subgoal)
         })
     }
+}
+
+fn is_set(mask: u64, bit: usize) -> bool {
+    mask & (1 << bit) != 0
 }

@@ -16,6 +16,8 @@ pub(crate) struct TaskFile {
     pub kind: Vec<KindEntry>,
     pub part: Vec<PartEntry>,
     pub subgoal: Vec<SubgoalEntry>,
+    #[serde(default)]
+    pub choice: Vec<ChoiceEntry>,
     pub grip: Vec<GripEntry>,
     #[serde(default)]
     pub gesture: Vec<GestureEntry>,
@@ -52,6 +54,14 @@ pub(crate) struct SubgoalEntry {
     pub steadied: bool,
     #[serde(default)]
     pub after: Vec<Name>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ChoiceEntry {
+    pub name: Name,
+    pub of: Vec<Name>,
+    pub count: Spanned<usize>,
 }
 
 #[derive(Deserialize)]

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_joint_task::NetworkPlan;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 fn shipped(file: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config").join(file);
@@ -11,9 +11,10 @@ fn shipped(file: &str) -> String {
 
 /// Loads the shipped task with `from` replaced by `to` in `file`; the error with the folder cut off.
 fn error_after(file: &str, from: &str, to: &str) -> String {
+    let task = if file == NETWORK { TASK } else { file };
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("tasks")).unwrap();
-    for name in ["tasks/toy-vehicle.toml", "joint-action.toml"] {
+    for name in [task, NETWORK] {
         let mut text = shipped(name);
         if name == file {
             assert!(text.contains(from), "{from:?} does not stand in {name}");
@@ -21,8 +22,7 @@ fn error_after(file: &str, from: &str, to: &str) -> String {
         }
         std::fs::write(folder.path().join(name), text).unwrap();
     }
-    let task: PathBuf = folder.path().join("tasks/toy-vehicle.toml");
-    let error = NetworkPlan::load(&task).unwrap_err().to_string();
+    let error = NetworkPlan::load(&folder.path().join(task)).unwrap_err().to_string();
     error.replace(&format!("{}/", folder.path().display()), "")
 }
 
@@ -32,6 +32,8 @@ fn line_of(file: &str, text: &str) -> usize {
 }
 
 const TASK: &str = "tasks/toy-vehicle.toml";
+/// The one with alternatives.
+const TEA: &str = "tasks/tea.toml";
 const NETWORK: &str = "joint-action.toml";
 
 #[test]
@@ -50,6 +52,48 @@ fn plan_that_runs_in_a_circle_is_refused() {
         "after = [\"top floor on the columns\"]",
     );
     assert!(error.contains("the plan runs in a circle"), "{error}");
+}
+
+#[test]
+fn choices_that_are_none_are_refused() {
+    let two = "count = 2";
+    for (from, to, place, expected) in [
+        (
+            two,
+            "count = 3",
+            two,
+            "choice[1].count: 3 of 3 subgoals; expected 1 or more, and fewer than it offers",
+        ),
+        (two, "count = 0", two, "choice[1].count: 0 of 3 subgoals"),
+        (
+            "of = [\"cup on the saucer\", \"glass on the tray\"]",
+            "of = [\"cup on the saucer\", \"oat biscuit on the tray\", \"glass on the tray\"]",
+            "of = [\"ginger",
+            "choice[1].of: \"oat biscuit on the tray\" is offered twice",
+        ),
+        (
+            "after = [\"something to drink from\", \"two biscuits\"]",
+            "after = [\"something to drink from\", \"glass on the tray\"]",
+            "name = \"tea pot in the middle\"",
+            "comes after \"glass on the tray\", which nobody needs once \"something to drink from\" is made",
+        ),
+        (
+            "socket = { at = [-0.70, 0.36, 0.820] }",
+            "socket = { at = [-0.70, 0.36, 0.820] }\nafter = [\"something to drink from\"]",
+            "name = \"glass on the tray\"",
+            "the plan runs in a circle here",
+        ),
+        (
+            "name = \"two biscuits\"",
+            "name = \"oat biscuit on the tray\"",
+            "name = \"two biscuits\"",
+            "stands twice",
+        ),
+    ] {
+        let error = error_after(TEA, from, to);
+        let lines = [line_of(TEA, place), line_of(TEA, place) + 1].map(|line| format!("{TEA}:{line}: "));
+        assert!(lines.iter().any(|line| error.contains(line)) && error.contains(expected), "{error}");
+    }
 }
 
 #[test]

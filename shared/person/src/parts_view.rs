@@ -68,11 +68,9 @@ impl<'a> PartsView<'a> {
         mounted.fold(0, |mask, part| mask | (1 << part.subgoal))
     }
 
-    /// Whether a subgoal is not achieved yet, but everything that must come before it is.
+    /// Whether a subgoal's turn has come: see [`Task::is_available`].
     pub fn is_available(self, subgoal: usize, task: &Task) -> bool {
-        let achieved = self.achieved();
-        achieved & (1 << subgoal) == 0
-            && task.subgoals[subgoal].after.iter().all(|before| achieved & (1 << before) != 0)
+        task.is_available(subgoal, self.achieved())
     }
 
     /// The free part of `kind` in the workspace of `owner` that lies nearest to `point`.

@@ -135,7 +135,7 @@ mod tests {
             tracking_error_rad: TrackingReport::default(),
             movement_reaction_ms: ReactionReport::default(),
             anticipation: AnticipationReport::new(&[]),
-            task: TaskReport::new(2, &[Event::Assembly { at_ms: 1200, completed: 1 }], 2.0),
+            task: TaskReport::new(|_| 2, &[Event::Assembly { at_ms: 1200, completed: 1 }], 2.0),
             refused: BTreeMap::new(),
             operator_stops: Vec::new(),
             faults: Vec::new(),

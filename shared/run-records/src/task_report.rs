@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TaskReport {
-    /// How many subgoals the plan has.
+    /// How many subgoals the plan asks for: all that no choice of the assembly that came furthest has spared.
     pub subgoals: usize,
     /// How many of them were achieved in the assembly that came furthest.
     pub achieved: usize,
@@ -43,11 +43,12 @@ pub struct Said {
 }
 
 impl TaskReport {
-    /// From the events of a run that lasted `run_s` seconds, with a plan of so many subgoals.
-    pub fn new(subgoals: usize, events: &[Event], run_s: f64) -> Self {
-        let mut assemblies: BTreeMap<u64, Vec<String>> = BTreeMap::new();
+    /// From the events of a run that lasted `run_s` seconds, with a plan that asks for `needed` subgoals where those of a mask are achieved
+    /// (bit i: subgoal i).
+    pub fn new(needed: impl Fn(u64) -> usize, events: &[Event], run_s: f64) -> Self {
+        let mut assemblies: BTreeMap<u64, (u64, Vec<String>)> = BTreeMap::new();
         let mut report = Self {
-            subgoals,
+            subgoals: 0,
             achieved: 0,
             order: Vec::new(),
             duration_s: run_s,
@@ -58,8 +59,10 @@ impl TaskReport {
         let seconds = |at_ms: &u64| *at_ms as f64 / 1e3;
         for event in events {
             match event {
-                Event::Subgoal { assembly, name, .. } => {
-                    assemblies.entry(*assembly).or_default().push(name.clone());
+                Event::Subgoal { assembly, subgoal, name, .. } => {
+                    let (achieved, order) = assemblies.entry(*assembly).or_default();
+                    *achieved |= 1 << subgoal;
+                    order.push(name.clone());
                 }
                 Event::Assembly { at_ms, completed } => {
                     if report.assemblies == 0 {
@@ -80,8 +83,9 @@ impl TaskReport {
                 | Event::Blind { .. } => {}
             }
         }
-        let furthest = assemblies.into_values().rev().max_by_key(Vec::len);
-        report.order = furthest.unwrap_or_default();
+        let furthest = assemblies.into_values().rev().max_by_key(|(_, order)| order.len());
+        let (achieved, order) = furthest.unwrap_or_default();
+        (report.subgoals, report.order) = (needed(achieved), order);
         report.achieved = report.order.len();
         report
     }

@@ -60,7 +60,7 @@ fn assemble(campaign: &Campaign, index: u64) -> Result<Trial, LockstepError> {
         if stages.truth.achieved != achieved {
             (achieved, advanced) = (stages.truth.achieved, stages.ticks());
         }
-        if achieved.count_ones() as usize == task.subgoals.len() {
+        if task.is_complete(achieved) {
             return Ok(recorder.finish(&stages, false));
         }
     }

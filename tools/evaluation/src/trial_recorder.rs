@@ -88,7 +88,7 @@ impl<'a> TrialRecorder<'a> {
         let names =
             (0..self.task.subgoals.len()).filter(done).map(|goal| self.task.subgoals[goal].name.clone());
         let achieved: Vec<_> = names.collect();
-        let complete = achieved.len() == self.task.subgoals.len();
+        let complete = self.task.is_complete(stages.truth.achieved);
         let last_fields = if complete { Vec::new() } else { self.shown(&stages.frame) };
         Trial {
             completed_ms: complete.then_some(stages.ticks()),

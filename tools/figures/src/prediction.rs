@@ -22,13 +22,11 @@ impl<'a> Prediction<'a> {
     pub fn of(trace: &'a RunTrace) -> Self {
         let goal = trace.peaks_of(LayerKind::Intention).next();
         let early = |peak: &&Peak| {
-            let after = &trace.task.subgoals[peak.population].after;
-            let achieved = |subgoal: &usize| {
-                trace
-                    .peaks_of(LayerKind::SubgoalsAchieved)
-                    .any(|done| done.population == *subgoal && done.from_ms < peak.from_ms)
-            };
-            goal.is_some_and(|goal| peak.from_ms >= goal.from_ms) && !after.iter().all(achieved)
+            let done = trace.peaks_of(LayerKind::SubgoalsAchieved).filter(|done| done.from_ms < peak.from_ms);
+            let subgoals = done.filter(|done| done.population < trace.task.subgoals.len());
+            let achieved = subgoals.fold(0, |mask, done| mask | 1 << done.population);
+            goal.is_some_and(|goal| peak.from_ms >= goal.from_ms)
+                && !trace.task.is_prepared(peak.population, achieved)
         };
         let mut opened: Vec<usize> =
             trace.peaks_of(LayerKind::SubgoalsAvailable).filter(early).map(|peak| peak.population).collect();

@@ -261,10 +261,13 @@ impl Lockstep {
         self.tick += 1;
     }
 
-    /// Whether the robot knows all subgoals to be achieved.
+    /// Whether the robot knows all subgoals to be achieved that the plan asks for.
     pub fn complete(&self) -> bool {
-        let achieved = self.plan().layer(LayerKind::SubgoalsAchieved).populations.clone();
-        self.frame.signal[achieved].iter().all(|&signal| signal > 0.5)
+        let row = self.plan().layer(LayerKind::SubgoalsAchieved).populations.clone();
+        let known = row
+            .zip(0..self.task().subgoals.len())
+            .filter(|&(population, _)| self.frame.signal[population] > 0.5);
+        self.task().is_complete(known.fold(0, |achieved, (_, subgoal)| achieved | 1 << subgoal))
     }
 }
 

@@ -5,7 +5,9 @@ mod shipped;
 
 use coact_lockstep::Lockstep;
 use coact_period::cycles;
+use coact_pipeline::RunSettings;
 use shipped::settings;
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// Time within which every assembly must be done: three times what it usually takes.
@@ -38,12 +40,33 @@ fn subgoals_are_achieved_in_an_order_that_the_plan_allows() {
             let now = stages.truth.achieved;
             for (index, subgoal) in stages.task().subgoals.iter().enumerate() {
                 let new = now & !before & (1 << index) != 0;
-                let ready = subgoal.after.iter().all(|&needed| before & (1 << needed) != 0);
+                let ready = stages.task().is_available(index, before);
                 assert!(!new || ready, "partner {seed}: {} came too early", subgoal.name);
             }
             before = now;
         }
     }
+}
+
+#[test]
+fn of_alternatives_as_many_are_done_as_are_enough() {
+    let task = shipped::configuration().join("tasks/tea.toml");
+    let mut ways = BTreeSet::new();
+    for seed in 1..=8 {
+        let settings = RunSettings { task: task.clone(), ..settings(seed, "synthetic") };
+        let mut stages = Lockstep::new(&settings).unwrap();
+        while !stages.complete() && stages.ticks() < LONGEST {
+            stages.step();
+        }
+        let achieved = stages.truth.achieved;
+        assert!(stages.complete(), "partner {seed}: only {achieved:07b} after {LONGEST} cycles");
+        for choice in &stages.task().choices {
+            let done = choice.of.iter().filter(|&&goal| achieved & (1 << goal) != 0).count();
+            assert_eq!(done, choice.count, "partner {seed}: {}", choice.name);
+        }
+        ways.insert(achieved);
+    }
+    assert!(ways.len() >= 3, "nobody chose: {ways:?}");
 }
 
 #[test]

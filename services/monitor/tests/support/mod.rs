@@ -26,7 +26,7 @@ pub const MOUNTING_LID: usize = 1;
 
 fn subgoal(name: &str, steadied: bool, after: Vec<usize>) -> Subgoal {
     let (name, axis, side) = (name.into(), [0.0, 0.0, 1.0], Agent::Person);
-    Subgoal { name, kind: 0, side, socket: [0.0; 3], axis, steadied, after }
+    Subgoal { name, kind: 0, side, socket: [0.0; 3], axis, steadied, after, after_choices: Vec::new() }
 }
 
 fn chain(name: &str, answer: &str) -> Chain {
@@ -53,6 +53,7 @@ pub fn task() -> Task {
         }],
         parts: vec![Part { kind: 0, workspace: Agent::Person, at: [0.0; 2] }; 2],
         subgoals: vec![subgoal("lid", true, vec![]), subgoal("hinge", false, vec![0])],
+        choices: Vec::new(),
         grips: vec![PersonGrip { name: "top".into(), pitch: -1.5 }],
         gestures: Vec::new(),
         acts: vec![Act::Rest, Act::Grasp { grip: 0, kind: 0 }],

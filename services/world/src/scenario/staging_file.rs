@@ -159,12 +159,16 @@ impl ScenarioSource<'_> {
     /// Every subgoal needs a part, and those that come before it.
     fn check_achieved(&self, names: &[Spanned<String>], staging: &Staging) -> Result<(), WorldError> {
         let goals = &self.task.subgoals;
+        let achieved = staging.achieved.iter().fold(0, |mask, goal| mask | 1 << goal);
         for (name, &goal) in names.iter().zip(&staging.achieved) {
             let missing = goals[goal].after.iter().find(|before| !staging.achieved.contains(before));
-            if let Some(&missing) = missing {
+            let missing = missing.map(|&before| &goals[before].name);
+            let open = goals[goal].after_choices.iter().map(|&choice| &self.task.choices[choice]);
+            let open = open.filter(|choice| !choice.is_made(achieved)).map(|choice| &choice.name).next();
+            if let Some(before) = missing.or(open) {
                 let message = format!(
-                    "key \"start.achieved\": \"{}\" comes after \"{}\"; expected that one as well",
-                    goals[goal].name, goals[missing].name
+                    "key \"start.achieved\": \"{}\" comes after \"{before}\"; expected that one as well",
+                    goals[goal].name
                 );
                 return Err(self.fault(name.span().start, message));
             }

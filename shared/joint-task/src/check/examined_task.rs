@@ -10,7 +10,7 @@ pub(super) struct ExaminedTask {
     pub file: TaskFile,
     pub task: Task,
     pub plan: NetworkPlan,
-    /// `needs[a * subgoals + b]`: a needs b, directly or not.
+    /// `needs[a * subgoals + b]`: a needs b, directly or not, if b is chosen.
     needs: Vec<bool>,
 }
 
@@ -72,7 +72,8 @@ fn needs(task: &Task) -> Vec<bool> {
     let mut needs = vec![false; count * count];
     for _ in 0..count {
         for (goal, subgoal) in task.subgoals.iter().enumerate() {
-            for &before in &subgoal.after {
+            let offered = subgoal.after_choices.iter().flat_map(|&choice| &task.choices[choice].of);
+            for &before in subgoal.after.iter().chain(offered) {
                 needs[goal * count + before] = true;
                 for other in 0..count {
                     needs[goal * count + other] |= needs[before * count + other];

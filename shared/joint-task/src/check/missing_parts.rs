@@ -6,8 +6,11 @@ use crate::Agent;
 pub(super) fn find(examined: &ExaminedTask) -> Vec<Finding> {
     let task = &examined.task;
     let short = |kind: usize| {
-        let goals: Vec<usize> =
-            examined.subgoals().filter(|&goal| task.subgoals[goal].kind == kind).collect();
+        // What may be spared need not be possible: then the other is what is left to choose.
+        let may_be_spared = |goal: &usize| task.choices.iter().any(|choice| choice.spares.contains(goal));
+        let goals =
+            examined.subgoals().filter(|goal| task.subgoals[*goal].kind == kind && !may_be_spared(goal));
+        let goals: Vec<usize> = goals.collect();
         let parts = examined.parts(kind, Agent::Robot) + examined.parts(kind, Agent::Person);
         let first_without = *goals.get(parts)?;
         let name = &task.kinds[kind].name;

@@ -52,8 +52,7 @@ impl PlanState {
     }
 
     pub fn is_open(&self, examined: &ExaminedTask, goal: usize) -> bool {
-        !self.is_achieved(goal)
-            && examined.task.subgoals[goal].after.iter().all(|&before| self.is_achieved(before))
+        examined.task.is_available(goal, self.achieved)
     }
 
     pub fn parts(&self, workspace: usize, kind: usize) -> usize {

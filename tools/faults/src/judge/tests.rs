@@ -51,7 +51,7 @@ fn noted(event: SupervisorEventKind, process: &str, reason: &str) -> SupervisorE
 
 /// Of a run that came over a kill of fields as it should.
 fn evidence() -> Evidence {
-    let task = TaskReport::new(7, &[], 20.0);
+    let task = TaskReport::new(|_| 7, &[], 20.0);
     let mut summary = Summary::unmeasured(task, String::new());
     summary.work = Judgement::default();
     summary.motion = seen();

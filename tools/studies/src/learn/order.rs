@@ -1,6 +1,6 @@
 //! `coact learn order`: a task's plan from demonstrations.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use coact::installation::Installation;
 use coact_joint_task::{NetworkPlan, Task};
 use coact_learning::{Demonstration, LearnedOrder, SerialOrder, TaskText};
@@ -54,6 +54,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
         None => Installation::find()?.configuration.join("tasks/toy-vehicle.toml"),
     };
     let (task, plan) = NetworkPlan::load(&base)?;
+    ensure!(
+        task.choices.is_empty(),
+        "{}: the plan has alternatives ([[choice]]); expected one in which every demonstration achieves every subgoal",
+        base.display()
+    );
     let names: Vec<String> = task.subgoals.iter().map(|subgoal| subgoal.name.clone()).collect();
     let mut demonstrations = Vec::new();
     for path in &args.demonstrations {
