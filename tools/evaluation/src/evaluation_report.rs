@@ -20,6 +20,14 @@ pub struct EvaluationReport {
     pub wrong: Proportion,
     /// ... for which none stood.
     pub absent: Proportion,
+    /// The same of the first goal that stood for 50 ms on the way, which nothing corrects: rightly.
+    pub first_right: Proportion,
+    /// ... another one.
+    pub first_wrong: Proportion,
+    /// ... none.
+    pub first_absent: Proportion,
+    /// The same of reaches for a part, by the angle to the nearest part of another kind, as seen from where the hand set out.
+    pub first_by_angle: Vec<AngleCounts>,
     /// Valid actions of hidden hands whose goal stood rightly in IL at grasp completion.
     pub right_of_hidden: Proportion,
     /// ... for which another one stood.
@@ -30,7 +38,9 @@ pub struct EvaluationReport {
     pub right_of_errors: Proportion,
     /// Valid actions in full view whose complementary action was decided before grasp completion.
     pub anticipated: Proportion,
-    /// Decision lead of all of them that were answered rightly, ms.
+    /// ... before the hand had even set out: predicted from the plan, not from the movement.
+    pub predicted: Proportion,
+    /// Decision lead of those that were answered rightly, and not predicted, ms.
     pub lead_ms: Option<Spread>,
     /// Its mean.
     pub mean_lead_ms: Option<Estimate>,
@@ -78,13 +88,49 @@ pub struct EvaluationReport {
     pub changes_to_errors: Option<ChangesOfMind>,
 }
 
-/// How often one kind of error was noticed.
+/// What the first goal that stood was, of reaches with another part so near to their way.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct AngleCounts {
+    /// Angle to it, degrees, from here ...
+    pub from_deg: f64,
+    /// ... to below here.
+    pub below_deg: f64,
+    /// What was meant.
+    pub right: Proportion,
+    /// Something else.
+    pub wrong: Proportion,
+}
+
+/// Angles at which reaches are told apart, degrees.
+const ANGLES: [f64; 6] = [0.0, 4.0, 8.0, 12.0, 20.0, 180.0];
+
+impl AngleCounts {
+    fn of(actions: &[&PartnerAction]) -> Vec<Self> {
+        let counts = |bounds: &[f64]| {
+            let (from_deg, below_deg) = (bounds[0], bounds[1]);
+            let within = |action: &&&PartnerAction| {
+                action.nearest_deg.is_some_and(|angle| (from_deg..below_deg).contains(&angle))
+            };
+            let own: Vec<_> = actions.iter().filter(within).collect();
+            let first = |what: Inference| {
+                let count = own.iter().filter(|action| action.first_inference == Some(what)).count();
+                Proportion::new(count, own.len())
+            };
+            Self { from_deg, below_deg, right: first(Inference::Right), wrong: first(Inference::Wrong) }
+        };
+        ANGLES.windows(2).map(counts).collect()
+    }
+}
+
+/// How often one kind of error was noticed: by its own population.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ErrorCounts {
     /// Which.
     pub kind: ErrorKind,
-    /// Before grasp completion.
+    /// Before grasp completion, and answered in the action as it should be: told what comes first, or the part pointed at.
     pub in_time: Proportion,
+    /// Answered so, whenever it was noticed.
+    pub answered: Proportion,
     /// Later in the same action.
     pub late: Proportion,
     /// Not at all.
@@ -105,8 +151,15 @@ impl EvaluationReport {
         let inferred = |among: &[&PartnerAction], what: Inference| {
             Proportion::new(among.iter().filter(|action| action.inference == Some(what)).count(), among.len())
         };
+        let first = |what: Inference| {
+            let count = valid.iter().filter(|action| action.first_inference == Some(what)).count();
+            Proportion::new(count, valid.len())
+        };
+        let led = valid.iter().copied().filter(|action| action.lead_ms.is_some());
+        let (predicted, on_the_way): (Vec<_>, Vec<_>) = led.partition(|action| action.is_predicted());
         let leads: Vec<f64> =
-            valid.iter().filter_map(|action| action.lead_ms).map(|lead| lead as f64).collect();
+            on_the_way.iter().filter_map(|action| action.lead_ms).map(|lead| lead as f64).collect();
+        let in_time = leads.iter().filter(|lead| **lead > 0.0).count() + predicted.len();
         let completed: Vec<&Trial> = trials.iter().filter(|trial| trial.completed_ms.is_some()).collect();
         let mean = |metric: &dyn Fn(&Trial) -> f64| {
             Estimate::mean(&completed.iter().map(|trial| metric(trial)).collect::<Vec<_>>())
@@ -126,11 +179,16 @@ impl EvaluationReport {
             right: inferred(&valid, Inference::Right),
             wrong: inferred(&valid, Inference::Wrong),
             absent: inferred(&valid, Inference::Absent),
+            first_right: first(Inference::Right),
+            first_wrong: first(Inference::Wrong),
+            first_absent: first(Inference::Absent),
+            first_by_angle: AngleCounts::of(&valid),
             right_of_hidden: inferred(&hidden, Inference::Right),
             wrong_of_hidden: inferred(&hidden, Inference::Wrong),
             absent_of_hidden: inferred(&hidden, Inference::Absent),
             right_of_errors: inferred(&wrong, Inference::Right),
-            anticipated: Proportion::new(leads.iter().filter(|lead| **lead > 0.0).count(), valid.len()),
+            anticipated: Proportion::new(in_time, valid.len()),
+            predicted: Proportion::new(predicted.len(), valid.len()),
             mean_lead_ms: Estimate::mean(&leads),
             lead_ms: Spread::new(leads),
             errors: ErrorKind::ALL.iter().map(|kind| ErrorCounts::new(*kind, &wrong)).collect(),
@@ -165,10 +223,15 @@ impl EvaluationReport {
 impl ErrorCounts {
     fn new(kind: ErrorKind, wrong: &[&PartnerAction]) -> Self {
         let own: Vec<_> = wrong.iter().filter(|action| action.error == Some(kind)).collect();
-        let proportion = |what: Detection| {
-            Proportion::new(own.iter().filter(|action| action.detection == Some(what)).count(), own.len())
+        let of_own = |is_so: &dyn Fn(&PartnerAction) -> bool| {
+            Proportion::new(own.iter().filter(|action| is_so(action)).count(), own.len())
         };
-        let (in_time, late) = (proportion(Detection::InTime), proportion(Detection::Late));
-        Self { kind, in_time, late, missed: proportion(Detection::Missed) }
+        Self {
+            kind,
+            in_time: of_own(&|action| action.answered && action.detection == Some(Detection::InTime)),
+            answered: of_own(&|action| action.answered),
+            late: of_own(&|action| action.detection == Some(Detection::Late)),
+            missed: of_own(&|action| action.detection == Some(Detection::Missed)),
+        }
     }
 }

@@ -1,4 +1,5 @@
 use crate::ErrorKind;
+use crate::first_goal::FirstGoal;
 use coact_joint_task::{Act, NetworkPlan, Population, Role, Task};
 use coact_messages::{LayerKind, PartnerError, Truth};
 
@@ -11,6 +12,8 @@ pub(crate) struct OpenAction {
     pub errors: Vec<usize>,
     /// Its complementary action: index into `Task::actions`.
     pub answer: Option<usize>,
+    /// The first goal that stood on the way.
+    pub first: FirstGoal,
     /// Since when its goal has been the highest peak of IL, after the hand has turned.
     pub stands_since: Option<u64>,
 }
@@ -34,16 +37,24 @@ pub(crate) fn meant(task: &Task, plan: &NetworkPlan, truth: &Truth) -> Option<Me
     let error = error(truth, matches!(rule.act, Act::Gesture(_)));
     let counts = |meaning: &Population| match error {
         None => false,
-        // A gesture names no part, so that any error counts.
-        Some(ErrorKind::AtHand | ErrorKind::Requested) => meaning.role != Role::Loss,
+        Some(ErrorKind::AtHand) => meaning.role == Role::Means && meaning.kind == Some(rule.kind),
         Some(ErrorKind::Early) => meaning.role == Role::Goal && meaning.subgoal == Some(subgoal),
         Some(ErrorKind::Done) => meaning.role == Role::Done && meaning.subgoal == Some(subgoal),
+        Some(ErrorKind::Requested) => {
+            [Role::Goal, Role::Done].contains(&meaning.role) && meaning.subgoal == Some(subgoal)
+        }
     };
     let row = plan.layer(LayerKind::ErrorMonitoring).populations.clone();
     let errors = row.filter(|&index| counts(&plan.populations[index])).collect();
     let answer = task.complement(chain, subgoal);
     Some(Meant {
-        open: OpenAction { goal: plan.goal(chain, subgoal), errors, answer, stands_since: None },
+        open: OpenAction {
+            goal: plan.goal(chain, subgoal),
+            errors,
+            answer,
+            first: FirstGoal::default(),
+            stands_since: None,
+        },
         chain: format!("{}: {}", rule.name, task.kinds[rule.kind].name),
         subgoal: goal.name.clone(),
         error,

@@ -65,11 +65,18 @@ pub struct PartnerAction {
     pub inferred: Option<String>,
     /// Whether that was what was meant.
     pub inference: Option<Inference>,
+    /// The first goal that stood for 50 ms on the way, an inference that nothing corrects; where none rose on the way, what stood at the grasp.
+    pub first_inferred: Option<String>,
+    /// Whether that was what was meant.
+    pub first_inference: Option<Inference>,
+    /// Angle between the part that is reached for and the nearest one of another kind, as seen from where the hand set out, degrees;
+    /// none where there is no other one, and for gestures.
+    pub nearest_deg: Option<f64>,
     /// Grasp completion minus the decision for the complementary action; none for errors, and without a decision.
     pub lead_ms: Option<i64>,
-    /// The decision that counts; none for errors.
+    /// The decision that counts.
     pub decided: Option<String>,
-    /// Whether it was the complementary action.
+    /// Whether it was the complementary action, or, of an error, the correction that belongs to it.
     pub answered: bool,
     /// When the right error's peak rose in EML.
     pub detected_ms: Option<u64>,
@@ -81,6 +88,14 @@ pub struct PartnerAction {
     pub turn: Option<TurnedReach>,
 }
 
+impl PartnerAction {
+    /// Whether the right answer was decided before the hand set out.
+    pub(crate) fn is_predicted(&self) -> bool {
+        let reach_ms = self.grasp_ms.map(|grasp| grasp as i64 - self.onset_ms as i64);
+        self.lead_ms.zip(reach_ms).is_some_and(|(lead, reach)| lead > reach)
+    }
+}
+
 /// What is wrong with an action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -89,8 +104,8 @@ pub enum ErrorKind {
     Early,
     /// Intention: the subgoal is achieved already.
     Done,
-    /// Intention: a part is requested whose turn has not come. A gesture names no part: that an error is detected counts,
-    /// whatever the part.
+    /// Intention: a part is requested whose turn has not come. A gesture names no part: which of those is meant whose turn has not
+    /// come, nothing shows.
     Requested,
     /// Means: a part is requested that lies in the person's own workspace.
     AtHand,

@@ -1,8 +1,9 @@
 use crate::TurnedReach;
 use crate::fluency::FluencyCounter;
+use crate::nearest_angle::nearest_angle;
 use crate::open_action::{Meant, OpenAction, meant};
 use crate::trial::{Alarm, Detection, DoublePeak, Inference, PartnerAction, Trial};
-use coact_joint_task::{NetworkPlan, Role, Task};
+use coact_joint_task::{Act, Agent, NetworkPlan, Role, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
 use coact_monitor::{ActiveAgents, Anticipation, Intentions};
@@ -72,7 +73,7 @@ impl<'a> TrialRecorder<'a> {
         let mut events = Vec::new();
         self.anticipation.observe(truth, frame, &mut events);
         self.add_answers(&events);
-        self.follow_action(truth, frame);
+        self.follow_action(stages);
         self.look_for_alarms(truth, frame);
         self.look_for_doubles(frame);
     }
@@ -106,40 +107,48 @@ impl<'a> TrialRecorder<'a> {
     fn add_answers(&mut self, events: &[Event]) {
         for answer in events.iter().filter_map(Event::as_action) {
             let own = self.trial.actions.iter_mut().find(|own| own.number == answer.action);
-            if let Some(own) = own.filter(|own| own.error.is_none()) {
-                own.lead_ms = answer.lead_ms.filter(|_| answer.correct);
+            if let Some(own) = own {
+                own.lead_ms = answer.lead_ms.filter(|_| answer.correct && own.error.is_none());
                 own.decided.clone_from(&answer.decided);
                 own.answered = answer.correct;
             }
         }
     }
 
-    fn follow_action(&mut self, truth: &Truth, frame: &FieldFrame) {
+    fn follow_action(&mut self, stages: &Lockstep) {
+        let (truth, frame) = (&*stages.truth, &*stages.frame);
         let last = self.trial.actions.last().map_or(0, |action| action.number);
         if truth.actions != last {
             self.close();
-            self.begin(truth);
+            self.begin(stages);
         } else if truth.phase == PartnerPhase::Idle as u32 {
             self.close();
         }
         self.follow_turn(truth, frame);
-        let Some(open) = &self.open else { return };
         let inferred = self.highest(LayerKind::Intention, frame);
+        let Some(open) = &mut self.open else { return };
+        // What has stood since before the hand set out is of the action before, or predicted.
+        let new = inferred.filter(|&goal| frame.since[goal] > truth.onset_cycle);
+        open.first.see(frame.header.cycle, new);
+        let (goal, first) = (open.goal, open.first.goal().or(inferred));
+        let judged = |inferred: Option<usize>| match inferred {
+            None => Inference::Absent,
+            Some(_) if inferred == goal => Inference::Right,
+            Some(_) => Inference::Wrong,
+        };
+        let rose = open.errors.iter().map(|&error| frame.since[error]).filter(|&since| since > 0).min();
         let grasped =
             self.trial.actions.last().is_some_and(|own| own.grasp_ms.is_none()) && truth.grasp_cycle > 0;
         let fields = if grasped { self.shown(frame) } else { Vec::new() };
         let Some(action) = self.trial.actions.last_mut() else { return };
-        let rose = open.errors.iter().map(|&error| frame.since[error]).filter(|&since| since > 0).min();
         action.detected_ms = action.detected_ms.or(rose.map(|since| since.max(action.onset_ms)));
         if grasped {
             // A step whose turn came during the reach is no error any more.
             action.error = action.error.filter(|_| truth.error != PartnerError::None as u32);
             action.grasp_ms = Some(truth.grasp_cycle);
-            action.inference = Some(match inferred {
-                None => Inference::Absent,
-                Some(_) if inferred == open.goal => Inference::Right,
-                Some(_) => Inference::Wrong,
-            });
+            action.inference = Some(judged(inferred));
+            action.first_inference = Some(judged(first));
+            action.first_inferred = first.map(|goal| self.plan.populations[goal].label.clone());
             action.inferred = inferred.map(|goal| self.plan.populations[goal].label.clone());
             action.fields = fields;
         }
@@ -175,7 +184,8 @@ impl<'a> TrialRecorder<'a> {
         }
     }
 
-    fn begin(&mut self, truth: &Truth) {
+    fn begin(&mut self, stages: &Lockstep) {
+        let truth = &*stages.truth;
         let Some(Meant { open, chain, subgoal, error }) = meant(self.task, self.plan, truth) else { return };
         self.open = Some(open);
         self.trial.actions.push(PartnerAction {
@@ -188,6 +198,9 @@ impl<'a> TrialRecorder<'a> {
             grasp_ms: None,
             inferred: None,
             inference: None,
+            first_inferred: None,
+            first_inference: None,
+            nearest_deg: self.nearest_deg(stages),
             lead_ms: None,
             decided: None,
             answered: false,
@@ -196,6 +209,14 @@ impl<'a> TrialRecorder<'a> {
             fields: Vec::new(),
             turn: None,
         });
+    }
+
+    /// How near another part is to the way of the reach that begins.
+    fn nearest_deg(&self, stages: &Lockstep) -> Option<f64> {
+        let chain = &self.task.chains[stages.truth.chain as usize];
+        let grasps = matches!(chain.act, Act::Grasp { .. }) && chain.from == Agent::Person;
+        let [_, _, wrist, _] = stages.truth.arm;
+        nearest_angle(self.task, &stages.sample, chain.kind, wrist).filter(|_| grasps)
     }
 
     fn close(&mut self) {

@@ -84,18 +84,30 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
         row("goal inferred rightly at grasp", proportion(&report.right)),
         row("  wrongly", proportion(&report.wrong)),
         row("  not", proportion(&report.absent)),
+        row("first goal that stood 50 ms was right", proportion(&report.first_right)),
+        row("  wrong", proportion(&report.first_wrong)),
+        row("  none stood", proportion(&report.first_absent)),
         row("  rightly, of wrong actions", proportion(&report.right_of_errors)),
         row("goal inferred rightly at grasp, hidden hands", proportion(&report.right_of_hidden)),
         row("  wrongly, hidden hands", proportion(&report.wrong_of_hidden)),
         row("  not, hidden hands", proportion(&report.absent_of_hidden)),
         row("answer decided before grasp", proportion(&report.anticipated)),
-        row("decision lead p5 p50 p95, ms", spread(report.lead_ms)),
+        row("  before the hand set out: predicted", proportion(&report.predicted)),
+        row("lead of the others p5 p50 p95, ms", spread(report.lead_ms)),
         row("  mean", interval(report.mean_lead_ms, 1.0, 0, "")),
     ];
+    for tally in report.first_by_angle.iter().filter(|tally| tally.right.of > 0) {
+        let wrong = format!("; wrong {}", tally.wrong.count);
+        let name = format!("first goal right, next part {} to {}°", tally.from_deg, tally.below_deg);
+        rows.push(row(&name, proportion(&tally.right) + &wrong));
+    }
     for tally in &report.errors {
-        let late = format!("; {} late, {} missed", tally.late.count, tally.missed.count);
+        let late = format!(
+            "; answered in {}, noticed late in {}, never in {}",
+            tally.answered.count, tally.late.count, tally.missed.count
+        );
         rows.push(row(
-            &format!("noticed in time: {}", tally.kind.name()),
+            &format!("noticed in time and answered: {}", tally.kind.name()),
             proportion(&tally.in_time) + &late,
         ));
     }
