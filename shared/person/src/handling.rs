@@ -66,7 +66,7 @@ impl Person {
             return state.enter(ActivityPhase::AwaitRelease, tick + RELEASE_PATIENCE);
         }
         done.grasped = Some(part);
-        state.home = around.parts.position(part).into();
+        state.home = self.home_of(part, state.activity(), around).into();
         let pause = self.random.at(Stream::Movement, tick).random_range(DWELL);
         state.enter(ActivityPhase::Dwell, tick + pause);
     }
@@ -92,6 +92,7 @@ impl Person {
                 let goal = &around.task.subgoals[subgoal];
                 self.carry_to(state, around, goal.socket.into(), goal.axis.into());
             }
+            (Activity::Undo, _) => return self.take_back(state, around),
             _ => self.carry_to(state, around, around.task.scene.handover.into(), glam::DVec3::Z),
         }
         state.enter(ActivityPhase::Carry, state.movement.end);
@@ -125,10 +126,12 @@ impl Person {
     }
 }
 
-/// Whether the part is still where the activity needs it: free to be taken, or in the robot's hand to be handed over.
+/// Whether the part is still where the activity needs it: free to be taken, mounted to be taken out, or in the robot's hand to be handed
+/// over.
 fn can_grasp(activity: Activity, part: usize, around: &Surroundings) -> bool {
     match activity {
         Activity::Receive => around.robot.held == Some(part),
+        Activity::Undo => around.parts.is(part, Holder::Socket),
         _ => around.parts.is(part, Holder::Nobody),
     }
 }

@@ -68,6 +68,11 @@ impl<'a> PartsView<'a> {
         mounted.fold(0, |mask, part| mask | (1 << part.subgoal))
     }
 
+    /// The subgoal in whose socket a part is mounted.
+    pub fn mounted_for(self, part: usize) -> Option<usize> {
+        self.is(part, Holder::Socket).then(|| self.states[part].subgoal as usize)
+    }
+
     /// Whether a subgoal is not achieved yet, but everything that must come before it is.
     pub fn is_available(self, subgoal: usize, task: &Task) -> bool {
         let achieved = self.achieved();

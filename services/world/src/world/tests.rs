@@ -18,6 +18,7 @@ mod resume;
 mod script;
 mod spoken;
 mod turning;
+mod undoing;
 
 use super::World;
 use crate::{Partner, Settings};
