@@ -27,6 +27,9 @@ const DWELL: Range<u64> = cycles(Duration::from_millis(80))..cycles(Duration::fr
 /// How long mounting takes, cycles. Chosen by hand.
 const MOUNTING: Range<u64> = cycles(Duration::from_millis(400))..cycles(Duration::from_millis(700));
 
+/// How long after grasp completion a part is put back, cycles. Chosen by hand: it is then hardly lifted, on its way, or at its socket.
+const RETURNS: Range<u64> = cycles(Duration::from_millis(100))..cycles(Duration::from_millis(1500));
+
 impl Person {
     pub(crate) fn reach(&self, state: &mut PersonState, around: &Surroundings, done: &mut Manipulation) {
         self.change_mind(state, around);
@@ -71,7 +74,7 @@ impl Person {
         state.enter(ActivityPhase::Dwell, tick + pause);
     }
 
-    /// Says when the activity will be given up: as it was meant to be, or because the person will notice a mistake.
+    /// Says when the activity will be given up: as it was meant to be, because the person will notice a mistake, or to put the part back.
     fn see_mistake(&self, state: &mut PersonState, around: &Surroundings) {
         let tick = around.tick;
         if error(state, around) == PartnerError::None {
@@ -80,19 +83,32 @@ impl Person {
         let mistaken = self.policy.behaviour().is_some() && state.error != PartnerError::None;
         state.gives_up = match state.variation.gives_up_after {
             0 if mistaken => tick + notices_after(&mut self.random.at(Stream::Mistake, tick)),
-            0 => 0,
+            0 => self.returns(state, tick),
             after => tick + after,
         };
     }
 
-    /// Sets off with the grasped part to where it is wanted.
+    /// When the person will put back what was rightly taken from where it lay; 0: will not.
+    fn returns(&self, state: &PersonState, tick: u64) -> u64 {
+        let returns = self.policy.behaviour().map_or(0.0, |behaviour| behaviour.returns);
+        let own = matches!(state.activity(), Activity::Insert | Activity::Give);
+        if !own || state.error != PartnerError::None || returns <= 0.0 {
+            return 0;
+        }
+        let mut rng = self.random.at(Stream::Return, tick);
+        if rng.random_bool(returns) { tick + rng.random_range(RETURNS) } else { 0 }
+    }
+
+    /// Sets off with the grasped part to where it is wanted, or to be laid down.
     pub(crate) fn lift(&self, state: &mut PersonState, around: &Surroundings) {
+        if state.activity() == Activity::Undo {
+            return self.take_back(state, around);
+        }
         match (state.activity(), state.subgoal.get()) {
             (Activity::Insert | Activity::Receive, Some(subgoal)) => {
                 let goal = &around.task.subgoals[subgoal];
                 self.carry_to(state, around, goal.socket.into(), goal.axis.into());
             }
-            (Activity::Undo, _) => return self.take_back(state, around),
             _ => self.carry_to(state, around, around.task.scene.handover.into(), glam::DVec3::Z),
         }
         state.enter(ActivityPhase::Carry, state.movement.end);

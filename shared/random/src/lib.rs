@@ -44,6 +44,8 @@ pub enum Stream {
     ChangeOfMind = 11,
     /// Where the person lays down a part that was mounted.
     FreePlace = 12,
+    /// Whether a random partner puts back what was taken.
+    Return = 13,
 }
 
 /// The random generators of one run.

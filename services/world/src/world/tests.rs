@@ -15,6 +15,7 @@ mod profiles;
 mod recorded;
 mod recorded_arm;
 mod resume;
+mod returning;
 mod script;
 mod spoken;
 mod turning;
