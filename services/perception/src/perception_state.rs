@@ -53,7 +53,7 @@ pub enum ResumeError {
 
 impl StageState for PerceptionState {
     const STAGE: &'static str = "perception";
-    const LAYOUT: u32 = 3;
+    const LAYOUT: u32 = 4;
 
     fn check(&self) -> Result<(), Implausible> {
         self.hand.check()?;

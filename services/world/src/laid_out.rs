@@ -5,12 +5,6 @@ use coact_random::{RandomStreams, Stream};
 use glam::DVec2;
 use rand::RngExt;
 
-/// Least distance between the rims of two parts, and of a part from the base, m.
-const APART: f64 = 0.06;
-/// Least distance between the middles of two parts, m: the robot's fingers come down between them.
-const FINGERS: f64 = 0.10;
-/// How far the person's resting hand takes up the table from her wrist, m: who sat there would not lay it onto a part.
-const RESTING_HAND: f64 = 0.20;
 /// So often each part is tried, and so often all are tried anew. Chosen by hand: the shipped tasks need a few of each.
 const TRIES: u32 = 100;
 const ROUNDS: u64 = 1000;
@@ -26,8 +20,8 @@ pub fn laid_out(task: &Task, layout: Layout) -> Result<Task, WorldError> {
     let places = found.ok_or_else(|| WorldError::Scene {
         task: task.name.clone(),
         message: format!(
-            "layout {layout}: found no room in the workspaces for all parts, {APART} m apart; make [scene] workspaces \
-             larger, or take --layout task"
+            "layout {layout}: found no room in the workspaces for all parts, with space around each; make [scene] \
+             workspaces larger, or take --layout task"
         ),
     })?;
     let mut laid = task.clone();
@@ -54,17 +48,11 @@ fn places(task: &Task, random: RandomStreams, round: u64) -> Option<Vec<DVec2>> 
     Some(places)
 }
 
-/// Whether the next part fits there, beside the base, the person's resting hand and the parts that have their places.
+/// Whether the next part fits there, beside those that have their places.
 fn is_free(task: &Task, places: &[DVec2], at: DVec2) -> bool {
     let radius = |part: usize| task.kinds[task.parts[part].kind].shape.radius();
-    let (scene, own) = (&task.scene, radius(places.len()));
-    let base = DVec2::new(scene.platform[0], scene.platform[1]);
-    let is_apart =
-        |(other, place): (usize, &DVec2)| at.distance(*place) >= FINGERS.max(own + radius(other) + APART);
-    let wrist = DVec2::new(scene.person_rest[0], scene.person_rest[1]);
-    at.distance(wrist) >= RESTING_HAND
-        && at.distance(base) >= scene.platform_radius + own + APART
-        && places.iter().enumerate().all(is_apart)
+    let others = places.iter().enumerate().map(|(other, place)| (place.to_array(), radius(other)));
+    task.has_room(at.to_array(), radius(places.len()), others)
 }
 
 #[cfg(test)]

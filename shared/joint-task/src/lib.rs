@@ -43,6 +43,7 @@ mod percept_channels;
 mod person_grip;
 mod population;
 mod role;
+mod room;
 mod scene;
 mod source_file;
 mod subgoal;

@@ -3,7 +3,7 @@ use crate::{Flaw, MAX_DESTINATIONS, MAX_GRIPS, MAX_KINDS, NONE};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
-/// Where the present movement of the person's hand may lead: every part that could be taken, and two places where nothing is. What is
+/// Where the present movement of the person's hand may lead: every part that could be taken, every mounted one, and two places where nothing is. What is
 /// measured of each, before anything is chosen: that is the destination field's.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
@@ -16,7 +16,7 @@ pub struct Destinations {
     pub told: f64,
     /// Where they are on the table plane, m.
     pub place: [[f64; 2]; MAX_DESTINATIONS],
-    /// Kind of the part that lies there; [`NONE`] where nothing is taken.
+    /// Kind of the part that lies there; [`NONE`] where nothing is taken, or what is mounted.
     pub kind: [u32; MAX_DESTINATIONS],
     /// How well movement and shape of the hand fit each, against the one that they fit best, in [0, 1].
     pub fit: [f64; MAX_DESTINATIONS],

@@ -12,4 +12,6 @@ pub enum Activity {
     Request = 2,
     /// Take the part that the robot gives, and mount it.
     Receive = 3,
+    /// Take a mounted part out of its socket again, and lay it down.
+    Undo = 4,
 }

@@ -21,7 +21,7 @@ pub enum ActivityPhase {
     Mount = 6,
     /// The part is shown to the robot, for it to take.
     Give = 7,
-    /// Nobody took it: back to where it lay.
+    /// The part is carried to where it is laid down: where it lay, or, one that was mounted, to a free place.
     Return = 8,
     /// The gesture is shown.
     Show = 9,

@@ -27,6 +27,9 @@ const DWELL: Range<u64> = cycles(Duration::from_millis(80))..cycles(Duration::fr
 /// How long mounting takes, cycles. Chosen by hand.
 const MOUNTING: Range<u64> = cycles(Duration::from_millis(400))..cycles(Duration::from_millis(700));
 
+/// How long after grasp completion a part is put back, cycles. Chosen by hand: it is then hardly lifted, on its way, or at its socket.
+const RETURNS: Range<u64> = cycles(Duration::from_millis(100))..cycles(Duration::from_millis(1500));
+
 impl Person {
     pub(crate) fn reach(&self, state: &mut PersonState, around: &Surroundings, done: &mut Manipulation) {
         self.change_mind(state, around);
@@ -66,12 +69,12 @@ impl Person {
             return state.enter(ActivityPhase::AwaitRelease, tick + RELEASE_PATIENCE);
         }
         done.grasped = Some(part);
-        state.home = around.parts.position(part).into();
+        state.home = self.home_of(part, state.activity(), around).into();
         let pause = self.random.at(Stream::Movement, tick).random_range(DWELL);
         state.enter(ActivityPhase::Dwell, tick + pause);
     }
 
-    /// Says when the activity will be given up: as it was meant to be, or because the person will notice a mistake.
+    /// Says when the activity will be given up: as it was meant to be, because the person will notice a mistake, or to put the part back.
     fn see_mistake(&self, state: &mut PersonState, around: &Surroundings) {
         let tick = around.tick;
         if error(state, around) == PartnerError::None {
@@ -80,13 +83,27 @@ impl Person {
         let mistaken = self.policy.behaviour().is_some() && state.error != PartnerError::None;
         state.gives_up = match state.variation.gives_up_after {
             0 if mistaken => tick + notices_after(&mut self.random.at(Stream::Mistake, tick)),
-            0 => 0,
+            0 => self.returns(state, tick),
             after => tick + after,
         };
     }
 
-    /// Sets off with the grasped part to where it is wanted.
+    /// When the person will put back what was rightly taken from where it lay; 0: will not.
+    fn returns(&self, state: &PersonState, tick: u64) -> u64 {
+        let returns = self.policy.behaviour().map_or(0.0, |behaviour| behaviour.returns);
+        let own = matches!(state.activity(), Activity::Insert | Activity::Give);
+        if !own || state.error != PartnerError::None || returns <= 0.0 {
+            return 0;
+        }
+        let mut rng = self.random.at(Stream::Return, tick);
+        if rng.random_bool(returns) { tick + rng.random_range(RETURNS) } else { 0 }
+    }
+
+    /// Sets off with the grasped part to where it is wanted, or to be laid down.
     pub(crate) fn lift(&self, state: &mut PersonState, around: &Surroundings) {
+        if state.activity() == Activity::Undo {
+            return self.take_back(state, around);
+        }
         match (state.activity(), state.subgoal.get()) {
             (Activity::Insert | Activity::Receive, Some(subgoal)) => {
                 let goal = &around.task.subgoals[subgoal];
@@ -125,10 +142,12 @@ impl Person {
     }
 }
 
-/// Whether the part is still where the activity needs it: free to be taken, or in the robot's hand to be handed over.
+/// Whether the part is still where the activity needs it: free to be taken, mounted to be taken out, or in the robot's hand to be handed
+/// over.
 fn can_grasp(activity: Activity, part: usize, around: &Surroundings) -> bool {
     match activity {
         Activity::Receive => around.robot.held == Some(part),
+        Activity::Undo => around.parts.is(part, Holder::Socket),
         _ => around.parts.is(part, Holder::Nobody),
     }
 }

@@ -79,6 +79,7 @@ mod spline;
 mod surroundings;
 mod synthetic_policy;
 mod turning;
+mod undoing;
 mod variation;
 mod waiting;
 

@@ -68,6 +68,11 @@ impl<'a> PartsView<'a> {
         mounted.fold(0, |mask, part| mask | (1 << part.subgoal))
     }
 
+    /// The subgoal in whose socket a part is mounted.
+    pub fn mounted_for(self, part: usize) -> Option<usize> {
+        self.is(part, Holder::Socket).then(|| self.states[part].subgoal as usize)
+    }
+
     /// Whether a subgoal's turn has come: see [`Task::is_available`].
     pub fn is_available(self, subgoal: usize, task: &Task) -> bool {
         task.is_available(subgoal, self.achieved())

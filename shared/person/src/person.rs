@@ -132,7 +132,7 @@ impl Person {
         state.gives_up = 0;
     }
 
-    /// Carries the held part back to where it lay.
+    /// Carries the held part back to where it lay, or what was mounted to a free place.
     pub(crate) fn take_back(&self, state: &mut PersonState, around: &Surroundings) {
         self.carry_to(state, around, state.home.into(), DVec3::Z);
         state.enter(ActivityPhase::Return, state.movement.end);

@@ -56,7 +56,7 @@ pub struct PersonState {
     pub(crate) turn_to: [f64; 4],
     /// Where its centre was beside the middle of the finger tips when it was taken, m.
     pub(crate) offset: [f64; 3],
-    /// Where the part lay before, m.
+    /// Where the part is laid down if it is neither mounted nor given: where it lay before, or a free place, m.
     pub(crate) home: [f64; 3],
     /// How the present activity differs from the plain one.
     pub variation: Variation,

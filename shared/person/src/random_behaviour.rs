@@ -11,14 +11,16 @@ use std::ops::RangeInclusive;
 /// | `means` | fraction | a part is requested that lies in the person's own workspace |
 /// | `hidden` | fraction | of valid takings of a part, behind an occluder: it hides the part and the hand at it, but not the hand that sets out |
 /// | `words` | fraction | of valid actions, with a sentence of the task that means the same, said at reach onset |
+/// | `undoes` | fraction | a mounted part on the person's own side is taken out of its socket again and laid down, one that no achieved step needs; 0 unless given |
 /// | `clarity` | range in 0..1 | of a grip: 1 is the grip's own pitch, 0 the middle of all grips' |
 /// | `dropouts` | per second | bursts in which the tracker loses the hand, 50 to 300 ms long; at most 2 |
 /// | `withdraws` | fraction | of handovers, the person lets go of the robot's part again, or takes the given part back, too early |
 /// | `late` | fraction | of parts that the robot gives, the person comes for 2 to 6 s late |
 /// | `changes` | fraction | of valid, plain reaches to a part, the hand turns to another one at 25 to 90 % of its way; 0 unless given |
+/// | `returns` | fraction | of valid takings of an own part, the grasped part is put back to where it lay; 0 unless given |
 /// | `movement` | range in ms | movement time of a reach, 300 to 3000 |
 ///
-/// A fraction is from 0 to 1; the six fractions of all choices add up to at most 1. To receive what the robot gives is
+/// A fraction is from 0 to 1; the seven fractions of all choices add up to at most 1. To receive what the robot gives is
 /// no choice. A range is written `LOW..HIGH`. What is not named has its default value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RandomBehaviour {
@@ -28,16 +30,18 @@ pub struct RandomBehaviour {
     pub(crate) means: f64,
     pub(crate) hidden: f64,
     pub(crate) words: f64,
+    pub(crate) undoes: f64,
     pub(crate) clarity: RangeInclusive<f64>,
     pub(crate) dropouts: f64,
     pub(crate) withdraws: f64,
     pub(crate) late: f64,
     pub(crate) changes: f64,
+    pub(crate) returns: f64,
     pub(crate) movement: RangeInclusive<f64>,
 }
 
 impl Default for RandomBehaviour {
-    /// One choice in ten goes wrong; all fractions are chosen by hand. Nobody changes the mind in mid-reach. Movement time goes from the 5th percentile of
+    /// One choice in ten goes wrong; all fractions are chosen by hand. Nobody undoes a step, changes the mind in mid-reach, or puts a part back. Movement time goes from the 5th percentile of
     /// recorded reaches to the longest one.
     fn default() -> Self {
         Self {
@@ -47,19 +51,20 @@ impl Default for RandomBehaviour {
             means: 0.02,
             hidden: 0.03,
             words: 0.03,
+            undoes: 0.0,
             clarity: 0.5..=1.0,
             dropouts: 0.05,
             withdraws: 0.05,
             late: 0.05,
             changes: 0.0,
+            returns: 0.0,
             movement: 429.0..=895.0,
         }
     }
 }
 
 /// What an error names.
-const KEYS: &str =
-    "idle, goal, request, means, hidden, words, clarity, dropouts, withdraws, late, changes, movement";
+const KEYS: &str = "idle, goal, request, means, hidden, words, undoes, clarity, dropouts, withdraws, late, changes, returns, movement";
 
 impl RandomBehaviour {
     /// Reads `KEY=VALUE,...`; an empty text leaves all defaults.
@@ -73,12 +78,12 @@ impl RandomBehaviour {
             let (key, value) = entry.split_once('=').ok_or_else(|| fault(entry, "KEY=VALUE".into()))?;
             behaviour.set(key, value).map_err(|expected| fault(entry, expected))?;
         }
-        let Self { idle, goal, request, means, hidden, words, .. } = behaviour;
-        let sum = idle + goal + request + means + hidden + words;
+        let Self { idle, goal, request, means, hidden, words, undoes, .. } = behaviour;
+        let sum = idle + goal + request + means + hidden + words + undoes;
         if sum <= 1.0 {
             return Ok(behaviour);
         }
-        let all = "idle, goal, request, means, hidden and words to add up to at most 1";
+        let all = "idle, goal, request, means, hidden, words and undoes to add up to at most 1";
         Err(fault(text, format!("{all}, not {sum:.2}")))
     }
 
@@ -90,10 +95,12 @@ impl RandomBehaviour {
             "request" => self.request = fraction(value)?,
             "means" => self.means = fraction(value)?,
             "hidden" => self.hidden = fraction(value)?,
+            "undoes" => self.undoes = fraction(value)?,
             "words" => self.words = fraction(value)?,
             "withdraws" => self.withdraws = fraction(value)?,
             "late" => self.late = fraction(value)?,
             "changes" => self.changes = fraction(value)?,
+            "returns" => self.returns = fraction(value)?,
             "dropouts" => self.dropouts = number(value, 2.0, "bursts per second, from 0 to 2")?,
             "clarity" => self.clarity = range(value, 0.0..=1.0, "LOW..HIGH within 0..1")?,
             "movement" => self.movement = range(value, 300.0..=3000.0, "LOW..HIGH within 300..3000 ms")?,
@@ -128,7 +135,7 @@ mod tests {
     #[test]
     fn keys_set_their_values_and_leave_the_others() {
         let behaviour = RandomBehaviour::parse(
-            "goal=0.2,hidden=0.1,words=0.5,clarity=0..0.25,changes=1,movement=600..600",
+            "goal=0.2,hidden=0.1,words=0.4,undoes=0.05,clarity=0..0.25,changes=1,returns=0.3,movement=600..600",
         )
         .unwrap();
         assert_eq!(
@@ -136,9 +143,11 @@ mod tests {
             RandomBehaviour {
                 goal: 0.2,
                 hidden: 0.1,
-                words: 0.5,
+                words: 0.4,
+                undoes: 0.05,
                 clarity: 0.0..=0.25,
                 changes: 1.0,
+                returns: 0.3,
                 movement: 600.0..=600.0,
                 ..RandomBehaviour::default()
             }
@@ -155,14 +164,17 @@ mod tests {
             ("goal=NaN", "expected a fraction"),
             ("hidden=1.5", "expected a fraction from 0 to 1"),
             ("words=often", "expected a fraction from 0 to 1"),
+            ("undoes=2", "expected a fraction from 0 to 1"),
             ("changes=-0.1", "expected a fraction from 0 to 1"),
+            ("returns=yes", "expected a fraction from 0 to 1"),
             ("dropouts=-1", "expected bursts per second"),
             ("clarity=0.9..0.2", "expected LOW..HIGH within 0..1"),
             ("movement=10..500", "expected LOW..HIGH within 300..3000 ms"),
             ("goal=0.6,means=0.6", "to add up to at most 1"),
+            ("idle=0.5,undoes=0.6", "to add up to at most 1"),
             (
                 "idle=0.5,hidden=0.3,words=0.3",
-                "idle, goal, request, means, hidden and words to add up to at most 1",
+                "idle, goal, request, means, hidden, words and undoes to add up to at most 1",
             ),
         ] {
             let error = RandomBehaviour::parse(text).unwrap_err().to_string();

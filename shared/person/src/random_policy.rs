@@ -1,6 +1,7 @@
 //! A partner as people are: mostly right, in any order that the plan allows, at times idle or out of sight, at times with
 //! words, and now and then wrong.
 
+use crate::undoing::undoing;
 use crate::{Activity, Choice, Intention, RandomBehaviour, Surroundings, Variation, synthetic_policy};
 use coact_joint_task::{Act, Agent};
 use coact_messages::PartnerError;
@@ -23,7 +24,7 @@ const DROPOUT_INTERVAL: u64 = cycles(Duration::from_millis(500));
 const DROPOUT: RangeInclusive<u64> = cycles(Duration::from_millis(50))..=cycles(Duration::from_millis(300));
 
 /// What the person does next: receives what the robot gives, makes a mistake, idles, or does one of the valid activities;
-/// one of those may be hidden, or come with words.
+/// one of those may be hidden, or come with words. At times a step is undone.
 pub(crate) fn choose<R: Rng>(
     behaviour: &RandomBehaviour,
     around: &Surroundings,
@@ -37,12 +38,14 @@ pub(crate) fn choose<R: Rng>(
     let drawn: f64 = rng.random::<f64>() / if valid.is_some() { 1.0 } else { THINKS_OF_MISTAKES };
     let RandomBehaviour { idle, goal, request, means, .. } = *behaviour;
     let wrong = goal + request + means;
+    let in_silence = wrong + behaviour.hidden;
     let special = match drawn {
         drawn if drawn < goal => one_of(around, rng, wrong_goal),
         drawn if drawn < goal + request => one_of(around, rng, wrong_request),
         drawn if drawn < wrong => one_of(around, rng, wrong_means),
-        drawn if drawn < wrong + behaviour.hidden => hidden(around, can_hide, rng),
-        drawn if drawn < wrong + behaviour.hidden + behaviour.words => spoken(around, rng),
+        drawn if drawn < in_silence => hidden(around, can_hide, rng),
+        drawn if drawn < in_silence + behaviour.words => spoken(around, rng),
+        drawn if drawn < in_silence + behaviour.words + behaviour.undoes => one_of(around, rng, undoing),
         _ => None,
     };
     let idles = drawn >= 1.0 - idle;

@@ -74,9 +74,7 @@ impl Surroundings<'_> {
         let part = self.given()?;
         let kind = self.parts.kind(part);
         let subgoal = self.own_need(kind)?;
-        let chain = self.task.chains.iter().position(|chain| {
-            matches!(chain.act, Act::Grasp { .. }) && chain.kind == kind && chain.side == Agent::Person
-        })?;
+        let chain = self.mounting_chain(kind)?;
         let variation = Variation::default();
         Some(Intention {
             activity: Activity::Receive,
@@ -84,6 +82,13 @@ impl Surroundings<'_> {
             subgoal: Some(subgoal),
             part: Some(part),
             variation,
+        })
+    }
+
+    /// The chain by which the person takes a part of `kind` to mount it.
+    pub(crate) fn mounting_chain(&self, kind: usize) -> Option<usize> {
+        self.task.chains.iter().position(|chain| {
+            matches!(chain.act, Act::Grasp { .. }) && chain.kind == kind && chain.side == Agent::Person
         })
     }
 

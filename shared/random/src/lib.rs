@@ -42,6 +42,10 @@ pub enum Stream {
     Layout = 10,
     /// Whether, when and to what a random partner changes the mind in mid-reach.
     ChangeOfMind = 11,
+    /// Where the person lays down a part that was mounted.
+    FreePlace = 12,
+    /// Whether a random partner puts back what was taken.
+    Return = 13,
 }
 
 /// The random generators of one run.

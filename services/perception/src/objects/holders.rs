@@ -1,8 +1,6 @@
-use super::part_track::{BY_PERSON, BY_ROBOT, FREE, PartTrack};
+use super::part_track::{BY_PERSON, BY_ROBOT, FREE, PartTrack, SETTLED};
 use super::{Hands, PersonHand};
-use coact_period::cycles;
 use nalgebra::Vector3;
-use std::time::Duration;
 
 /// Distance of the finger tips' middle from the centre of a part that they close on, m: half a large part, and scatter.
 /// Chosen by hand, as all distances here: smaller ones miss grasps at a part's end, larger ones grasp the neighbour.
@@ -17,9 +15,7 @@ const CLOSED: f64 = 0.02;
 const OPENED: f64 = 0.05;
 /// Speed of a hand that closes on a part, m/s: that of a hand at rest, with the tracker's scatter.
 const SLOW: f64 = 0.15;
-/// A hand that moves off from a part that has lain still for so long has let go of it: two frames of the recogniser.
-const SETTLED: u32 = cycles(Duration::from_millis(60)) as u32;
-/// How far the hand must be away for that, m.
+/// How far a hand must be away that moves off from a part that has settled, and so has let go of it, m.
 const LEFT: f64 = 0.035;
 /// Force that tells that the robot's fingers hold something, N: above a sensor's noise, below the weight of a light part.
 /// Chosen by hand.
@@ -63,7 +59,7 @@ impl PartTrack {
         if let Some(hand) = around.person.filter(|_| free & BY_PERSON != 0)
             && self.is_taken_by_person(size, &hand)
         {
-            self.holder |= BY_PERSON;
+            self.is_taken_by_the_person();
         }
         let reached = around
             .hand_axis
@@ -77,6 +73,13 @@ impl PartTrack {
         let away = self.away_from(size, hand);
         let left = away > LEFT && self.still >= SETTLED && hand.speed > SLOW;
         !(away > OUT || left || hand.aperture > size.width + OPENED)
+    }
+
+    /// Distance from the fingers of a hand that it may be between, or carried by, m.
+    pub(super) fn reached_at(&self, size: PartSize, around: &Hands) -> Option<f64> {
+        let hand = around.person?;
+        let away = self.away_from(size, &hand);
+        (away < CLOSED_ON || self.is_taken_by_person(size, &hand)).then_some(away)
     }
 
     fn is_taken_by_person(&self, size: PartSize, hand: &PersonHand) -> bool {

@@ -1,7 +1,9 @@
 use bytemuck::{Pod, Zeroable};
 use coact_messages::Sighting;
+use coact_period::cycles;
 use coact_stage_state::{Implausible, bounded, ensure};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use std::time::Duration;
 
 /// Nobody has the part.
 pub(crate) const FREE: u32 = 0;
@@ -14,6 +16,9 @@ pub(crate) const BY_PERSON: u32 = 2;
 const MOVED: f64 = 0.012;
 /// Weight of a new sighting in the position of a part that lies still: the mean of about three sightings. Chosen by hand.
 const SMOOTHING: f64 = 0.3;
+
+/// How long a part must lie still to be settled where it is: two frames of the recogniser.
+pub(super) const SETTLED: u32 = cycles(Duration::from_millis(60)) as u32;
 
 /// No part is farther away, m, and the square of no quaternion's length farther from 1: what readers take in of a percept, which
 /// tells both.
@@ -32,6 +37,10 @@ pub(crate) struct PartTrack {
     pub absent: u32,
     /// Cycles for which it has lain still.
     pub still: u32,
+    /// 1: it is mounted, or was when it lay still in nobody's hand for the last time; else 0.
+    lay_mounted: u32,
+    /// 1: it was mounted when the person took it for the last time; else 0.
+    taken_out: u32,
     /// Cycle of the newest sighting.
     pub seen: u64,
     /// Centre of the underside, m.
@@ -61,6 +70,8 @@ impl PartTrack {
     pub fn check(&self) -> Result<(), Implausible> {
         ensure(self.holder <= BY_ROBOT | BY_PERSON, "parts.holder", "the bits of robot and person")?;
         bounded("parts.position", &self.position, FARTHEST)?;
+        let truths = self.lay_mounted <= 1 && self.taken_out <= 1;
+        ensure(truths, "parts: mounted, taken out", "0 or 1")?;
         let [x, y, z, w] = self.orientation.map(f64::from);
         let square = x * x + y * y + z * z + w * w;
         ensure(square == 0.0 || (square - 1.0).abs() <= UNIT, "parts.orientation", "a quaternion of length 1")
@@ -86,6 +97,29 @@ impl PartTrack {
         let [x, y, z, w] = self.orientation.map(f64::from);
         let turn = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
         Vector3::from(self.position) + turn * (Vector3::z() * height)
+    }
+
+    /// Whether it is `mounted` where it is, unless it moves or somebody has it.
+    pub fn look_whether(&mut self, mounted: bool) {
+        if !self.is_held() && self.still >= SETTLED {
+            self.lay_mounted = mounted.into();
+        }
+    }
+
+    /// The person has it.
+    pub fn is_taken_by_the_person(&mut self) {
+        self.holder |= BY_PERSON;
+        self.taken_out = self.lay_mounted;
+    }
+
+    /// Whether the person took it out of its socket when she took it for the last time.
+    pub fn is_taken_out(&self) -> bool {
+        self.taken_out == 1
+    }
+
+    /// Whether the person has it.
+    pub fn is_with_the_person(&self) -> bool {
+        self.holder & BY_PERSON != 0
     }
 
     /// Whether the robot has it.

@@ -47,7 +47,14 @@ impl PartTracks {
 
     /// Whether the person has one.
     pub fn is_any_with_the_person(&self) -> bool {
-        self.parts().any(|(_, part)| part.holder & BY_PERSON != 0)
+        self.parts().any(|(_, part)| part.is_with_the_person())
+    }
+
+    /// Whether the part of `kind` that the person has, or had until just now, was mounted when she took it.
+    pub fn is_taken_out(&self, kind: usize) -> bool {
+        let own = self.parts().filter(|(own, _)| *own == kind);
+        let held = own.clone().find(|(_, part)| part.is_with_the_person());
+        held.map_or_else(|| own.clone().any(|(_, part)| part.is_taken_out()), |(_, part)| part.is_taken_out())
     }
 
     /// One track, if it is in use.
@@ -88,17 +95,29 @@ impl PartTracks {
         let mut busy = FREE;
         for track in &mut self.tracks {
             if let Some(kind) = track.kind() {
+                track.look_whether(places.is_mounted(kind, track.position));
                 track.let_go(places.size(kind), around);
                 busy |= track.holder;
             }
         }
-        for track in &mut self.tracks {
+        let nearest = self.nearest_to_fingers(around, places);
+        for (index, track) in self.tracks.iter_mut().enumerate() {
             if let Some(kind) = track.kind() {
                 let airborne = places.is_airborne(kind, track.position);
-                track.take(!busy, places.size(kind), around, airborne);
+                let beside = if nearest == Some(index) { FREE } else { BY_PERSON };
+                track.take(!(busy | beside), places.size(kind), around, airborne);
                 busy |= track.holder;
             }
         }
+    }
+
+    /// The part that the person's fingers are nearest to, of those that they may be around: mounted parts stand side by side, and fingers
+    /// that close on a small one are as wide as a large one before.
+    fn nearest_to_fingers(&self, around: &Hands, places: &TaskPlaces) -> Option<usize> {
+        let reached = self.numbered().filter_map(|(index, kind, track)| {
+            track.reached_at(places.size(kind), around).map(|away| (index, away))
+        });
+        reached.min_by(|(_, one), (_, other)| one.total_cmp(other)).map(|(index, _)| index)
     }
 
     /// Gives every sighting to the nearest track of its kind, or to a new one.

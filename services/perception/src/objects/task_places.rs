@@ -1,6 +1,6 @@
 use super::PartTracks;
 use super::holders::PartSize;
-use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack};
+use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack, SETTLED};
 use crate::evidence::approach;
 use coact_joint_task::{Scene, Subgoal, Task};
 use coact_messages::{MAX_SUBGOALS, PERSON, Percept, ROBOT, SceneView, WORKSPACES};
@@ -18,9 +18,8 @@ const EMPTY: f64 = 0.05;
 const BEYOND_EDGE: f64 = 0.03;
 /// How high above the table top a part may be and still lie on it, m: on another flat one. Chosen by hand.
 const ON_TABLE: f64 = 0.05;
-/// How long a part must lie still in its socket to be mounted: two frames of the recogniser.
-const SETTLED: u32 = cycles(Duration::from_millis(60)) as u32;
-/// The same while the person's hand is not seen, or is seen for the first time again: it may hold the part there. Longer
+/// How long a part must lie still in its socket to be mounted while the person's hand is not seen, or is seen for the first time again:
+/// it may hold the part there. Longer
 /// than a person holds a part still in its socket.
 const SETTLED_UNSEEN: u32 = cycles(Duration::from_millis(2500)) as u32;
 /// Age up to which a sighting tells where the part is now: nine frames of the recogniser, which misses single ones.

@@ -161,7 +161,7 @@ impl Stage {
     }
 
     /// By how much more than mere chance the hand's movement leads to parts of a kind, as far as it tells anything.
-    fn on_the_way(&self, kind: usize) -> f64 {
+    pub fn on_the_way(&self, kind: usize) -> f64 {
         let destinations = &self.percept.destinations;
         let best = |kind: Option<usize>| {
             let of_kind = destinations.iter().filter(|(own, _, _)| *own == kind);

@@ -5,7 +5,7 @@ use crate::scenario::Sense;
 use crate::sensors::{Capture, read_joints, recognise, track};
 use crate::simulation_state::SimulationState;
 use coact_messages::{KeypointName, NONE, PartnerPhase, SensorSample, Truth, is_blocked};
-use coact_person::Holder;
+use coact_person::{Activity, Holder};
 use coact_stage_state::Slot;
 use glam::DVec3;
 
@@ -57,7 +57,9 @@ impl World {
         let phase = person.phase().as_told();
         let of_action = |index: Slot| if phase == PartnerPhase::Idle { NONE } else { index.or(NONE) };
         truth.phase = phase as u32;
-        truth.chain = of_action(person.chain);
+        // To undo a step is no chain of the task.
+        let undoes = person.activity() == Activity::Undo;
+        truth.chain = if undoes { NONE } else { of_action(person.chain) };
         truth.subgoal = of_action(person.subgoal);
         truth.onset_cycle = person.onset;
         truth.grasp_cycle = person.grasped;

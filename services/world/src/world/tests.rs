@@ -15,9 +15,11 @@ mod profiles;
 mod recorded;
 mod recorded_arm;
 mod resume;
+mod returning;
 mod script;
 mod spoken;
 mod turning;
+mod undoing;
 
 use super::World;
 use crate::{Partner, Settings};
