@@ -107,6 +107,8 @@ impl Timeline {
                 );
             }
             Event::Subgoal { at_ms, name, .. } => ("achieved", at_ms, name),
+            // The board shows it as it rises.
+            Event::Perceived { .. } => return None,
             Event::Assembly { at_ms, completed } => {
                 ("assembly", at_ms, format!("assembly {completed} is complete"))
             }

@@ -10,6 +10,8 @@ pub struct TaskWatch {
     achieved: u64,
     /// Subgoals with a peak in the layer of achieved subgoals, bit for bit.
     remembered: u64,
+    /// Subgoals of the assembly with this number that the robot has perceived to be achieved, bit for bit.
+    perceived: (u64, u64),
     /// Assemblies completed.
     completed: u64,
     decision: Decision,
@@ -21,7 +23,7 @@ impl TaskWatch {
     /// For a task.
     pub fn new(task: &Task) -> Self {
         let decision = Decision { action: NONE, reserved: 0, since: 0 };
-        Self { task: task.clone(), achieved: 0, remembered: 0, completed: 0, decision, spoken: 0 }
+        Self { task: task.clone(), achieved: 0, remembered: 0, perceived: (0, 0), completed: 0, decision, spoken: 0 }
     }
 
     /// Goes on after a restart from the events that were written before.
@@ -30,6 +32,9 @@ impl TaskWatch {
             match event {
                 Event::Subgoal { subgoal, assembly, .. } if *assembly == self.completed => {
                     self.achieved |= 1 << subgoal;
+                }
+                Event::Perceived { subgoal, assembly, .. } => {
+                    self.perceive(*assembly, 1 << subgoal);
                 }
                 Event::Assembly { completed, .. } => (self.completed, self.achieved) = (*completed, 0),
                 Event::Decision { at_ms, action } => {
@@ -78,12 +83,31 @@ impl TaskWatch {
             remembered |= u64::from(frame.since[population] != 0) << subgoal;
         }
         let lost = self.remembered & !remembered & truth.achieved;
+        // What stands for a part that the scene was just laid out without is of the assembly before.
+        let new = self.perceive(truth.assemblies, remembered & !self.remembered);
         self.remembered = remembered;
+        let populations = frame.populations(LayerKind::SubgoalsAchieved);
+        for ((subgoal, goal), population) in self.task.subgoals.iter().enumerate().zip(populations) {
+            if new & (1 << subgoal) != 0 {
+                let (at_ms, assembly, name) = (frame.since[population], truth.assemblies, goal.name.clone());
+                events.push(Event::Perceived { at_ms, assembly, subgoal, name });
+            }
+        }
         for (subgoal, goal) in self.task.subgoals.iter().enumerate() {
             if lost & (1 << subgoal) != 0 {
                 events.push(Event::Forgotten { at_ms: frame.header.cycle, name: goal.name.clone() });
             }
         }
+    }
+
+    /// Notes which subgoals are perceived in an assembly; those that were not before.
+    fn perceive(&mut self, assembly: u64, subgoals: u64) -> u64 {
+        if assembly != self.perceived.0 {
+            self.perceived = (assembly, 0);
+        }
+        let new = subgoals & !self.perceived.1;
+        self.perceived.1 |= subgoals;
+        new
     }
 
     /// What the robot said; a reader that connects gets the last sentence once more, which is not news.

@@ -17,6 +17,18 @@ pub enum Event {
         /// Its name.
         name: String,
     },
+    /// The robot has perceived that a subgoal is achieved: its peak has risen in the layer of achieved subgoals, for the first time in this
+    /// assembly.
+    Perceived {
+        /// When it crossed threshold.
+        at_ms: u64,
+        /// Number of the assembly in the run, from 0.
+        assembly: u64,
+        /// Index of the subgoal in the task.
+        subgoal: usize,
+        /// Its name.
+        name: String,
+    },
     /// An assembly was completed: its last part came into its place, or the scene was laid out again.
     Assembly {
         /// When.

@@ -76,7 +76,8 @@ impl TaskReport {
                 Event::Utterance { at_ms, text } => {
                     report.utterances.push(Said { at_s: seconds(at_ms), text: text.clone() });
                 }
-                Event::Forgotten { .. }
+                Event::Perceived { .. }
+                | Event::Forgotten { .. }
                 | Event::Action(_)
                 | Event::Wait(_)
                 | Event::Fault(_)

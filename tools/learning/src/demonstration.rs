@@ -90,12 +90,12 @@ impl Demonstration {
         Ok(Self { source: source.into(), steps })
     }
 
-    /// One demonstration for each assembly that was completed; one that was broken off is left out.
+    /// One demonstration for each assembly that was completed, as the robot perceived it; one that was broken off is left out.
     fn of_report(name: &str, events: Vec<Event>, known: &[String]) -> Result<Vec<Self>, LearnError> {
         let mut assemblies: Vec<(u64, Vec<NamedStep>)> = Vec::new();
         for (line, event) in (1..).zip(events) {
             let place = format!("{name}:{line}");
-            let Event::Subgoal { at_ms, assembly, name, .. } = event else { continue };
+            let Event::Perceived { at_ms, assembly, name, .. } = event else { continue };
             if assemblies.last().is_none_or(|(last, _)| *last != assembly) {
                 assemblies.push((assembly, Vec::new()));
             }
@@ -109,7 +109,7 @@ impl Demonstration {
         if assemblies.is_empty() {
             return Err(LearnError::content(
                 name,
-                "no subgoal was achieved in this run; expected an assembly",
+                "no subgoal was perceived to be achieved in this run; expected an assembly",
             ));
         }
         let demonstration =

@@ -1,7 +1,4 @@
-/// From this strength on a connection counts as a condition.
-///
-/// A single demonstration brings the connection from a subgoal that is memorised in time above 0.8, and one from a
-/// subgoal that is not below 0.2 (the tests of `PlasticConnection` measure both): the middle tells them apart.
+/// From this strength on a connection counts as a condition: when that is as likely as not.
 const CONDITION: f64 = 0.5;
 
 /// Learned connections between subgoals, and the plan that is read out of them.
@@ -17,12 +14,12 @@ impl LearnedOrder {
         Self { subgoals, strengths }
     }
 
-    /// Strength of the connection, 0 to 1.
+    /// Strength of the connection, 0 to 1: how likely the one is a condition of the other.
     pub fn strength(&self, from: usize, to: usize) -> f64 {
         self.strengths[from * self.subgoals + to]
     }
 
-    /// Whether `from` was always memorised when `to` came about.
+    /// Whether `from` was memorised whenever `to` came about, but for a mistake.
     pub fn is_condition(&self, from: usize, to: usize) -> bool {
         self.strength(from, to) >= CONDITION
     }

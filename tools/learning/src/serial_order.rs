@@ -45,6 +45,7 @@ impl SerialOrder {
             let pause = next.map_or(AFTER_LAST_STEP, |next| (next.at_ms - step.at_ms).min(LONGEST_PAUSE));
             (0..pause).for_each(|_| self.step(&seen));
         }
+        self.connections.iter_mut().for_each(PlasticConnection::learn);
     }
 
     fn step(&mut self, seen: &[bool]) {
@@ -52,14 +53,14 @@ impl SerialOrder {
         let (memorised, achieved) = self.sublayers.signals();
         for (target, &achieved) in achieved.iter().enumerate().filter(|(_, achieved)| **achieved > 0.0) {
             for (source, &memorised) in memorised.iter().enumerate().filter(|(source, _)| *source != target) {
-                self.connections[source * self.subgoals + target].learn(memorised, achieved);
+                self.connections[source * self.subgoals + target].trace(memorised, achieved);
             }
         }
     }
 
     /// What has been learned so far.
     pub fn order(&self) -> LearnedOrder {
-        let strengths = self.connections.iter().map(|connection| connection.weight).collect();
+        let strengths = self.connections.iter().map(PlasticConnection::strength).collect();
         LearnedOrder::new(self.subgoals, strengths)
     }
 }

@@ -26,11 +26,14 @@ fn toml_and_csv_say_the_same() {
 
 #[test]
 fn a_report_holds_one_demonstration_for_each_completed_assembly() {
+    // What really happened, in the other order, is not what the robot saw.
     let text = r#"{"event":"decision","at_ms":900,"action":"give: cup"}
-{"event":"subgoal","at_ms":1500,"assembly":0,"subgoal":1,"name":"spoon"}
-{"event":"subgoal","at_ms":3000,"assembly":0,"subgoal":0,"name":"cup"}
-{"event":"assembly","at_ms":3000,"completed":1}
-{"event":"subgoal","at_ms":9000,"assembly":1,"subgoal":0,"name":"cup"}
+{"event":"subgoal","at_ms":1300,"assembly":0,"subgoal":0,"name":"cup"}
+{"event":"subgoal","at_ms":1400,"assembly":0,"subgoal":1,"name":"spoon"}
+{"event":"perceived","at_ms":1500,"assembly":0,"subgoal":1,"name":"spoon"}
+{"event":"assembly","at_ms":1400,"completed":1}
+{"event":"perceived","at_ms":3000,"assembly":0,"subgoal":0,"name":"cup"}
+{"event":"perceived","at_ms":9000,"assembly":1,"subgoal":0,"name":"cup"}
 "#;
     let read = read("events.jsonl", text).unwrap();
     assert_eq!(read.len(), 1, "the second one was broken off");
@@ -61,5 +64,5 @@ fn what_is_no_demonstration_is_refused_with_its_place() {
     assert!(refused("a.csv", "seconds,subgoal\n-1,cup\n").contains("expected a time from the start"));
     assert!(refused("events.jsonl", "{\"event\":\n").contains("events.jsonl:1: not a line of this log"));
     assert!(refused("a.txt", "").contains("expected a demonstration"));
-    assert!(read("empty.jsonl", "").unwrap_err().to_string().contains("no subgoal was achieved"));
+    assert!(read("empty.jsonl", "").unwrap_err().to_string().contains("no subgoal was perceived"));
 }

@@ -88,26 +88,51 @@ fn shipped_demonstrations_teach_the_given_plan() {
     assert_eq!(learned.order().plan(), given(&task));
 }
 
+/// A valid order in which two neighbours are exchanged of which one needs the other: somebody made a mistake.
+fn mistaken_order(task: &Task, random: &mut Pcg64Mcg) -> Vec<usize> {
+    let mut order = valid_order(task, random);
+    let needs = |place: &usize| task.subgoals[order[place + 1]].after.contains(&order[*place]);
+    let place = (0..order.len() - 1).filter(needs).choose(random).unwrap();
+    order.swap(place, place + 1);
+    order
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
-    /// After every single demonstration, exactly what came before in all of them; so the given plan is reached as soon
-    /// as every pair that it leaves open was seen in both orders, and is never left again.
+    /// What the plan really needs is a condition after every demonstration, whatever is free beside it; what has come in both orders
+    /// as often is none; and the plan that all have in common is learned in the end.
     #[test]
-    fn what_is_learned_is_what_all_demonstrations_have_in_common(seed: u64) {
+    fn what_is_learned_is_what_demonstrations_have_in_common(seed: u64) {
         let (task, plan) = toy_vehicle();
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         let mut learned = SerialOrder::new(&plan).unwrap();
         let mut shown = Vec::new();
-        let mut reached = false;
         for _ in 0..40 {
             shown.push(valid_order(&task, &mut random));
             learned.watch(&demonstrate(shown.last().unwrap()));
-            let now = learned.order().plan();
-            prop_assert_eq!(&now, &common_plan(&shown, task.subgoals.len()));
-            prop_assert!(!reached || now == given(&task), "a plan once learned was lost");
-            reached |= now == given(&task);
+            let order = learned.order();
+            for (goal, subgoal) in task.subgoals.iter().enumerate() {
+                prop_assert!(subgoal.after.iter().all(|&before| order.is_condition(before, goal)));
+            }
         }
-        prop_assert!(reached, "not learned from 40 random demonstrations");
+        prop_assert_eq!(&common_plan(&shown, task.subgoals.len()), &given(&task));
+        prop_assert_eq!(learned.order().plan(), given(&task));
+    }
+
+    /// One demonstration with a mistake among 30 changes nothing in the end, whichever it is, even if it is the first.
+    #[test]
+    fn one_mistaken_demonstration_among_many_prunes_nothing(seed: u64, mistaken in 0_usize..30) {
+        let (task, plan) = toy_vehicle();
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let mut learned = SerialOrder::new(&plan).unwrap();
+        for number in 0..31 {
+            let make = if number == mistaken { mistaken_order } else { valid_order };
+            learned.watch(&demonstrate(&make(&task, &mut random)));
+        }
+        let order = learned.order();
+        for (goal, subgoal) in task.subgoals.iter().enumerate() {
+            prop_assert!(subgoal.after.iter().all(|&before| order.is_condition(before, goal)), "{}", subgoal.name);
+        }
     }
 }
