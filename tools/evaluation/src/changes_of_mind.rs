@@ -119,6 +119,7 @@ mod tests {
             detection: None,
             fields: Vec::new(),
             turn: Some(turn),
+            hesitation: None,
         }
     }
 
