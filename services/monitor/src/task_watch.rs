@@ -23,7 +23,15 @@ impl TaskWatch {
     /// For a task.
     pub fn new(task: &Task) -> Self {
         let decision = Decision { action: NONE, reserved: 0, since: 0 };
-        Self { task: task.clone(), achieved: 0, remembered: 0, perceived: (0, 0), completed: 0, decision, spoken: 0 }
+        Self {
+            task: task.clone(),
+            achieved: 0,
+            remembered: 0,
+            perceived: (0, 0),
+            completed: 0,
+            decision,
+            spoken: 0,
+        }
     }
 
     /// Goes on after a restart from the events that were written before.

@@ -178,7 +178,7 @@ described! {
     }
     Speech { header, length, text }
     Truth {
-        header, actions, phase, chain, subgoal, onset_cycle, grasp_cycle, turn_cycle, heading_cycle, achieved, assemblies, error,
+        header, actions, phase, chain, subgoal, onset_cycle, grasp_cycle, turn_cycle, heading_cycle, hesitation_cycle, achieved, assemblies, error,
         waiting, hidden, handover,
         joints, arm, held
     }

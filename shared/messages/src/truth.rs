@@ -28,6 +28,8 @@ pub struct Truth {
     /// First cycle after that from which on, for 50 ms at least, the hand moved more in the direction of the new part than in that of the
     /// old one; 0 until then, and again where it has not lasted so long.
     pub heading_cycle: u64,
+    /// Cycle at which the hand began to stop on its way, to go on to the same part later; 0: the action's reach has not hesitated.
+    pub hesitation_cycle: u64,
     /// Bit i set: subgoal i's part is really in its place.
     pub achieved: u64,
     /// Completed assemblies before the present one (the scene is laid out again after each).
@@ -88,7 +90,7 @@ impl Plausible for Truth {
         not_after(
             "cycles",
             &self.header,
-            &[self.onset_cycle, self.grasp_cycle, self.turn_cycle, self.heading_cycle],
+            &[self.onset_cycle, self.grasp_cycle, self.turn_cycle, self.heading_cycle, self.hesitation_cycle],
         )?;
         index("error", self.error, PartnerError::AtHand as usize + 1)?;
         index("waiting", self.waiting, 2)?;

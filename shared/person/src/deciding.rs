@@ -1,7 +1,7 @@
 //! At rest: what to do next, and what it will be like.
 
 use crate::person::error;
-use crate::{ActivityPhase, Choice, Intention, Person, PersonState, ReachTurn, Surroundings};
+use crate::{ActivityPhase, Choice, Hesitation, Intention, Person, PersonState, ReachTurn, Surroundings};
 use bytemuck::Zeroable;
 use coact_random::Stream;
 use coact_stage_state::Slot;
@@ -37,6 +37,7 @@ impl Person {
     fn intend(&self, intention: Intention, state: &mut PersonState, around: &Surroundings) {
         self.mean(intention, state, around);
         state.turn = ReachTurn::zeroed();
+        state.hesitation = Hesitation::default();
         state.movement = self.reach_movement(state, around);
         state.set_occluder(self.occluder(state, around));
     }

@@ -32,15 +32,22 @@ pub struct HandMovement {
 }
 
 impl HandMovement {
-    /// Fraction of the movement that has passed at `tick`, in [0, 1].
-    pub(crate) fn time(&self, tick: u64) -> f64 {
+    /// Fraction of the movement that has passed at `now`, cycles, in [0, 1].
+    pub(crate) fn time(&self, now: f64) -> f64 {
         let span = self.end.saturating_sub(self.start).max(1);
-        (tick.saturating_sub(self.start) as f64 / span as f64).min(1.0)
+        ((now - self.start as f64).max(0.0) / span as f64).min(1.0)
     }
 
-    /// Time since its onset, s; negative before.
-    pub(crate) fn since_onset(&self, tick: u64) -> f64 {
-        (tick as f64 - self.onset as f64) * PERIOD_S
+    /// Time from its onset to `now`, cycles, in s; negative before.
+    pub(crate) fn since_onset(&self, now: f64) -> f64 {
+        (now - self.onset as f64) * PERIOD_S
+    }
+
+    /// The movement is made later by so many cycles.
+    pub(crate) fn put_off(&mut self, delay: u64) {
+        self.start += delay;
+        self.onset += delay;
+        self.end += delay;
     }
 
     pub(crate) fn is_over(&self, tick: u64) -> bool {
@@ -60,7 +67,12 @@ impl HandMovement {
 
     /// The hand at `tick`.
     pub(crate) fn pose(&self, tick: u64) -> HandPose {
-        let time = self.time(tick);
+        self.pose_at(tick as f64)
+    }
+
+    /// The hand at `now`, cycles.
+    pub(crate) fn pose_at(&self, now: f64) -> HandPose {
+        let time = self.time(now);
         let along = minimum_jerk(time);
         let mut pose = self.from.towards(&self.to, along);
         pose.wrist[2] += self.arch * 16.0 * along * along * (1.0 - along) * (1.0 - along);

@@ -33,6 +33,7 @@ const RETURNS: Range<u64> = cycles(Duration::from_millis(100))..cycles(Duration:
 impl Person {
     pub(crate) fn reach(&self, state: &mut PersonState, around: &Surroundings, done: &mut Manipulation) {
         self.change_mind(state, around);
+        self.hesitate(state, around);
         let before = state.hand;
         self.move_towards(state, around);
         self.see_heading(state, &before, around.tick);

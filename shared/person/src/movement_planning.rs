@@ -124,7 +124,7 @@ impl Person {
     ) -> Option<(usize, DVec3, DQuat)> {
         state.hand = state.movement.pose(around.tick);
         let part = state.held.get()?;
-        let along = minimum_jerk(state.movement.time(around.tick));
+        let along = minimum_jerk(state.movement.time(around.tick as f64));
         let turn =
             DQuat::from_array(state.turn_from).slerp(DQuat::from_array(state.turn_to), along).normalize();
         let centre = self.model.centre(&state.hand) + (1.0 - along) * DVec3::from(state.offset);

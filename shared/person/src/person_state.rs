@@ -1,5 +1,5 @@
 use crate::live_hand::LiveHand;
-use crate::{Activity, ActivityPhase, HandMovement, HandPose, Intention, ReachTurn, Variation};
+use crate::{Activity, ActivityPhase, HandMovement, HandPose, Hesitation, Intention, ReachTurn, Variation};
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_joint_task::Task;
 use coact_messages::PartnerError;
@@ -50,6 +50,8 @@ pub struct PersonState {
     pub movement: HandMovement,
     /// How the present activity's reach has turned to another part, if it has.
     pub turn: ReachTurn,
+    /// How the present activity's reach has stopped on its way, if it has.
+    pub hesitation: Hesitation,
     /// Orientation of the carried part where it was taken.
     pub(crate) turn_from: [f64; 4],
     /// Orientation where it goes to.
@@ -130,6 +132,7 @@ impl PersonState {
         ensure(counts.iter().all(|count| *count <= u64::from(u32::MAX)), "person: count", "32 bits at most")?;
         self.movement.check()?;
         self.turn.check(recordings, now)?;
+        self.hesitation.check(now)?;
         self.live.check(now)?;
         self.check_numbers()
     }

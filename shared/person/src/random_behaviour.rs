@@ -18,6 +18,7 @@ use std::ops::RangeInclusive;
 /// | `late` | fraction | of parts that the robot gives, the person comes for 2 to 6 s late |
 /// | `changes` | fraction | of valid, plain reaches to a part, the hand turns to another one at 25 to 90 % of its way; 0 unless given |
 /// | `returns` | fraction | of valid takings of an own part, the grasped part is put back to where it lay; 0 unless given |
+/// | `hesitates` | fraction | of valid, plain reaches to a part, the hand stops at 25 to 75 % of its way for 0.3 to 1.0 s, and goes on; 0 unless given |
 /// | `movement` | range in ms | movement time of a reach, 300 to 3000 |
 ///
 /// A fraction is from 0 to 1; the seven fractions of all choices add up to at most 1. To receive what the robot gives is
@@ -37,11 +38,12 @@ pub struct RandomBehaviour {
     pub(crate) late: f64,
     pub(crate) changes: f64,
     pub(crate) returns: f64,
+    pub(crate) hesitates: f64,
     pub(crate) movement: RangeInclusive<f64>,
 }
 
 impl Default for RandomBehaviour {
-    /// One choice in ten goes wrong; all fractions are chosen by hand. Nobody undoes a step, changes the mind in mid-reach, or puts a part back. Movement time goes from the 5th percentile of
+    /// One choice in ten goes wrong; all fractions are chosen by hand. Nobody undoes a step, changes the mind in mid-reach, hesitates, or puts a part back. Movement time goes from the 5th percentile of
     /// recorded reaches to the longest one.
     fn default() -> Self {
         Self {
@@ -58,13 +60,14 @@ impl Default for RandomBehaviour {
             late: 0.05,
             changes: 0.0,
             returns: 0.0,
+            hesitates: 0.0,
             movement: 429.0..=895.0,
         }
     }
 }
 
 /// What an error names.
-const KEYS: &str = "idle, goal, request, means, hidden, words, undoes, clarity, dropouts, withdraws, late, changes, returns, movement";
+const KEYS: &str = "idle, goal, request, means, hidden, words, undoes, clarity, dropouts, withdraws, late, changes, returns, hesitates, movement";
 
 impl RandomBehaviour {
     /// Reads `KEY=VALUE,...`; an empty text leaves all defaults.
@@ -101,6 +104,7 @@ impl RandomBehaviour {
             "late" => self.late = fraction(value)?,
             "changes" => self.changes = fraction(value)?,
             "returns" => self.returns = fraction(value)?,
+            "hesitates" => self.hesitates = fraction(value)?,
             "dropouts" => self.dropouts = number(value, 2.0, "bursts per second, from 0 to 2")?,
             "clarity" => self.clarity = range(value, 0.0..=1.0, "LOW..HIGH within 0..1")?,
             "movement" => self.movement = range(value, 300.0..=3000.0, "LOW..HIGH within 300..3000 ms")?,
@@ -135,7 +139,7 @@ mod tests {
     #[test]
     fn keys_set_their_values_and_leave_the_others() {
         let behaviour = RandomBehaviour::parse(
-            "goal=0.2,hidden=0.1,words=0.4,undoes=0.05,clarity=0..0.25,changes=1,returns=0.3,movement=600..600",
+            "goal=0.2,hidden=0.1,words=0.4,undoes=0.05,clarity=0..0.25,changes=1,returns=0.3,hesitates=0.5,movement=600..600",
         )
         .unwrap();
         assert_eq!(
@@ -148,6 +152,7 @@ mod tests {
                 clarity: 0.0..=0.25,
                 changes: 1.0,
                 returns: 0.3,
+                hesitates: 0.5,
                 movement: 600.0..=600.0,
                 ..RandomBehaviour::default()
             }
@@ -167,6 +172,7 @@ mod tests {
             ("undoes=2", "expected a fraction from 0 to 1"),
             ("changes=-0.1", "expected a fraction from 0 to 1"),
             ("returns=yes", "expected a fraction from 0 to 1"),
+            ("hesitates=1.01", "expected a fraction from 0 to 1"),
             ("dropouts=-1", "expected bursts per second"),
             ("clarity=0.9..0.2", "expected LOW..HIGH within 0..1"),
             ("movement=10..500", "expected LOW..HIGH within 300..3000 ms"),

@@ -29,10 +29,10 @@ impl Person {
         &self,
         reach: &RecordedReach,
         movement: &HandMovement,
-        tick: u64,
+        now: f64,
     ) -> Option<HandPose> {
-        let frame = reach.at(movement.since_onset(tick))?;
-        let mut pose = movement.pose(tick);
+        let frame = reach.at(movement.since_onset(now))?;
+        let mut pose = movement.pose_at(now);
         let (from, to) = (movement.from.wrist(), movement.to.wrist());
         let along = frame.progress.clamp(0.0, 1.0);
         let arch = movement.arch * 16.0 * along * along * (1.0 - along) * (1.0 - along);
@@ -50,7 +50,7 @@ impl Person {
             ActivityPhase::Prepare => (begins, 1.0 - begins.saturating_sub(tick) as f64 / LEAD as f64),
             ActivityPhase::Reach => (begins, 1.0),
             _ if turned => (state.grasped.saturating_sub(reach.movement_time), trail(state, tick)),
-            _ => (state.onset, trail(state, tick)),
+            _ => (state.onset + state.hesitation.delay(), trail(state, tick)),
         };
         if fraction <= 0.0 {
             return None;
@@ -58,7 +58,7 @@ impl Person {
         let lost = [Keypoint::default(); 9];
         let frame = match state.phase() {
             ActivityPhase::Reach if turned => self.turning_frame(state, tick),
-            _ => reach.at((tick as f64 - onset as f64) * PERIOD_S),
+            _ => reach.at((state.hesitation.time(tick) - onset as f64) * PERIOD_S),
         };
         Some(frame.map_or(lost, |frame| self.shaped(&state.hand, &frame, fraction)))
     }
@@ -68,10 +68,11 @@ impl Person {
     fn turning_frame(&self, state: &PersonState, tick: u64) -> Option<RecordedFrame> {
         let (first, second) = (self.recording_at(state.turn.recording)?, self.recording(state)?);
         let over = seconds(first.movement_time);
-        let going = first.at(state.turn.first.since_onset(tick).min(over));
+        let now = tick as f64;
+        let going = first.at(state.turn.first.since_onset(now).min(over));
         let left = seconds(state.movement.end.saturating_sub(tick));
         let coming = second.at(seconds(second.movement_time) - left);
-        let along = minimum_jerk(state.movement.time(tick));
+        let along = minimum_jerk(state.movement.time(now));
         match (going, coming) {
             (Some(going), Some(coming)) => Some(going.mixed_with(&coming, along)),
             (going, coming) => {

@@ -25,7 +25,7 @@ impl Person {
     /// decided plays a part in it.
     pub(crate) fn change_mind(&self, state: &mut PersonState, around: &Surroundings) {
         let changes = self.policy.behaviour().map_or(0.0, |behaviour| behaviour.changes);
-        if changes <= 0.0 || !may_turn(state) {
+        if changes <= 0.0 || !is_plain(state) {
             return;
         }
         let mut rng = self.random.at(Stream::ChangeOfMind, state.movement.start);
@@ -40,11 +40,12 @@ impl Person {
         }
     }
 
-    /// Fraction of the way that the hand has covered in a movement that has not turned; `None` while the recording shows nothing.
-    fn covered(&self, state: &PersonState, tick: u64) -> Option<f64> {
+    /// Fraction of the way that the hand has covered in a movement that has neither turned nor stood; `None` while the recording shows nothing.
+    pub(crate) fn covered(&self, state: &PersonState, tick: u64) -> Option<f64> {
+        let now = tick as f64;
         match self.recording(state) {
-            None => Some(minimum_jerk(state.movement.time(tick))),
-            Some(reach) => reach.at(state.movement.since_onset(tick)).map(|frame| frame.progress),
+            None => Some(minimum_jerk(state.movement.time(now))),
+            Some(reach) => reach.at(state.movement.since_onset(now)).map(|frame| frame.progress),
         }
     }
 
@@ -75,9 +76,10 @@ impl Person {
 
     /// The hand of a reach at `tick`, where one movement or two drive it; `None` while the recording shows nothing.
     pub(crate) fn reaching_pose(&self, state: &PersonState, tick: u64) -> Option<HandPose> {
+        let now = state.hesitation.time(tick);
         let recorded = |recording: Slot, movement: &HandMovement| match self.recording_at(recording) {
-            None => Some(movement.pose(tick)),
-            Some(reach) => self.recorded_pose(reach, movement, tick),
+            None => Some(movement.pose_at(now)),
+            Some(reach) => self.recorded_pose(reach, movement, now),
         };
         match state.turn.first() {
             None => recorded(state.recording, &state.movement),
@@ -105,12 +107,12 @@ impl Person {
     }
 }
 
-/// Whether this is a reach about which the person may change the mind: it is right, in full view and in silence, goes to a part that
-/// lies there, and has not turned yet.
-fn may_turn(state: &PersonState) -> bool {
+/// Whether this is a reach about which the person may change the mind, or hesitate: it is right, in full view and in silence, goes to a part
+/// that lies there, and has neither turned nor stood yet.
+pub(crate) fn is_plain(state: &PersonState) -> bool {
     let own = matches!(state.activity(), Activity::Insert | Activity::Give) && state.part.get().is_some();
     let plain = state.variation == Variation::default() && state.error == PartnerError::None;
-    own && plain && state.turn.begun == 0
+    own && plain && state.turn.begun == 0 && state.hesitation.begun == 0
 }
 
 /// What the person means to take instead: something else that is valid now, or another part that lies there, if there is no such

@@ -46,6 +46,8 @@ pub enum Stream {
     FreePlace = 12,
     /// Whether a random partner puts back what was taken.
     Return = 13,
+    /// Whether, where and for how long a random partner hesitates in mid-reach.
+    Hesitation = 14,
 }
 
 /// The random generators of one run.

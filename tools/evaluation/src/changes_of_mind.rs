@@ -122,6 +122,7 @@ mod tests {
             detection: None,
             fields: Vec::new(),
             turn: Some(turn),
+            hesitation: None,
         }
     }
 

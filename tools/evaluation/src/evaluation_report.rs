@@ -1,5 +1,7 @@
 use crate::statistics::{Estimate, Proportion, Spread};
-use crate::{ChangesOfMind, Detection, ErrorKind, Inference, NetworkVariant, PartnerAction, Trial};
+use crate::{
+    ChangesOfMind, Detection, ErrorKind, Hesitations, Inference, NetworkVariant, PartnerAction, Trial,
+};
 use coact_run_records::SeparationReport;
 use serde::Serialize;
 
@@ -86,6 +88,9 @@ pub struct EvaluationReport {
     /// ... to what was wrong: the plan left nothing else.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changes_to_errors: Option<ChangesOfMind>,
+    /// Hesitations in mid-reach; none where nobody hesitated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hesitations: Option<Hesitations>,
 }
 
 /// What the first goal that stood was, of reaches with another part so near to their way.
@@ -216,6 +221,7 @@ impl EvaluationReport {
             human_waits: mean(&|trial| trial.fluency.human_waits),
             changes_of_mind: ChangesOfMind::new(valid.iter().copied()),
             changes_to_errors: ChangesOfMind::new(wrong.iter().copied()),
+            hesitations: Hesitations::new(valid.iter().copied()),
         }
     }
 }

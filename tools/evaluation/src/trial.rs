@@ -1,4 +1,4 @@
-use crate::{Fluency, TurnedReach};
+use crate::{Fluency, HesitantReach, TurnedReach};
 use coact_run_records::SeparationReport;
 use serde::Serialize;
 
@@ -86,6 +86,9 @@ pub struct PartnerAction {
     pub fields: Vec<String>,
     /// How the person changed the mind on the way. What was meant, and what was wrong with it, is as it was from then on.
     pub turn: Option<TurnedReach>,
+    /// If the hand hesitated in mid-reach: how the robot bore it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hesitation: Option<HesitantReach>,
 }
 
 impl PartnerAction {

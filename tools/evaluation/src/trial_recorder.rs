@@ -1,8 +1,8 @@
-use crate::TurnedReach;
 use crate::fluency::FluencyCounter;
 use crate::nearest_angle::nearest_angle;
 use crate::open_action::{Meant, OpenAction, meant};
 use crate::trial::{Alarm, Detection, DoublePeak, Inference, PartnerAction, Trial};
+use crate::{HesitantReach, TurnedReach};
 use coact_joint_task::{Act, Agent, NetworkPlan, Role, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
@@ -125,6 +125,7 @@ impl<'a> TrialRecorder<'a> {
             self.close();
         }
         self.follow_turn(truth, frame);
+        self.follow_hesitation(truth, frame);
         let inferred = self.highest(LayerKind::Intention, frame);
         let Some(open) = &mut self.open else { return };
         // What has stood since before the hand set out is of the action before, or predicted.
@@ -184,6 +185,18 @@ impl<'a> TrialRecorder<'a> {
         }
     }
 
+    /// The hand may stop on its way: from then on it is seen whether the goal stands until the grasp.
+    fn follow_hesitation(&mut self, truth: &Truth, frame: &FieldFrame) {
+        let inferred = self.highest(LayerKind::Intention, frame);
+        let (Some(open), Some(action)) = (&self.open, self.trial.actions.last_mut()) else { return };
+        if truth.hesitation_cycle == 0 || action.grasp_ms.is_some() {
+            return;
+        }
+        let stands = inferred.is_some() && inferred == open.goal;
+        let hesitation = action.hesitation.get_or_insert(HesitantReach::new(truth.hesitation_cycle));
+        hesitation.see(stands, truth.header.cycle);
+    }
+
     fn begin(&mut self, stages: &Lockstep) {
         let truth = &*stages.truth;
         let Some(Meant { open, chain, subgoal, error }) = meant(self.task, self.plan, truth) else { return };
@@ -208,6 +221,7 @@ impl<'a> TrialRecorder<'a> {
             detection: None,
             fields: Vec::new(),
             turn: None,
+            hesitation: None,
         });
     }
 

@@ -66,3 +66,16 @@ fn what_the_person_puts_back_is_taken_again() {
     let physics = RunSettings { world: WorldMode::Physics, ..settings(4, partner) };
     assert!(returned(&physics) > 0);
 }
+
+#[test]
+fn who_hesitates_is_waited_for() {
+    let partner = "random:goal=0,hidden=0,words=0,hesitates=1";
+    for seed in 1..=3 {
+        let (mut hesitated, mut before) = (0, 0);
+        build(&settings(seed, partner), |stages| {
+            hesitated += u32::from(stages.truth.hesitation_cycle > before);
+            before = stages.truth.hesitation_cycle;
+        });
+        assert!(hesitated >= 2, "seed {seed}: {hesitated}");
+    }
+}

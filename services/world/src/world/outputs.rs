@@ -64,6 +64,7 @@ impl World {
         truth.onset_cycle = person.onset;
         truth.grasp_cycle = person.grasped;
         (truth.turn_cycle, truth.heading_cycle) = (person.turn.begun, person.turn.headed);
+        truth.hesitation_cycle = person.hesitation.begun;
         truth.achieved = self.parts.achieved();
         truth.held = [Holder::Robot, Holder::Person].map(|holder| self.parts.held_by(holder));
         truth.assemblies = self.simulation.assemblies;

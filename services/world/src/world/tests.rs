@@ -4,6 +4,7 @@ mod carrying;
 mod fake_robot;
 mod grasping;
 mod handover;
+mod hesitating;
 mod hidden;
 mod inserting;
 mod live;

@@ -1,7 +1,9 @@
 //! The metrics of an evaluation as a table.
 
 use super::Evaluation;
-use coact_evaluation::{ChangesOfMind, Comparison, Estimate, EvaluationReport, Proportion, Spread};
+use coact_evaluation::{
+    ChangesOfMind, Comparison, Estimate, EvaluationReport, Hesitations, Proportion, Spread,
+};
 use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 
 /// Prints all metrics, beside those of the baseline if there is one.
@@ -126,7 +128,19 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
     {
         rows.extend(changes.iter().flat_map(|changes| rows_of_changes(changes, to)));
     }
+    rows.extend(report.hesitations.iter().flat_map(rows_of_hesitations));
     rows
+}
+
+/// Name and value of every metric of hesitations in mid-reach.
+fn rows_of_hesitations(hesitations: &Hesitations) -> Vec<(String, String)> {
+    vec![
+        ("hesitated: goal inferred as the hand stops".into(), proportion(&hesitations.inferred_before)),
+        ("  or later, before the grasp".into(), proportion(&hesitations.inferred)),
+        ("    and from then on until it".into(), proportion(&hesitations.kept)),
+        ("  rightly at grasp".into(), proportion(&hesitations.right)),
+        ("  wrongly".into(), proportion(&hesitations.wrong)),
+    ]
 }
 
 /// Name and value of every metric of changes of mind in mid-reach.

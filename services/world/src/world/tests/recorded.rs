@@ -124,9 +124,14 @@ fn a_partner_who_errs_reaches_as_the_participant_did() {
 
 /// A partner whose hand moves as that of a recorded participant, and who changes the mind in this fraction of reaches.
 fn who_changes(fraction: u8, seed: u64) -> World {
+    who(&format!("changes={fraction}"), seed)
+}
+
+/// One who behaves like this besides.
+fn who(behaves: &str, seed: u64) -> World {
     let reaches = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/reaches");
     let reaches = RecordedReaches::load_participant(&reaches, 3).unwrap();
-    let behaviour = format!("goal=0,hidden=0,words=0,dropouts=0,changes={fraction}");
+    let behaviour = format!("goal=0,hidden=0,words=0,dropouts=0,{behaves}");
     let partner = Partner::Random(RandomBehaviour::parse(&behaviour).unwrap());
     let settings =
         Settings { reaches: Some(reaches), ..super::settings(seed, partner, WorldMode::Kinematic) };
@@ -181,4 +186,36 @@ fn recorded_hand_that_turned_has_the_new_part_in_its_fingers() {
         assert!(!seen || middle.distance(centre) < 0.02, "{} m", middle.distance(centre));
     }
     assert!(turned >= 5, "{turned} reaches turned");
+}
+
+#[test]
+fn recorded_hand_stands_still_and_goes_on_as_it_would_have() {
+    let mut worlds = [who("hesitates=1", 1), who("hesitates=0", 1)];
+    let (mut robots, mut outs) = ([FakeRobot::new(), FakeRobot::new()], [Out::new(), Out::new()]);
+    let (mut hands, mut shown, mut delay) = (Vec::new(), Vec::new(), 0);
+    let seen = |world: &World, tick| {
+        let shown = world.person.recorded_keypoints(&world.simulation.person, tick);
+        shown.map(|points| points.map(|point| point.position))
+    };
+    for tick in 0..30_000 {
+        for ((world, robot), out) in worlds.iter_mut().zip(&mut robots).zip(&mut outs) {
+            robot.step(tick + 1, world, out);
+        }
+        let [hesitant, straight] = worlds.each_ref().map(|world| &world.simulation.person);
+        hands.push(straight.hand);
+        shown.push(seen(&worlds[1], tick + 1));
+        if hesitant.hesitation.begun == tick + 1 {
+            delay = hesitant.movement.start - straight.movement.start;
+        }
+        if hesitant.grasped > 0 && delay > 0 {
+            break;
+        }
+        let goes_on = tick > hesitant.hesitation.begun + delay + 150;
+        if hesitant.hesitation.begun == 0 || goes_on {
+            let before = (tick - delay) as usize;
+            assert_eq!(hesitant.hand, hands[before], "tick {tick}");
+            assert_eq!(seen(&worlds[0], tick + 1), shown[before]);
+        }
+    }
+    assert!(delay >= 450, "{delay}");
 }
