@@ -151,5 +151,5 @@ fn hands(tick: u64, hand: &TrackedHand, robot: Option<&Robot>, joints: &JointRea
         let (palm, hand) = (robot.palm(&joints.position), &robot.hand);
         [hand.palm_face, hand.grasp_distance].map(|along| (palm * Point3::new(0.0, 0.0, along)).coords)
     });
-    Hands { person, hand_axis, touch: joints.touch }
+    Hands { person, followed: hand.is_followed(tick), hand_axis, touch: joints.touch }
 }

@@ -5,6 +5,8 @@ use nalgebra::Vector3;
 pub(crate) struct Hands {
     /// The person's hand, while it is tracked.
     pub person: Option<PersonHand>,
+    /// Whether it has been tracked for so long that what it does is known.
+    pub followed: bool,
     /// The middle of the robot's hand, from its palm to its grasp point, m, when its kinematics are known.
     pub hand_axis: Option<[Vector3<f64>; 2]>,
     /// Force at the robot's finger tips, N.

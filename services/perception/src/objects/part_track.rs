@@ -19,6 +19,9 @@ const SMOOTHING: f64 = 0.3;
 
 /// How long a part must lie still to be settled where it is: two frames of the recogniser.
 pub(super) const SETTLED: u32 = cycles(Duration::from_millis(60)) as u32;
+/// The same while the person's hand is not seen, or is seen for the first time again: it may hold the part there. Longer than a person holds a
+/// part still in its socket.
+const SETTLED_UNSEEN: u32 = cycles(Duration::from_millis(2500)) as u32;
 
 /// No part is farther away, m, and the square of no quaternion's length farther from 1: what readers take in of a percept, which
 /// tells both.
@@ -99,9 +102,15 @@ impl PartTrack {
         Vector3::from(self.position) + turn * (Vector3::z() * height)
     }
 
-    /// Whether it is `mounted` where it is, unless it moves or somebody has it.
-    pub fn look_whether(&mut self, mounted: bool) {
-        if !self.is_held() && self.still >= SETTLED {
+    /// Whether it has lain still for so long, in nobody's hand, that it has settled where it is; `followed`: what the person's hand does
+    /// is known.
+    pub fn has_settled(&self, followed: bool) -> bool {
+        !self.is_held() && self.still >= if followed { SETTLED } else { SETTLED_UNSEEN }
+    }
+
+    /// Takes in whether a part that has settled is `mounted` where it is.
+    pub fn look_whether(&mut self, mounted: bool, followed: bool) {
+        if self.has_settled(followed) {
             self.lay_mounted = mounted.into();
         }
     }

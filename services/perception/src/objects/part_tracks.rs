@@ -95,7 +95,7 @@ impl PartTracks {
         let mut busy = FREE;
         for track in &mut self.tracks {
             if let Some(kind) = track.kind() {
-                track.look_whether(places.is_mounted(kind, track.position));
+                track.look_whether(places.is_mounted(kind, track.position), around.followed);
                 track.let_go(places.size(kind), around);
                 busy |= track.holder;
             }

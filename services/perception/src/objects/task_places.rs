@@ -1,6 +1,6 @@
 use super::PartTracks;
 use super::holders::PartSize;
-use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack, SETTLED};
+use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack};
 use crate::evidence::approach;
 use coact_joint_task::{Scene, Subgoal, Task};
 use coact_messages::{MAX_SUBGOALS, PERSON, Percept, ROBOT, SceneView, WORKSPACES};
@@ -18,10 +18,6 @@ const EMPTY: f64 = 0.05;
 const BEYOND_EDGE: f64 = 0.03;
 /// How high above the table top a part may be and still lie on it, m: on another flat one. Chosen by hand.
 const ON_TABLE: f64 = 0.05;
-/// How long a part must lie still in its socket to be mounted while the person's hand is not seen, or is seen for the first time again:
-/// it may hold the part there. Longer
-/// than a person holds a part still in its socket.
-const SETTLED_UNSEEN: u32 = cycles(Duration::from_millis(2500)) as u32;
 /// Age up to which a sighting tells where the part is now: nine frames of the recogniser, which misses single ones.
 const RECENT: u64 = cycles(Duration::from_millis(300));
 /// Time in which evidence about parts rises or falls from end to end, cycles: two frames of the recogniser.
@@ -163,8 +159,7 @@ impl TaskPlaces {
         let Subgoal { kind, socket, .. } = self.subgoals[goal];
         let away = |part: &PartTrack| (Vector3::from(socket) - Vector3::from(part.position)).norm();
         let own = parts.parts().filter(|(own, _)| *own == kind);
-        let settled = if followed { SETTLED } else { SETTLED_UNSEEN };
-        let mounted = |part: &PartTrack| away(part) < IN_PLACE && !part.is_held() && part.still >= settled;
+        let mounted = |part: &PartTrack| away(part) < IN_PLACE && part.has_settled(followed);
         let achieved = own.clone().any(|(_, part)| mounted(part));
         let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !self.is_hidden(socket, view);
         approach(&mut out.achieved[goal], achieved, RAMP);
