@@ -1,7 +1,9 @@
 //! At rest: what to do next, and what it will be like.
 
 use crate::person::error;
-use crate::{ActivityPhase, Choice, Hesitation, Intention, Person, PersonState, ReachTurn, Surroundings};
+use crate::{
+    ActivityPhase, Hesitation, Intention, Person, PersonState, ReachTurn, Surroundings, Undertaking,
+};
 use bytemuck::Zeroable;
 use coact_random::Stream;
 use coact_stage_state::Slot;
@@ -22,8 +24,8 @@ impl Person {
             return;
         }
         match self.policy.next(around, state, &can_hide, &mut rng) {
-            Choice::Rest(pause) => state.until = around.tick + pause.max(1),
-            Choice::Begin(intention) => self.take_up(intention, state, around),
+            Undertaking::Rest(pause) => state.until = around.tick + pause.max(1),
+            Undertaking::Begin(intention) => self.take_up(intention, state, around),
         }
     }
 

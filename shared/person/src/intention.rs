@@ -17,7 +17,7 @@ pub struct Intention {
 
 /// The outcome of thinking about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Choice {
+pub enum Undertaking {
     /// Set about this.
     Begin(Intention),
     /// Rest for so many cycles, then think again.

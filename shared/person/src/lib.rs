@@ -92,7 +92,7 @@ pub use hand_model::HandModel;
 pub use hand_movement::HandMovement;
 pub use hand_pose::HandPose;
 pub use hesitation::Hesitation;
-pub use intention::{Choice, Intention};
+pub use intention::{Intention, Undertaking};
 pub use manipulation::Manipulation;
 pub use parts_view::{Holder, PartsView};
 pub use person::Person;

@@ -1,5 +1,5 @@
 use crate::{
-    Choice, Intention, PersonState, RandomBehaviour, RecordedArm, Script, Surroundings, random_policy,
+    Intention, PersonState, RandomBehaviour, RecordedArm, Script, Surroundings, Undertaking, random_policy,
     synthetic_policy,
 };
 use coact_period::cycles;
@@ -34,12 +34,12 @@ impl Policy {
         state: &mut PersonState,
         can_hide: &dyn Fn(&Intention) -> bool,
         rng: &mut R,
-    ) -> Choice {
+    ) -> Undertaking {
         match self {
             Self::Synthetic => synthetic_policy::choose(around, rng),
             Self::Random(behaviour) => random_policy::choose(behaviour, around, can_hide, rng),
             Self::Script(script) => script.next(around, state),
-            Self::Arm(_) | Self::Live => Choice::Rest(PAUSE.end),
+            Self::Arm(_) | Self::Live => Undertaking::Rest(PAUSE.end),
         }
     }
 

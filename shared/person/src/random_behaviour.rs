@@ -11,6 +11,7 @@ use std::ops::RangeInclusive;
 /// | `means` | fraction | a part is requested that lies in the person's own workspace |
 /// | `hidden` | fraction | of valid takings of a part, behind an occluder: it hides the part and the hand at it, but not the hand that sets out |
 /// | `words` | fraction | of valid actions, with a sentence of the task that means the same, said at reach onset |
+/// | `aloud` | fraction | of requests that are wrong, with a sentence that says what is asked for: a bare hand does not show it; 0 unless given |
 /// | `undoes` | fraction | a mounted part on the person's own side is taken out of its socket again and laid down, one that no achieved step needs; 0 unless given |
 /// | `clarity` | range in 0..1 | of a grip: 1 is the grip's own pitch, 0 the middle of all grips' |
 /// | `dropouts` | per second | bursts in which the tracker loses the hand, 50 to 300 ms long; at most 2 |
@@ -31,6 +32,7 @@ pub struct RandomBehaviour {
     pub(crate) means: f64,
     pub(crate) hidden: f64,
     pub(crate) words: f64,
+    pub(crate) aloud: f64,
     pub(crate) undoes: f64,
     pub(crate) clarity: RangeInclusive<f64>,
     pub(crate) dropouts: f64,
@@ -53,6 +55,7 @@ impl Default for RandomBehaviour {
             means: 0.02,
             hidden: 0.03,
             words: 0.03,
+            aloud: 0.0,
             undoes: 0.0,
             clarity: 0.5..=1.0,
             dropouts: 0.05,
@@ -67,7 +70,7 @@ impl Default for RandomBehaviour {
 }
 
 /// What an error names.
-const KEYS: &str = "idle, goal, request, means, hidden, words, undoes, clarity, dropouts, withdraws, late, changes, returns, hesitates, movement";
+const KEYS: &str = "idle, goal, request, means, hidden, words, aloud, undoes, clarity, dropouts, withdraws, late, changes, returns, hesitates, movement";
 
 impl RandomBehaviour {
     /// Reads `KEY=VALUE,...`; an empty text leaves all defaults.
@@ -99,6 +102,7 @@ impl RandomBehaviour {
             "means" => self.means = fraction(value)?,
             "hidden" => self.hidden = fraction(value)?,
             "undoes" => self.undoes = fraction(value)?,
+            "aloud" => self.aloud = fraction(value)?,
             "words" => self.words = fraction(value)?,
             "withdraws" => self.withdraws = fraction(value)?,
             "late" => self.late = fraction(value)?,

@@ -2,7 +2,7 @@
 //! words, and now and then wrong.
 
 use crate::undoing::undoing;
-use crate::{Activity, Choice, Intention, RandomBehaviour, Surroundings, Variation, synthetic_policy};
+use crate::{Activity, Intention, RandomBehaviour, Surroundings, Undertaking, Variation, synthetic_policy};
 use coact_joint_task::{Act, Agent};
 use coact_messages::PartnerError;
 use coact_period::{PERIOD_S, cycles};
@@ -30,9 +30,9 @@ pub(crate) fn choose<R: Rng>(
     around: &Surroundings,
     can_hide: &dyn Fn(&Intention) -> bool,
     rng: &mut R,
-) -> Choice {
+) -> Undertaking {
     if let Some(intention) = around.receive() {
-        return Choice::Begin(intention);
+        return Undertaking::Begin(intention);
     }
     let valid = synthetic_policy::draw(around, rng, |_| true);
     let drawn: f64 = rng.random::<f64>() / if valid.is_some() { 1.0 } else { THINKS_OF_MISTAKES };
@@ -41,8 +41,8 @@ pub(crate) fn choose<R: Rng>(
     let in_silence = wrong + behaviour.hidden;
     let special = match drawn {
         drawn if drawn < goal => one_of(around, rng, wrong_goal),
-        drawn if drawn < goal + request => one_of(around, rng, wrong_request),
-        drawn if drawn < wrong => one_of(around, rng, wrong_means),
+        drawn if drawn < goal + request => asking(behaviour, around, rng, wrong_request),
+        drawn if drawn < wrong => asking(behaviour, around, rng, wrong_means),
         drawn if drawn < in_silence => hidden(around, can_hide, rng),
         drawn if drawn < in_silence + behaviour.words => spoken(around, rng),
         drawn if drawn < in_silence + behaviour.words + behaviour.undoes => one_of(around, rng, undoing),
@@ -50,9 +50,11 @@ pub(crate) fn choose<R: Rng>(
     };
     let idles = drawn >= 1.0 - idle;
     match special.or(valid) {
-        None => Choice::Rest(rng.random_range(synthetic_policy::RETHINK)),
-        Some(_) if idles && special.is_none() => Choice::Rest(rng.random_range(synthetic_policy::IDLE_TIME)),
-        Some(intention) => Choice::Begin(intention),
+        None => Undertaking::Rest(rng.random_range(synthetic_policy::RETHINK)),
+        Some(_) if idles && special.is_none() => {
+            Undertaking::Rest(rng.random_range(synthetic_policy::IDLE_TIME))
+        }
+        Some(intention) => Undertaking::Begin(intention),
     }
 }
 
@@ -69,12 +71,33 @@ fn hidden<R: Rng>(
     synthetic_policy::draw(around, rng, |intention| can_hide(&behind(*intention))).map(behind)
 }
 
+/// To ask for what is wrong, at times with words: a bare hand does not show what it asks for.
+fn asking<R: Rng>(
+    behaviour: &RandomBehaviour,
+    around: &Surroundings,
+    rng: &mut R,
+    make: impl Fn(&Surroundings, usize) -> Option<Intention>,
+) -> Option<Intention> {
+    let asked = one_of(around, rng, make)?;
+    let is_told = behaviour.aloud > 0.0 && rng.random_bool(behaviour.aloud);
+    Some(if is_told { told(asked, around, rng) } else { asked })
+}
+
+/// The same with one of the sentences of the task that mean it, if there is one.
+fn told<R: Rng>(intention: Intention, around: &Surroundings, rng: &mut R) -> Intention {
+    let phrases = around.task.chains[intention.chain].says.len();
+    if phrases == 0 {
+        return intention;
+    }
+    let phrase = Slot::of(rng.random_range(0..phrases));
+    Intention { variation: Variation { phrase, ..intention.variation }, ..intention }
+}
+
 /// To do one of the valid activities of which the task knows how they are spoken of, and to say so.
 fn spoken<R: Rng>(around: &Surroundings, rng: &mut R) -> Option<Intention> {
     let phrases = |intention: &Intention| around.task.chains[intention.chain].says.len();
-    let told = synthetic_policy::draw(around, rng, |intention| phrases(intention) > 0)?;
-    let phrase = Slot::of(rng.random_range(0..phrases(&told)));
-    Some(Intention { variation: Variation { phrase, ..told.variation }, ..told })
+    let chosen = synthetic_policy::draw(around, rng, |intention| phrases(intention) > 0)?;
+    Some(told(chosen, around, rng))
 }
 
 /// How long after grasp completion the person notices a mistake, cycles.

@@ -1,4 +1,4 @@
-use crate::{Activity, Choice, Intention, PersonState, Surroundings, Variation};
+use crate::{Activity, Intention, PersonState, Surroundings, Undertaking, Variation};
 use coact_period::cycles;
 use coact_stage_state::Slot;
 use std::time::Duration;
@@ -54,28 +54,28 @@ impl Script {
         self.entries.get(index)?.say.as_deref()
     }
 
-    pub(crate) fn next(&self, around: &Surroundings, state: &mut PersonState) -> Choice {
+    pub(crate) fn next(&self, around: &Surroundings, state: &mut PersonState) -> Undertaking {
         let index = state.script_done as usize;
-        let Some(entry) = self.entries.get(index) else { return Choice::Rest(AT_THE_END) };
+        let Some(entry) = self.entries.get(index) else { return Undertaking::Rest(AT_THE_END) };
         if around.parts.achieved() & entry.once != entry.once {
             state.ended = around.tick;
-            return Choice::Rest(LOOK_AGAIN);
+            return Undertaking::Rest(LOOK_AGAIN);
         }
         let due = match entry.due {
             Due::At(tick) => tick,
             Due::After(delay) => state.ended + delay,
         };
         if around.tick < due {
-            return Choice::Rest(due - around.tick);
+            return Undertaking::Rest(due - around.tick);
         }
         let choice = match entry.action {
             ScriptedAction::Idle(cycles) => {
                 state.ended = around.tick + cycles;
-                Choice::Rest(cycles)
+                Undertaking::Rest(cycles)
             }
             ScriptedAction::Chain(chain, variation) => match intend(around, chain, variation) {
-                Some(intention) => Choice::Begin(intention),
-                None if !is_patience_over(around.tick, state) => return Choice::Rest(LOOK_AGAIN),
+                Some(intention) => Undertaking::Begin(intention),
+                None if !is_patience_over(around.tick, state) => return Undertaking::Rest(LOOK_AGAIN),
                 None => return leave_out(around.tick, state),
             },
         };
@@ -87,12 +87,12 @@ impl Script {
 }
 
 /// Goes on without the next action.
-fn leave_out(tick: u64, state: &mut PersonState) -> Choice {
+fn leave_out(tick: u64, state: &mut PersonState) -> Undertaking {
     state.skipped += 1;
     state.script_done += 1;
     state.waiting_since = 0;
     state.ended = tick;
-    Choice::Rest(1)
+    Undertaking::Rest(1)
 }
 
 /// Whether the next action has waited for its part for too long.

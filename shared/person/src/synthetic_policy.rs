@@ -1,6 +1,6 @@
 //! A correct partner: chooses at random among what the plan allows now.
 
-use crate::{Activity, Choice, Intention, Surroundings, Variation};
+use crate::{Activity, Intention, Surroundings, Undertaking, Variation};
 use coact_joint_task::Agent;
 use coact_period::cycles;
 use rand::{Rng, RngExt};
@@ -25,14 +25,14 @@ const REQUEST: f64 = 0.8;
 const REQUEST_WHEN_REQUESTED: f64 = 0.2;
 
 /// What the person does next: receives what the robot gives, or does one of the valid activities, or nothing for a while.
-pub(crate) fn choose<R: Rng>(around: &Surroundings, rng: &mut R) -> Choice {
+pub(crate) fn choose<R: Rng>(around: &Surroundings, rng: &mut R) -> Undertaking {
     if let Some(intention) = around.receive() {
-        return Choice::Begin(intention);
+        return Undertaking::Begin(intention);
     }
     match draw(around, rng, |_| true) {
-        None => Choice::Rest(rng.random_range(RETHINK)),
-        Some(_) if rng.random_bool(IDLES) => Choice::Rest(rng.random_range(IDLE_TIME)),
-        Some(intention) => Choice::Begin(intention),
+        None => Undertaking::Rest(rng.random_range(RETHINK)),
+        Some(_) if rng.random_bool(IDLES) => Undertaking::Rest(rng.random_range(IDLE_TIME)),
+        Some(intention) => Undertaking::Begin(intention),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Every target takes any bytes: for `COACT_FUZZ_SECONDS` each, two if that is not set.
+//! Every target takes any bytes: for `COACT_FUZZ_SECONDS` each, one if that is not set.
 #![allow(clippy::unwrap_used)]
 
 use coact_fuzz_targets::{Bounds, Input, TARGETS, Target, checkout, exercise, find, seeds};
@@ -8,7 +8,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// How long each target is exercised, s, if nothing else is said.
-const SECONDS: f64 = 2.0;
+const SECONDS: f64 = 1.0;
 /// So many targets at a time.
 const THREADS: usize = 2;
 /// A single input that takes longer than this hangs; the processor's time tells sooner of one that computes. Chosen by hand, for a
