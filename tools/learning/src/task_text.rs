@@ -31,7 +31,7 @@ impl TaskText {
         Ok(Self { path: path.to_owned(), document })
     }
 
-    /// Replaces the plan: `plan` holds the direct predecessors of each subgoal, by the order of the file.
+    /// Replaces the plan: `plan` holds the direct predecessors of each subgoal, by the order of the file; the choices that it comes after stay.
     pub fn set_plan(&mut self, plan: &[Vec<usize>]) {
         let Some(goals) = self.document.get_mut("subgoal").and_then(Item::as_array_of_tables_mut) else {
             return;
@@ -40,11 +40,17 @@ impl TaskText {
             |goal: &toml_edit::Table| goal.get("name").and_then(Item::as_str).unwrap_or_default().to_owned();
         let names: Vec<String> = goals.iter().map(name).collect();
         for (goal, predecessors) in goals.iter_mut().zip(plan) {
-            if predecessors.is_empty() {
+            // A step may come after choices as well, which no plan of subgoals tells of.
+            let written = goal.get("after").and_then(Item::as_array).into_iter().flatten();
+            let choices =
+                written.filter_map(Value::as_str).filter(|name| !names.iter().any(|own| own == name));
+            let choices: Vec<String> = choices.map(str::to_owned).collect();
+            let subgoals = predecessors.iter().map(|&index| names[index].as_str());
+            let after: Array = subgoals.chain(choices.iter().map(String::as_str)).collect();
+            if after.is_empty() {
                 goal.remove("after");
                 continue;
             }
-            let after: Array = predecessors.iter().map(|&index| names[index].as_str()).collect();
             match goal.get_mut("after").and_then(Item::as_value_mut) {
                 // What stands behind the value, a comment perhaps, stays.
                 Some(old) => {

@@ -37,10 +37,10 @@ fn until_it_hesitates(world: &mut World, robot: &mut FakeRobot, out: &mut Out) -
 #[test]
 fn hand_stops_on_its_way_without_a_step_and_goes_on_to_the_same_part() {
     let (mut hesitated, mut grasped) = (0, 0);
-    for seed in 0..4 {
+    for seed in 0..2 {
         let (mut world, mut robot, mut out) = (world(seed, ALWAYS), FakeRobot::new(), Out::new());
         let (mut wrists, mut from, mut stood, mut part) = ([DVec3::ZERO; 3], DVec3::ZERO, Vec::new(), None);
-        for tick in 1..=120_000 {
+        for tick in 1..=60_000 {
             robot.step(tick, &mut world, &mut out);
             let person = &world.simulation.person;
             wrists = [wrists[1], wrists[2], person.hand.wrist()];
@@ -70,7 +70,7 @@ fn hand_stops_on_its_way_without_a_step_and_goes_on_to_the_same_part() {
             }
         }
     }
-    assert!(hesitated >= 20 && grasped * 10 >= hesitated * 9, "{hesitated} hesitated, {grasped} grasped");
+    assert!(hesitated >= 5 && grasped * 10 >= hesitated * 9, "{hesitated} hesitated, {grasped} grasped");
 }
 
 #[test]

@@ -28,10 +28,10 @@ fn is_whole(world: &World, achieved: u64) -> bool {
 #[test]
 fn what_is_undone_is_her_own_last_step_and_lies_free_on_her_side_and_the_assembly_is_completed() {
     let (mut undone, mut assemblies) = (0, 0);
-    for seed in 0..4 {
+    for seed in 0..2 {
         let (mut world, mut robot, mut out) = (world(seed), FakeRobot::new(), Out::new());
         let mut taken = None;
-        for tick in 1..=240_000 {
+        for tick in 1..=120_000 {
             let before = *out.truth;
             robot.step(tick, &mut world, &mut out);
             let person = &world.simulation.person;
@@ -58,5 +58,5 @@ fn what_is_undone_is_her_own_last_step_and_lies_free_on_her_side_and_the_assembl
         }
         assemblies += out.truth.assemblies;
     }
-    assert!(undone >= 12 && assemblies >= 8, "{undone} undone, {assemblies} assemblies");
+    assert!(undone >= 3 && assemblies >= 2, "{undone} undone, {assemblies} assemblies");
 }
