@@ -28,3 +28,18 @@ fn written_task_has_the_plan_and_keeps_everything_else() {
     };
     assert_eq!(comments(&base), comments(&out));
 }
+
+#[test]
+fn choices_that_a_step_comes_after_stay() {
+    let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/tea.toml");
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("learned.toml");
+    let mut text = TaskText::read(&base).unwrap();
+    text.set_plan(&vec![Vec::new(); 7]);
+    text.write(&out).unwrap();
+    let (before, after) = (Task::load(&base).unwrap(), Task::load(&out).unwrap());
+    let choices =
+        |task: &Task| task.subgoals.iter().map(|goal| goal.after_choices.clone()).collect::<Vec<_>>();
+    assert!(after.subgoals.iter().all(|goal| goal.after.is_empty()));
+    assert_eq!(choices(&before), choices(&after));
+}
