@@ -100,8 +100,6 @@ impl TaskWatch {
                 let (at_ms, assembly, name) = (frame.since[population], truth.assemblies, goal.name.clone());
                 events.push(Event::Perceived { at_ms, assembly, subgoal, name });
             }
-        }
-        for (subgoal, goal) in self.task.subgoals.iter().enumerate() {
             if lost & (1 << subgoal) != 0 {
                 events.push(Event::Forgotten { at_ms: frame.header.cycle, name: goal.name.clone() });
             }

@@ -124,9 +124,9 @@ impl<'a> TrialRecorder<'a> {
         } else if truth.phase == PartnerPhase::Idle as u32 {
             self.close();
         }
-        self.follow_turn(truth, frame);
-        self.follow_hesitation(truth, frame);
         let inferred = self.highest(LayerKind::Intention, frame);
+        self.follow_turn(truth, frame, inferred);
+        self.follow_hesitation(truth, inferred);
         let Some(open) = &mut self.open else { return };
         // What has stood since before the hand set out is of the action before, or predicted.
         let new = inferred.filter(|&goal| frame.since[goal] > truth.onset_cycle);
@@ -156,8 +156,7 @@ impl<'a> TrialRecorder<'a> {
     }
 
     /// The hand may turn to another part, which the action then is about; until the grasp it is seen since when its goal stands.
-    fn follow_turn(&mut self, truth: &Truth, frame: &FieldFrame) {
-        let inferred = self.highest(LayerKind::Intention, frame);
+    fn follow_turn(&mut self, truth: &Truth, frame: &FieldFrame, inferred: Option<usize>) {
         let (Some(open), Some(action)) = (&mut self.open, self.trial.actions.last_mut()) else { return };
         if truth.turn_cycle == 0 || action.grasp_ms.is_some() {
             return;
@@ -186,8 +185,7 @@ impl<'a> TrialRecorder<'a> {
     }
 
     /// The hand may stop on its way: from then on it is seen whether the goal stands until the grasp.
-    fn follow_hesitation(&mut self, truth: &Truth, frame: &FieldFrame) {
-        let inferred = self.highest(LayerKind::Intention, frame);
+    fn follow_hesitation(&mut self, truth: &Truth, inferred: Option<usize>) {
         let (Some(open), Some(action)) = (&self.open, self.trial.actions.last_mut()) else { return };
         if truth.hesitation_cycle == 0 || action.grasp_ms.is_some() {
             return;

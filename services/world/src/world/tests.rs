@@ -9,6 +9,7 @@ mod hidden;
 mod inserting;
 mod live;
 mod manipulator;
+mod mid_reach;
 mod mistakes;
 mod partner;
 mod physics;

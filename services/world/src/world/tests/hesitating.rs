@@ -1,10 +1,11 @@
 //! The partner whose hand stops in mid-reach, and goes on.
 
 use super::fake_robot::FakeRobot;
+use super::mid_reach::{goes_on_to_the_bit, nothing_tells_that_it_will};
 use super::{Out, robot, task};
 use crate::Partner;
 use crate::world::World;
-use bytemuck::bytes_of;
+use coact_messages::Truth;
 use coact_period::seconds;
 use coact_person::ActivityPhase;
 use coact_pipeline::WorldMode;
@@ -23,15 +24,9 @@ fn world(seed: u64, settings: &str) -> World {
     World::new(&task(), &robot(), super::settings(seed, partner, WorldMode::Kinematic)).unwrap()
 }
 
-/// Steps until the hand begins to stop.
-fn until_it_hesitates(world: &mut World, robot: &mut FakeRobot, out: &mut Out) -> u64 {
-    for tick in 1..=120_000 {
-        robot.step(tick, world, out);
-        if out.truth.hesitation_cycle == tick {
-            return tick;
-        }
-    }
-    panic!("nobody hesitated");
+/// The cycle in which it began.
+fn begun(truth: &Truth) -> u64 {
+    truth.hesitation_cycle
 }
 
 #[test]
@@ -76,37 +71,13 @@ fn hand_stops_on_its_way_without_a_step_and_goes_on_to_the_same_part() {
 #[test]
 fn until_the_hand_stops_nothing_tells_that_it_will() {
     for seed in 0..3 {
-        let [mut one, mut other] = [world(seed, ALWAYS), world(seed, NEVER)];
-        let (mut robots, mut outs) = ([FakeRobot::new(), FakeRobot::new()], [Out::new(), Out::new()]);
-        for tick in 1..=60_000 {
-            robots[0].step(tick, &mut one, &mut outs[0]);
-            robots[1].step(tick, &mut other, &mut outs[1]);
-            if outs[0].truth.hesitation_cycle > 0 {
-                break;
-            }
-            assert!(bytes_of(&*outs[0].sample) == bytes_of(&*outs[1].sample), "seed {seed}, tick {tick}");
-            assert!(bytes_of(&*outs[0].truth) == bytes_of(&*outs[1].truth), "seed {seed}, tick {tick}");
-        }
-        assert!(outs[0].truth.hesitation_cycle > 0 && outs[1].truth.hesitation_cycle == 0, "seed {seed}");
+        nothing_tells_that_it_will([world(seed, ALWAYS), world(seed, NEVER)], begun);
     }
 }
 
 #[test]
 fn world_that_is_killed_while_the_hand_stands_goes_on_to_the_bit() {
     for late in [0, 1, 300, 700] {
-        let (mut first, mut hand, mut out) = (world(2, ALWAYS), FakeRobot::new(), Out::new());
-        let begun = until_it_hesitates(&mut first, &mut hand, &mut out);
-        for tick in begun + 1..=begun + late {
-            hand.step(tick, &mut first, &mut out);
-        }
-        let (mut second, mut other) = (world(2, ALWAYS), Out::new());
-        second.resume(&out.state).unwrap();
-        for tick in begun + late + 1..=begun + 3000 {
-            first.step(tick, None, &mut out.sample, &mut out.truth, &mut out.state);
-            second.step(tick, None, &mut other.sample, &mut other.truth, &mut other.state);
-            assert!(bytes_of(&*out.sample) == bytes_of(&*other.sample), "{late}, tick {tick}");
-            assert!(bytes_of(&*out.state) == bytes_of(&*other.state), "{late}, tick {tick}");
-        }
-        assert!(out.truth.grasp_cycle > begun);
+        goes_on_to_the_bit([world(2, ALWAYS), world(2, ALWAYS)], late, begun);
     }
 }

@@ -1,12 +1,12 @@
 //! The partner who changes the mind in mid-reach.
 
 use super::fake_robot::FakeRobot;
+use super::mid_reach::{goes_on_to_the_bit, nothing_tells_that_it_will, until_begun};
 use super::{Out, robot, task};
 use crate::Partner;
 use crate::world::World;
-use bytemuck::bytes_of;
 use coact_joint_task::Agent;
-use coact_messages::PartnerError;
+use coact_messages::{PartnerError, Truth};
 use coact_person::ActivityPhase;
 use coact_pipeline::WorldMode;
 use glam::DVec3;
@@ -22,15 +22,9 @@ fn world(seed: u64, settings: &str) -> World {
     World::new(&task(), &robot(), super::settings(seed, partner, WorldMode::Kinematic)).unwrap()
 }
 
-/// Steps until the hand has turned.
-fn until_it_turns(world: &mut World, robot: &mut FakeRobot, out: &mut Out) -> u64 {
-    for tick in 1..=120_000 {
-        robot.step(tick, world, out);
-        if out.truth.turn_cycle == tick {
-            return tick;
-        }
-    }
-    panic!("nobody changed the mind");
+/// The cycle in which it began.
+fn begun(truth: &Truth) -> u64 {
+    truth.turn_cycle
 }
 
 #[test]
@@ -79,7 +73,7 @@ fn who_could_as_well_take_something_else_turns_to_nothing_wrong() {
         let partner = Partner::load(&format!("random:{ALWAYS}"), &task, seed).unwrap();
         let settings = super::settings(seed, partner, WorldMode::Kinematic);
         let mut world = World::new(&task, &robot(), settings).unwrap();
-        until_it_turns(&mut world, &mut FakeRobot::new(), &mut Out::new());
+        until_begun(&mut world, &mut FakeRobot::new(), &mut Out::new(), begun);
         turned += u64::from(world.simulation.person.error == PartnerError::None);
     }
     assert_eq!(turned, 10);
@@ -89,7 +83,7 @@ fn who_could_as_well_take_something_else_turns_to_nothing_wrong() {
 fn reach_turns_where_it_is_still_on_its_way() {
     for seed in 0..20 {
         let (mut world, mut robot, mut out) = (world(seed, ALWAYS), FakeRobot::new(), Out::new());
-        until_it_turns(&mut world, &mut robot, &mut out);
+        until_begun(&mut world, &mut robot, &mut out, begun);
         let person = &world.simulation.person;
         let (from, second) = (person.hand.wrist(), &person.movement);
         // The second movement begins where the first one would end.
@@ -104,37 +98,13 @@ fn reach_turns_where_it_is_still_on_its_way() {
 #[test]
 fn until_the_hand_turns_nothing_tells_that_it_will() {
     for seed in 0..3 {
-        let [mut one, mut other] = [world(seed, ALWAYS), world(seed, NEVER)];
-        let (mut robots, mut outs) = ([FakeRobot::new(), FakeRobot::new()], [Out::new(), Out::new()]);
-        for tick in 1..=60_000 {
-            robots[0].step(tick, &mut one, &mut outs[0]);
-            robots[1].step(tick, &mut other, &mut outs[1]);
-            if outs[0].truth.turn_cycle > 0 {
-                break;
-            }
-            assert!(bytes_of(&*outs[0].sample) == bytes_of(&*outs[1].sample), "seed {seed}, tick {tick}");
-            assert!(bytes_of(&*outs[0].truth) == bytes_of(&*outs[1].truth), "seed {seed}, tick {tick}");
-        }
-        assert!(outs[0].truth.turn_cycle > 0 && outs[1].truth.turn_cycle == 0, "seed {seed}");
+        nothing_tells_that_it_will([world(seed, ALWAYS), world(seed, NEVER)], begun);
     }
 }
 
 #[test]
 fn world_that_is_killed_while_the_hand_turns_goes_on_to_the_bit() {
     for late in [0, 1, 150, 400] {
-        let (mut first, mut hand, mut out) = (world(2, ALWAYS), FakeRobot::new(), Out::new());
-        let begun = until_it_turns(&mut first, &mut hand, &mut out);
-        for tick in begun + 1..=begun + late {
-            hand.step(tick, &mut first, &mut out);
-        }
-        let (mut second, mut other) = (world(2, ALWAYS), Out::new());
-        second.resume(&out.state).unwrap();
-        for tick in begun + late + 1..=begun + 3000 {
-            first.step(tick, None, &mut out.sample, &mut out.truth, &mut out.state);
-            second.step(tick, None, &mut other.sample, &mut other.truth, &mut other.state);
-            assert!(bytes_of(&*out.sample) == bytes_of(&*other.sample), "{late}, tick {tick}");
-            assert!(bytes_of(&*out.state) == bytes_of(&*other.state), "{late}, tick {tick}");
-        }
-        assert!(out.truth.grasp_cycle > begun);
+        goes_on_to_the_bit([world(2, ALWAYS), world(2, ALWAYS)], late, begun);
     }
 }
