@@ -1,3 +1,4 @@
+use crate::due_kinds::Beforehand;
 use coact_joint_task::DestinationPlan;
 use coact_messages::{Destinations, MAX_KINDS, TableGrid};
 use coact_neural_field::{MetricField, ParameterError, sigmoid};
@@ -22,19 +23,26 @@ impl DestinationField {
         Ok(Self { plan: *plan, input: vec![0.0; field.lattice().sites()], field })
     }
 
-    /// One step of `dt` ms from the activity `now` to `next`, driven by what is told of the hand's movement, if anything is.
-    pub fn step(&mut self, dt: f64, told: Option<&Destinations>, now: &[f64], next: &mut [f64]) {
+    /// One step of `dt` ms from the activity `now` to `next`, driven by what is told of the hand's movement, if anything is, and by what was
+    /// likely before it.
+    pub fn step(
+        &mut self,
+        dt: f64,
+        told: Option<(&Destinations, Beforehand)>,
+        now: &[f64],
+        next: &mut [f64],
+    ) {
         let sites = self.input.len();
         let (now, next) = (&now[..sites], &mut next[..sites]);
-        let told = told.filter(|destinations| destinations.told > 0.0);
+        let told = told.filter(|(destinations, _)| destinations.told > 0.0);
         if told.is_none() && self.is_quiet(now) {
             let rate = dt / self.plan.constants.tau;
             next.iter_mut().zip(now).for_each(|(next, u)| *next = u + rate * (self.plan.resting - u));
             return;
         }
         self.input.fill(0.0);
-        if let Some(destinations) = told {
-            self.drive(destinations);
+        if let Some((destinations, beforehand)) = told {
+            self.drive(destinations, &beforehand);
         }
         self.field.step(dt, now, &self.input, self.plan.resting, next);
     }
@@ -47,18 +55,27 @@ impl DestinationField {
 
     /// A Gaussian of input at each place. Places hold each other back before the field does: each counts by its share of all that the
     /// movement may lead to (divisive normalisation, Carandini and Heeger 2012), as far as that is more than mere chance.
-    fn drive(&mut self, destinations: &Destinations) {
-        let Alternatives { all, kinds } = Alternatives::of(destinations);
+    fn drive(&mut self, destinations: &Destinations, beforehand: &Beforehand) {
+        let Alternatives { all, kinds } = Alternatives::of(destinations, beforehand);
         if all <= 0.0 {
             return;
         }
         let chance = if kinds > 1 { 1.0 / kinds as f64 } else { 0.0 };
         let gain = self.plan.gain * destinations.told / (1.0 - chance);
         let (table, sigma) = (self.plan.table, self.plan.input_sigma);
-        for (_, place, fit) in destinations.iter().filter(|(_, _, fit)| *fit > chance * all) {
+        let likely = weighed(destinations, beforehand);
+        for (_, place, fit) in likely.filter(|(_, _, fit)| *fit > chance * all) {
             add_gaussian(&table, place, sigma, gain * (fit / all - chance), &mut self.input);
         }
     }
+}
+
+/// Kind and place (m) of each destination, and how well the movement and what was likely before it fit together (Bayes).
+fn weighed<'a>(
+    destinations: &'a Destinations,
+    beforehand: &'a Beforehand,
+) -> impl Iterator<Item = (Option<usize>, [f64; 2], f64)> + 'a {
+    destinations.iter().map(|(kind, place, fit)| (kind, place, fit * beforehand.of(kind)))
 }
 
 /// What the movement may lead to: each kind counts once, however many of its parts lie there, and so does that nothing is taken.
@@ -70,10 +87,10 @@ struct Alternatives {
 }
 
 impl Alternatives {
-    fn of(destinations: &Destinations) -> Self {
+    fn of(destinations: &Destinations, beforehand: &Beforehand) -> Self {
         let mut of_kind = [None; MAX_KINDS];
         let mut nothing = 0.0_f64;
-        for (kind, _, fit) in destinations.iter() {
+        for (kind, _, fit) in weighed(destinations, beforehand) {
             match kind {
                 Some(kind) => of_kind[kind] = Some(of_kind[kind].map_or(fit, |best: f64| best.max(fit))),
                 None => nothing = nothing.max(fit),
@@ -110,14 +127,15 @@ pub(crate) fn signals(
     plan: &DestinationPlan,
     activity: &[f64],
     destinations: &Destinations,
+    beforehand: &Beforehand,
 ) -> [f64; MAX_KINDS] {
     let mut signals = [0.0_f64; MAX_KINDS];
     let slope = plan.constants.slope;
-    for (kind, place, fit) in destinations.iter() {
+    for (kind, place, fit) in weighed(destinations, beforehand) {
         let Some((kind, site)) = kind.zip(plan.table.site(place)) else { continue };
         let u = activity[site] - plan.constants.threshold;
         if u > 0.0 && fit > 0.0 {
-            let beside = beside(destinations, kind, place, plan.input_sigma);
+            let beside = beside(destinations, beforehand, kind, place, plan.input_sigma);
             let signal = (2.0 * sigmoid(u, slope, 0.0) - 1.0) * fit / (fit + beside);
             signals[kind] = signals[kind].max(signal);
         }
@@ -126,8 +144,14 @@ pub(crate) fn signals(
 }
 
 /// How well other kinds fit that lie where this one does.
-fn beside(destinations: &Destinations, kind: usize, place: [f64; 2], sigma: f64) -> f64 {
-    let others = destinations.iter().filter(|(other, _, _)| *other != Some(kind));
+fn beside(
+    destinations: &Destinations,
+    beforehand: &Beforehand,
+    kind: usize,
+    place: [f64; 2],
+    sigma: f64,
+) -> f64 {
+    let others = weighed(destinations, beforehand).filter(|(other, _, _)| *other != Some(kind));
     let near = others.filter_map(|(_, other, fit)| {
         let square = (other[0] - place[0]).powi(2) + (other[1] - place[1]).powi(2);
         let deviations = square / (sigma * sigma);
@@ -161,13 +185,17 @@ mod tests {
             Self { activity: vec![plan.resting; field.input.len()], plan, field }
         }
 
-        /// Goes on for so many ms; then each kind's signal.
+        /// Goes on for so many ms, nothing being likelier than anything else beforehand; then each kind's signal.
         fn run(&mut self, ms: usize, told: &Destinations) -> [f64; 3] {
+            self.run_expecting(ms, told, Beforehand([1.0; MAX_KINDS]))
+        }
+
+        fn run_expecting(&mut self, ms: usize, told: &Destinations, beforehand: Beforehand) -> [f64; 3] {
             for _ in 0..ms {
                 let now = self.activity.clone();
-                self.field.step(1.0, Some(told), &now, &mut self.activity);
+                self.field.step(1.0, Some((told, beforehand)), &now, &mut self.activity);
             }
-            let signals = signals(&self.plan, &self.activity, told);
+            let signals = signals(&self.plan, &self.activity, told, &beforehand);
             [signals[0], signals[1], signals[2]]
         }
 
@@ -212,6 +240,31 @@ mod tests {
             let mut bench = Bench::new();
             assert_eq!(bench.run(500, &fitting(fits)), [0.0; 3], "{fits:?}");
             assert!(!bench.highest().1);
+        }
+    }
+
+    /// Only a part of the first kind is due.
+    fn first_is_due() -> Beforehand {
+        let mut likely = [0.3; MAX_KINDS];
+        likely[0] = 1.0;
+        Beforehand(likely)
+    }
+
+    #[test]
+    fn between_places_that_fit_alike_the_plan_decides() {
+        for fits in [[1.0, 1.0, 0.0, 0.0], [1.0, 0.0, 1.0, 0.0]] {
+            let signals = Bench::new().run_expecting(100, &fitting(fits), first_is_due());
+            assert!(signals[0] > 0.5 && signals[1..] == [0.0; 2], "{fits:?}: {signals:?}");
+        }
+    }
+
+    #[test]
+    fn a_movement_that_is_plain_shows_what_the_plan_does_not_expect() {
+        for other in [1, 2] {
+            let mut fits = [0.05; 4];
+            fits[other] = 1.0;
+            let signals = Bench::new().run_expecting(100, &fitting(fits), first_is_due());
+            assert!(signals[other] > 0.5 && signals[0] == 0.0, "{signals:?}");
         }
     }
 

@@ -1,3 +1,4 @@
+use crate::due_kinds::DueKinds;
 use crate::{Share, sources};
 use coact_joint_task::{NetworkPlan, Pool, Synapse};
 use coact_messages::{FieldFrame, Percept};
@@ -49,7 +50,8 @@ impl Explanation {
 pub fn signals(plan: &NetworkPlan, frame: &FieldFrame, percept: Option<&Percept>) -> Vec<f64> {
     let mut signals = vec![0.0; plan.populations.len() + plan.channels.len()];
     let percept = percept.filter(|percept| sources::is_fresh(frame.header.cycle + 1, percept));
-    sources::collect(plan, percept, frame, &mut signals);
+    let beforehand = DueKinds::of(plan).beforehand(&frame.signal);
+    sources::collect(plan, percept, frame, &beforehand, &mut signals);
     signals
 }
 
@@ -96,7 +98,8 @@ mod tests {
             (frame.table, frame.destination) = (plan.destinations.table, [0.4; MAX_PLACES]);
             let mut signals = vec![0.0; plan.populations.len() + plan.channels.len()];
             let mut strength = vec![0.0; plan.populations.len()];
-            sources::collect(&plan, Some(&percept), &frame, &mut signals);
+            let beforehand = DueKinds::of(&plan).beforehand(&frame.signal);
+            sources::collect(&plan, Some(&percept), &frame, &beforehand, &mut signals);
             Projections::of(&plan).gather(&signals, &mut strength);
             for (population, strength) in strength.iter().enumerate() {
                 let explained = Explanation::of(&plan, population, &frame, Some(&percept));

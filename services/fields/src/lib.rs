@@ -8,6 +8,7 @@
 //! [`Explanation`] tells of any population of a frame what it gets, from where, and why it is wired so.
 
 mod destination_field;
+mod due_kinds;
 mod explanation;
 mod network;
 mod pooled_input;

@@ -1,4 +1,5 @@
 use crate::destination_field::DestinationField;
+use crate::due_kinds::DueKinds;
 use crate::{Projections, sources};
 use coact_joint_task::{LayerPlan, NetworkPlan, Synapse};
 use coact_messages::{Decision, FieldFrame, LayerKind, NONE, Percept};
@@ -24,6 +25,7 @@ pub struct Network {
     task: u64,
     seed: u64,
     destinations: DestinationField,
+    due: DueKinds,
     fields: Vec<Field>,
     /// Signals of all populations, then the values of the percept's channels.
     sources: Vec<f64>,
@@ -45,6 +47,7 @@ impl Network {
         let populations = plan.populations.len();
         Ok(Self {
             destinations: DestinationField::new(&plan.destinations)?,
+            due: DueKinds::of(&plan),
             fields: plan.layers.iter().map(field).collect::<Result<_, _>>()?,
             sources: vec![0.0; populations + plan.channels.len()],
             strength: vec![0.0; populations],
@@ -107,8 +110,9 @@ impl Network {
     ) {
         self.describe(out);
         let percept = percept.filter(|percept| sources::is_fresh(tick, percept));
-        sources::collect(&self.plan, percept, previous, &mut self.sources);
-        let told = percept.map(|percept| &percept.destinations);
+        let beforehand = self.due.beforehand(&previous.signal);
+        sources::collect(&self.plan, percept, previous, &beforehand, &mut self.sources);
+        let told = percept.map(|percept| (&percept.destinations, beforehand));
         self.destinations.step(STEP_MS, told, &previous.destination, &mut out.destination);
         self.transmit(tick);
         for index in 0..self.plan.layers.len() {

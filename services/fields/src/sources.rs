@@ -1,4 +1,5 @@
 use crate::destination_field;
+use crate::due_kinds::Beforehand;
 use coact_joint_task::{Channel, NetworkPlan};
 use coact_messages::{FieldFrame, MAX_KINDS, Percept};
 use coact_period::cycles;
@@ -19,12 +20,14 @@ pub(crate) fn collect(
     plan: &NetworkPlan,
     percept: Option<&Percept>,
     previous: &FieldFrame,
+    beforehand: &Beforehand,
     sources: &mut [f64],
 ) {
     let populations = plan.populations.len();
     sources[..populations].copy_from_slice(&previous.signal[..populations]);
     let taken = percept.map(|percept| {
-        destination_field::signals(&plan.destinations, &previous.destination, &percept.destinations)
+        let activity = &previous.destination;
+        destination_field::signals(&plan.destinations, activity, &percept.destinations, beforehand)
     });
     for (source, plan) in sources[populations..].iter_mut().zip(&plan.channels) {
         let value = match (percept, taken) {

@@ -4,6 +4,7 @@ use bytemuck::zeroed_box;
 use coact_joint_task::Task;
 use coact_messages::{Command, LAYOUT, SensorSample, Truth, WorldState};
 use coact_period::seconds;
+use coact_person::Habits;
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
@@ -16,8 +17,16 @@ fn step(criterion: &mut Criterion) {
     let task = Task::load(&config.join("tasks/toy-vehicle.toml")).expect("the project's own task");
     let robot = Robot::load(&config.join("robots/aros.toml")).expect("the project's own robot");
     let drive = SafetyLimits::load(&config.join("safety.toml")).expect("the project's own limits").drive;
+    let habits = Habits::load(&config.join("person.toml"), &task).expect("the project's own people");
     for mode in [WorldMode::Kinematic, WorldMode::Physics] {
-        let settings = Settings { seed: 1, partner: Partner::Synthetic, reaches: None, mode, drive };
+        let settings = Settings {
+            seed: 1,
+            partner: Partner::Synthetic,
+            habits: habits.clone(),
+            reaches: None,
+            mode,
+            drive,
+        };
         let mut world = World::new(&task, &robot, settings).expect("the project's own scene");
         let (mut sample, mut truth, mut state): (Box<SensorSample>, Box<Truth>, Box<WorldState>) =
             (zeroed_box(), zeroed_box(), zeroed_box());

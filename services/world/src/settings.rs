@@ -1,6 +1,6 @@
 use crate::{HandRecording, Scenario, WorldError};
 use coact_joint_task::Task;
-use coact_person::{RandomBehaviour, RecordedArm, RecordedReaches};
+use coact_person::{Habits, RandomBehaviour, RecordedArm, RecordedReaches};
 use coact_pipeline::{Movement, RunSettings, WorldMode};
 use coact_recordings::ArmSide;
 use coact_safety::DriveLimits;
@@ -13,6 +13,8 @@ pub struct Settings {
     pub seed: u64,
     /// Who the partner is.
     pub partner: Partner,
+    /// How people show grips and gestures.
+    pub habits: Habits,
     /// Reaches that move the person's hand in place of the model's, where the partner has none of its own.
     pub reaches: Option<RecordedReaches>,
     /// How the robot and loose parts behave.
@@ -34,7 +36,8 @@ impl Settings {
             }
         };
         let partner = Partner::load(&run.partner, task, run.seed)?;
-        Ok(Self { seed: run.seed, partner, reaches, mode: run.world, drive })
+        let habits = Habits::load(&run.person, task)?;
+        Ok(Self { seed: run.seed, partner, habits, reaches, mode: run.world, drive })
     }
 }
 

@@ -84,7 +84,7 @@ impl World {
         Ok(Self {
             random,
             hand: RobotHand::new(robot, &task),
-            person: Person::new(&task.scene, policy, random, recorded.or(settings.reaches)),
+            person: Person::new(&task.scene, &settings.habits, policy, random, recorded.or(settings.reaches)),
             again,
             drive: Drive::new(joint_limits(robot), settings.drive),
             hold: HoldReason::None,

@@ -6,6 +6,7 @@ use bytemuck::zeroed_box;
 use coact_joint_task::Task;
 use coact_messages::{Command, LAYOUT, SensorSample, Truth, WorldState};
 use coact_period::{CYCLES_PER_SECOND, seconds};
+use coact_person::Habits;
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
@@ -18,10 +19,18 @@ fn steps_of_a_minute_allocate_nothing() {
     let task = Task::load(&config.join("tasks/toy-vehicle.toml")).unwrap();
     let robot = Robot::load(&config.join("robots/aros.toml")).unwrap();
     let drive = SafetyLimits::load(&config.join("safety.toml")).unwrap().drive;
+    let habits = Habits::load(&config.join("person.toml"), &task).unwrap();
     let scenario = format!("script:{}", config.join("scenarios/proactive.toml").display());
     for partner in ["synthetic", "random:goal=0.4,hidden=0.2,words=0.2,dropouts=1", &scenario] {
         let partner = Partner::load(partner, &task, 0).unwrap();
-        let settings = Settings { seed: 1, partner, reaches: None, mode: WorldMode::Kinematic, drive };
+        let settings = Settings {
+            seed: 1,
+            partner,
+            habits: habits.clone(),
+            reaches: None,
+            mode: WorldMode::Kinematic,
+            drive,
+        };
         let mut world = World::new(&task, &robot, settings).unwrap();
         let (mut sample, mut truth, mut state): (Box<SensorSample>, Box<Truth>, Box<WorldState>) =
             (zeroed_box(), zeroed_box(), zeroed_box());

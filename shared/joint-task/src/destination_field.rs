@@ -34,6 +34,7 @@ pub(crate) fn destination_field(
         constants: MetricConstants { tau: entry.tau, slope: entry.slope, threshold: 0.0 },
         resting: entry.h,
         gain: entry.gain,
+        undue: entry.undue,
         input_sigma: entry.input_sigma,
         excitation: (entry.excitation.strength, entry.excitation.sigma),
         inhibition: entry.inhibition,
@@ -46,7 +47,7 @@ pub(crate) fn destination_field(
 
 /// The first number that is out of its range, and what was expected.
 fn out_of_range(entry: &DestinationsEntry) -> Option<(&'static str, String)> {
-    let DestinationsEntry { tau, h, gain, spacing, input_sigma, inhibition, .. } = *entry;
+    let DestinationsEntry { tau, h, gain, undue, spacing, input_sigma, inhibition, .. } = *entry;
     let excitation = &entry.excitation;
     let least = [
         ("tau", tau, LEAST_TAU),
@@ -63,7 +64,10 @@ fn out_of_range(entry: &DestinationsEntry) -> Option<(&'static str, String)> {
         (key, format!("{value} is too little; expected a number of at least {least}"))
     });
     let too_high = !(h.is_finite() && h < 0.0);
-    too_little.or_else(|| too_high.then(|| ("h", "expected a resting level below 0".to_owned())))
+    let no_fraction = !(undue > 0.0 && undue <= 1.0);
+    too_little
+        .or_else(|| too_high.then(|| ("h", "expected a resting level below 0".to_owned())))
+        .or_else(|| no_fraction.then(|| ("undue", "expected a number above 0, at most 1".to_owned())))
 }
 
 /// Sites at this distance, m, over all places that a hand may go to; `None` if there are more than a frame holds.

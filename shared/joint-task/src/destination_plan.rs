@@ -11,6 +11,8 @@ pub struct DestinationPlan {
     pub resting: f64,
     /// Input at a place that the hand goes to for certain.
     pub gain: f64,
+    /// How likely a reach for a part that no available step needs is beforehand, against one for a part that is due, from 0 to 1.
+    pub undue: f64,
     /// Standard deviation of the input about a place, m.
     pub input_sigma: f64,
     /// Excitation of a site by its neighbours: its integral over the plane, and its standard deviation, m.

@@ -30,6 +30,7 @@ pub(crate) struct DestinationsEntry {
     pub h: f64,
     pub slope: f64,
     pub gain: f64,
+    pub undue: f64,
     pub spacing: f64,
     pub input_sigma: f64,
     pub excitation: ExcitationEntry,

@@ -183,6 +183,7 @@ fn destination_field_that_cannot_be_is_refused() {
             "spacing = 0.01",
             "destinations.spacing: 0.01 m is too fine for the task's workspaces",
         ),
+        ("undue = 0.3", "undue = 0", "destinations.undue: expected a number above 0, at most 1"),
         ("input_sigma = 0.025", "input_sigma = 0.001", "destinations.input_sigma: 0.001 is too little"),
         ("h = -2.0", "h = 1.0", "destinations.h: expected a resting level below 0"),
         ("inhibition = 1.0", "inhibition = -1", "destinations.inhibition: -1 is too little"),

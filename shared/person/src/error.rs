@@ -11,6 +11,14 @@ pub enum PersonError {
         /// What was expected.
         expected: String,
     },
+    /// How people show grips and gestures is not told as it should be.
+    #[error("{place}: {message}")]
+    Habits {
+        /// File, and line from 1 where there is one.
+        place: String,
+        /// What is wrong, and what was expected.
+        message: String,
+    },
     /// The recordings of people's reaches cannot be read.
     #[error(transparent)]
     Recording(#[from] coact_recordings::RecordingError),

@@ -11,12 +11,12 @@
 //! use bytemuck::Zeroable;
 //! use coact_joint_task::Task;
 //! use coact_messages::PartState;
-//! use coact_person::{ActivityPhase, PartsView, Person, PersonState, Policy, RobotHandView, Surroundings};
+//! use coact_person::{ActivityPhase, Habits, PartsView, Person, PersonState, Policy, RobotHandView, Surroundings};
 //! use coact_random::RandomStreams;
 //! use std::path::Path;
 //!
-//! # let file = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/tasks/toy-vehicle.toml"));
-//! let task = Task::load(file)?;
+//! # let config = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config"));
+//! let task = Task::load(&config.join("tasks/toy-vehicle.toml"))?;
 //! let lying = |part: &coact_joint_task::Part| PartState {
 //!     position: [part.at[0], part.at[1], task.scene.table_height],
 //!     orientation: [0.0, 0.0, 0.0, 1.0],
@@ -25,7 +25,8 @@
 //! };
 //! let parts: Vec<PartState> = task.parts.iter().map(lying).collect();
 //!
-//! let person = Person::new(&task.scene, Policy::Synthetic, RandomStreams::new(1), None);
+//! let habits = Habits::load(&config.join("person.toml"), &task)?;
+//! let person = Person::new(&task.scene, &habits, Policy::Synthetic, RandomStreams::new(1), None);
 //! let mut state = PersonState::zeroed();
 //! person.start(0, &mut state);
 //! let mut tick = 0;
@@ -39,7 +40,7 @@
 //! };
 //! assert_eq!(state.phase(), ActivityPhase::Dwell);
 //! assert!(PartsView::new(&parts).centre(grasped, &task).distance(person.hand_centre(&state)) < 0.001);
-//! # Ok::<(), coact_joint_task::TaskError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod activity;
@@ -49,6 +50,7 @@ mod contact_force;
 mod deciding;
 mod error;
 mod fingers;
+mod habits;
 mod hand_model;
 mod hand_movement;
 mod hand_pose;
@@ -88,6 +90,7 @@ mod waiting;
 pub use activity::Activity;
 pub use activity_phase::ActivityPhase;
 pub use error::PersonError;
+pub use habits::Habits;
 pub use hand_model::HandModel;
 pub use hand_movement::HandMovement;
 pub use hand_pose::HandPose;

@@ -51,7 +51,7 @@ impl Person {
         };
         let deviate: f64 = StandardNormal.sample(&mut rng);
         let clarity = behaviour.map_or(1.0, |behaviour| mistakes.random_range(behaviour.clarity.clone()));
-        let pitch = pitch(state, around.task, clarity) + PITCH_SCATTER * deviate.clamp(-2.0, 2.0);
+        let pitch = self.pitch(state, around.task, clarity) + PITCH_SCATTER * deviate.clamp(-2.0, 2.0);
         let (to, peak) = match state.part.get() {
             Some(part) => {
                 let width = around.task.kinds[around.parts.kind(part)].width;
@@ -70,6 +70,24 @@ impl Person {
             peak_aperture: peak,
             peak_time: peak_time(&mut rng),
         }
+    }
+
+    /// The pitch that the present activity's chain shows, rad; receiving a part is grasping it to mount it. A grip of
+    /// little clarity lies nearer to the middle of all grips.
+    fn pitch(&self, state: &PersonState, task: &Task, clarity: f64) -> f64 {
+        let act = state.chain.get().map(|chain| task.chains[chain].act);
+        match (act, state.activity()) {
+            (Some(Act::Grasp { grip, .. }), _) => self.blurred(grip, state.variation.blur.max(1.0 - clarity)),
+            (Some(Act::Gesture(gesture)), Activity::Request) => self.habits.gestures[gesture],
+            _ => 0.0,
+        }
+    }
+
+    /// The pitch of a grip that is shown unclearly: nearer to the middle between all grips, rad.
+    fn blurred(&self, grip: usize, blur: f64) -> f64 {
+        let grips = &self.habits.grips;
+        let middle = grips.iter().sum::<f64>() / grips.len() as f64;
+        grips[grip] + blur * (middle - grips[grip])
     }
 
     /// The open hand, shown in front of the handover place.
@@ -151,24 +169,6 @@ impl Person {
         };
         state.enter(ActivityPhase::Withdraw, around.tick + time);
     }
-}
-
-/// The pitch that the present activity's chain shows, rad; receiving a part is grasping it to mount it. A grip of
-/// little clarity lies nearer to the middle of all grips.
-fn pitch(state: &PersonState, task: &Task, clarity: f64) -> f64 {
-    let act = state.chain.get().map(|chain| task.chains[chain].act);
-    match (act, state.activity()) {
-        (Some(Act::Grasp { grip, .. }), _) => blurred(grip, state.variation.blur.max(1.0 - clarity), task),
-        (Some(Act::Gesture(gesture)), Activity::Request) => task.gestures[gesture].pitch,
-        _ => 0.0,
-    }
-}
-
-/// The pitch of a grip that is shown unclearly: nearer to the middle between all grips, rad.
-fn blurred(grip: usize, blur: f64, task: &Task) -> f64 {
-    let own = task.grips[grip].pitch;
-    let middle = task.grips.iter().map(|grip| grip.pitch).sum::<f64>() / task.grips.len() as f64;
-    own + blur * (middle - own)
 }
 
 /// The orientation nearest to `from` whose z axis points along `axis`; the shortest turn from upright if there is none.

@@ -1,5 +1,7 @@
+use crate::habits::OwnHabits;
 use crate::{
-    ActivityPhase, HandModel, Manipulation, PersonState, Policy, RecordedReaches, Surroundings, random_policy,
+    ActivityPhase, Habits, HandModel, Manipulation, PersonState, Policy, RecordedReaches, Surroundings,
+    random_policy,
 };
 use coact_joint_task::{Scene, Task};
 use coact_messages::PartnerError;
@@ -13,19 +15,21 @@ pub struct Person {
     pub(crate) model: HandModel,
     pub(crate) policy: Policy,
     pub(crate) random: RandomStreams,
+    pub(crate) habits: OwnHabits,
     /// Recorded reaches that drive the hand in place of the model's profiles.
     pub(crate) recorded: Option<RecordedReaches>,
 }
 
 impl Person {
-    /// A person who sits at `scene`; reaches are `recorded` ones, or else the model's.
+    /// A person who sits at `scene` and has some of people's `habits`; reaches are `recorded` ones, or else the model's.
     pub fn new(
         scene: &Scene,
+        habits: &Habits,
         policy: Policy,
         random: RandomStreams,
         recorded: Option<RecordedReaches>,
     ) -> Self {
-        Self { model: HandModel::new(scene), policy, random, recorded }
+        Self { model: HandModel::new(scene), habits: habits.draw(&random), policy, random, recorded }
     }
 
     /// The person at the start of a run: hand at rest.

@@ -6,22 +6,25 @@ use coact_joint_task::{Act, Task};
 use coact_messages::{HandPoints, NONE, PartState, PartnerError, Plausible};
 use coact_period::cycles;
 use coact_person::{
-    Activity, ActivityPhase, FINGERS, HandModel, Holder, PartsView, Person, PersonState, Policy,
+    Activity, ActivityPhase, FINGERS, Habits, HandModel, Holder, PartsView, Person, PersonState, Policy,
     RobotHandView, Surroundings,
 };
 use coact_random::RandomStreams;
 use coact_stage_state::Slot;
 use glam::{DQuat, DVec3};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Cycles from one hand that is told to the next, at about 60 Hz.
 const FRAME: u64 = 17;
 const TOP: f64 = -1.31;
 const SIDE: f64 = -0.17;
 
+fn config(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config").join(file)
+}
+
 fn task() -> Task {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/toy-vehicle.toml");
-    Task::load(&file).unwrap()
+    Task::load(&config("tasks/toy-vehicle.toml")).unwrap()
 }
 
 /// A person whose hand a test moves, and the parts.
@@ -51,7 +54,8 @@ impl Table {
         };
         let parts = task.parts.iter().map(lying).collect();
         let model = HandModel::new(&task.scene);
-        let person = Person::new(&task.scene, Policy::Live, RandomStreams::new(1), None);
+        let habits = Habits::load(&config("person.toml"), &task).unwrap();
+        let person = Person::new(&task.scene, &habits, Policy::Live, RandomStreams::new(1), None);
         let mut state = PersonState::zeroed();
         person.start(0, &mut state);
         let hand = (model.centre(&model.rest()), -0.35, 0.03);

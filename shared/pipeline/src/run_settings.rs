@@ -19,6 +19,8 @@ pub struct RunSettings {
     pub pipeline: PathBuf,
     /// The limits that keep the person safe.
     pub safety: PathBuf,
+    /// How simulated people show grips and gestures.
+    pub person: PathBuf,
     /// Where reports go; it outlives the run.
     pub report: PathBuf,
     /// Seed of every random generator of the run.
@@ -55,6 +57,7 @@ impl RunSettings {
             model: rt_config.join("perception/preshape.toml"),
             pipeline: rt_config.join("pipeline.toml"),
             safety: rt_config.join("safety.toml"),
+            person: rt_config.join("person.toml"),
             report: PathBuf::new(),
             seed: 1,
             partner: "synthetic".into(),

@@ -90,7 +90,7 @@ fn somebody_at_the_page_builds_the_vehicle_breaks_a_process_and_looks_back() {
 fn the_recorded_hand_comes_again(recording: &Path) {
     let partner = format!("recorded:{}", recording.display());
     let finished =
-        Launched::start(&["--partner", &partner, "--world", "kinematic", "--duration", "40"]).finish();
+        Launched::start(&["--partner", &partner, "--world", "kinematic", "--duration", "20"]).finish();
     let told = &finished.summary().anticipation.events;
     let first = told.first().unwrap_or_else(|| panic!("the hand took nothing: {}", finished.stderr));
     assert_eq!((first.chain.as_str(), first.kind.as_str()), ("insert", "wheel"), "{told:?}");

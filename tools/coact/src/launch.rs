@@ -4,6 +4,7 @@ use crate::{closed_pipe, console, lockstep, partner, run_report, snapshots};
 use anyhow::{Result, ensure};
 use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
+use coact_person::Habits;
 use coact_pipeline::{Layout, Pipeline, RunSettings, WorldMode};
 use coact_robot::Robot;
 use coact_run_records::{NextRound, Record, Snapshot};
@@ -74,6 +75,9 @@ pub struct Args {
     /// The limits that keep the person safe [default: rt-config/safety.toml]
     #[arg(long, value_name = "FILE")]
     safety: Option<PathBuf>,
+    /// How simulated people show grips and gestures [default: rt-config/person.toml]
+    #[arg(long, value_name = "FILE")]
+    person: Option<PathBuf>,
     /// Record the run: run.mcap in the report's folder, for Foxglove and coact replay
     #[arg(long, conflicts_with = "lockstep")]
     record: bool,
@@ -176,6 +180,7 @@ fn prepare(args: Args) -> Result<Launch> {
         task: absolute(args.task.unwrap_or(shipped.task))?,
         pipeline: absolute(args.pipeline.unwrap_or(shipped.pipeline))?,
         safety: absolute(args.safety.unwrap_or(shipped.safety))?,
+        person: absolute(args.person.unwrap_or(shipped.person))?,
         report: absolute(args.report.unwrap_or_else(|| unused_report_folder(Path::new("reports"))))?,
         seed: args.seed,
         partner: partner::setting(&partner, &reaches),
@@ -191,6 +196,7 @@ fn prepare(args: Args) -> Result<Launch> {
     SafetyLimits::load(&settings.safety)?;
     PreshapeModel::load(&settings.model)?;
     Partner::load(&settings.partner, &task, settings.seed)?;
+    Habits::load(&settings.person, &task)?;
     Ok(Launch { pipeline: Pipeline::of_run(&settings)?, settings, task, programs, injections: args.inject })
 }
 

@@ -59,7 +59,7 @@ fn same_seeds_give_the_same_trials_with_any_number_of_threads() {
 fn a_robot_without_anticipation_answers_later() {
     let reactive = NetworkVariant { reactive: true, ..NetworkVariant::default() };
     let (one, other) =
-        (trials("synthetic", &NetworkVariant::default(), 3, 2), trials("synthetic", &reactive, 3, 2));
+        (trials("synthetic", &NetworkVariant::default(), 2, 2), trials("synthetic", &reactive, 2, 2));
     let (with, without) =
         (EvaluationReport::new(&NetworkVariant::default(), &one), EvaluationReport::new(&reactive, &other));
     assert!(with.anticipated.fraction > 0.8, "{:?}", with.anticipated);

@@ -12,6 +12,7 @@ mod manipulator;
 mod mid_reach;
 mod mistakes;
 mod partner;
+mod people;
 mod physics;
 mod profiles;
 mod recorded;
@@ -28,7 +29,7 @@ use crate::{Partner, Settings};
 use bytemuck::zeroed_box;
 use coact_joint_task::{Agent, Task};
 use coact_messages::{Command, DriveMode, Header, JOINTS, LAYOUT, SensorSample, Truth, WorldState};
-use coact_person::Holder;
+use coact_person::{Habits, Holder};
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
@@ -88,7 +89,7 @@ pub(super) fn world(seed: u64) -> World {
 
 /// Those of a world whose person moves as the partner does.
 pub(super) fn settings(seed: u64, partner: Partner, mode: WorldMode) -> Settings {
-    Settings { seed, partner, reaches: None, mode, drive: safety().drive }
+    Settings { seed, partner, habits: habits(), reaches: None, mode, drive: safety().drive }
 }
 
 /// The command that takes the joints on as `course`, where they are at each tick, goes on; none before they are driven.
@@ -114,6 +115,10 @@ pub(super) fn swaying(tick: u64, sample: &SensorSample) -> Option<Box<Command>> 
         course[5] = 0.2 * (tick as f64 * 2e-3).sin().powi(3);
         course
     })
+}
+
+pub(super) fn habits() -> Habits {
+    Habits::load(&config("person.toml"), &task()).unwrap()
 }
 
 pub(super) fn safety() -> SafetyLimits {

@@ -4,6 +4,7 @@ use anyhow::Result;
 use coact::installation::Installation;
 use coact_control::{Control, ControlError};
 use coact_joint_task::{Finding, FindingKind, Task, check};
+use coact_person::Habits;
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
@@ -39,7 +40,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let limits = SafetyLimits::load(&configuration.join("safety.toml"))?;
     let (task, robot) = (Task::load(&args.file)?, Robot::load(&robot)?);
     let mut findings = check(&args.file)?;
-    findings.extend(scene(&args.file, &task, &robot, &limits)?);
+    let habits = Habits::load(&configuration.join("person.toml"), &task)?;
+    findings.extend(scene(&args.file, &task, &robot, (&limits, habits))?);
     findings.extend(reach(&args.file, &task, robot, &limits)?);
     if args.json {
         println!("{}", serde_json::to_string_pretty(&findings)?);
@@ -55,10 +57,15 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 /// Whether the simulated world can begin with the scene.
-fn scene(file: &Path, task: &Task, robot: &Robot, limits: &SafetyLimits) -> Result<Option<Finding>> {
+fn scene(
+    file: &Path,
+    task: &Task,
+    robot: &Robot,
+    (limits, habits): (&SafetyLimits, Habits),
+) -> Result<Option<Finding>> {
     let partner = Partner::load("synthetic", task, 1)?;
     let settings =
-        Settings { seed: 1, partner, reaches: None, mode: WorldMode::Physics, drive: limits.drive };
+        Settings { seed: 1, partner, habits, reaches: None, mode: WorldMode::Physics, drive: limits.drive };
     match World::new(task, robot, settings) {
         Ok(_) => Ok(None),
         Err(error @ WorldError::Scene { .. }) => Ok(Some(Finding {

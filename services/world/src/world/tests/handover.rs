@@ -193,7 +193,8 @@ fn person_who_takes_a_part_back_has_not_dropped_it() {
 fn answered_after(settings: &str) -> f64 {
     let mut meeting = Meeting::giving(TAKES);
     let policy = Policy::Random(RandomBehaviour::parse(settings).unwrap());
-    meeting.world.person = Person::new(&meeting.world.task.scene, policy, RandomStreams::new(SEED), None);
+    meeting.world.person =
+        Person::new(&meeting.world.task.scene, &super::habits(), policy, RandomStreams::new(SEED), None);
     meeting.world.simulation.person.enter(ActivityPhase::Rest, 0);
     while meeting.world.simulation.robot.giving_since == 0 {
         meeting.live(1);
