@@ -53,7 +53,7 @@ pub enum ResumeError {
 
 impl StageState for PerceptionState {
     const STAGE: &'static str = "perception";
-    const LAYOUT: u32 = 4;
+    const LAYOUT: u32 = 5;
 
     fn check(&self) -> Result<(), Implausible> {
         self.hand.check()?;
@@ -74,7 +74,7 @@ impl PerceptionState {
     /// The state that `last` holds, if that is a percept of a perception for so many `kinds` of part.
     pub fn of(last: &Percept, kinds: usize) -> Result<Self, ResumeError> {
         let state = Self::load(&last.state)?;
-        let known = state.parts.parts().all(|(kind, _)| kind < kinds) && state.loss.is_about(kinds);
+        let known = state.parts.are_about(kinds) && state.loss.is_about(kinds);
         ensure(known, "parts", "kinds of this task").map_err(ResumeError::Field)?;
         evidence(last).map_err(ResumeError::Field)?;
         Ok(state)

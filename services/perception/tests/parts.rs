@@ -33,6 +33,48 @@ fn missed_sightings_do_not_matter_and_a_part_that_is_taken_away_is_gone() {
     assert!(place.seen[kind] < 0.1 && place.gone[kind] > 0.9);
 }
 
+/// Shows the person's column 1 as another kind of part in those ms that `mistaken` says; what is said of the two kinds afterwards.
+fn taken_for_a_nut(mistaken: impl Fn(u64) -> bool) -> [f64; 2] {
+    let mut stage = Stage::new();
+    let (part, kind, other) = (stage.part("column 1"), stage.kind("column 1"), stage.kind("nut"));
+    stage.run(3000, |stage, time| {
+        stage.things[part].kind = if mistaken(time) { other } else { kind };
+    });
+    let person = &stage.percept.workspace[PERSON];
+    [kind, other].map(|kind| person.seen[kind])
+}
+
+#[test]
+fn a_part_that_is_taken_for_another_now_and_then_stays_what_it_is() {
+    for mistaken in [|time: u64| time % 1000 < 200, |time: u64| time / 33 % 3 == 0, |time: u64| time > 2200] {
+        let [own, other] = taken_for_a_nut(mistaken);
+        assert!(own > 0.9 && other < 0.1, "{own} {other}");
+    }
+}
+
+#[test]
+fn a_part_that_is_always_taken_for_another_is_one() {
+    let [own, other] = taken_for_a_nut(|time| time > 1000);
+    assert!(own < 0.1 && other > 0.9, "{own} {other}");
+}
+
+#[test]
+fn what_single_frames_show_is_not_there() {
+    let mut stage = Stage::new();
+    let nut = stage.kind("nut");
+    let ghost = stage.part("column 1");
+    stage.things.push(stage.things[ghost]);
+    let index = stage.things.len() - 1;
+    stage.things[index].kind = nut;
+    stage.things[index].position[1] += 0.07;
+    stage.run(3000, |stage, time| {
+        stage.things[index].visible = time / 33 % 4 < 2;
+        assert!(stage.percept.workspace[PERSON].seen[nut] < 0.1, "after {time} ms");
+    });
+    stage.run(300, |stage, _| stage.things[index].visible = true);
+    assert!(stage.percept.workspace[PERSON].seen[nut] > 0.9, "what stays is there");
+}
+
 #[test]
 fn what_is_out_of_view_is_neither_seen_nor_gone() {
     let mut stage = Stage::new();

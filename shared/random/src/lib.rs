@@ -48,6 +48,10 @@ pub enum Stream {
     Return = 13,
     /// Whether, where and for how long a random partner hesitates in mid-reach.
     Hesitation = 14,
+    /// How this person differs from others.
+    Habit = 15,
+    /// When the recogniser takes a part for one of another kind.
+    Mistaking = 16,
 }
 
 /// The random generators of one run.

@@ -23,6 +23,13 @@ pub(super) const SETTLED: u32 = cycles(Duration::from_millis(60)) as u32;
 /// part still in its socket.
 const SETTLED_UNSEEN: u32 = cycles(Duration::from_millis(2500)) as u32;
 
+/// Frames in a row that must show a part where none was before it is taken to be there: a recogniser that sees one in a hundred frames where
+/// there is none does so thrice in a row in a million.
+const BELIEVED: u16 = 3;
+/// How long a part must be taken for one of another kind, and never for its own, to be one: recognisers are mistaken for some frames at a
+/// time. Chosen by hand.
+const RELABELLED: u32 = cycles(Duration::from_millis(1000)) as u32;
+
 /// No part is farther away, m, and the square of no quaternion's length farther from 1: what readers take in of a percept, which
 /// tells both.
 const FARTHEST: f64 = 1e3;
@@ -33,7 +40,11 @@ const UNIT: f64 = 0.1;
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 pub(crate) struct PartTrack {
     /// Kind plus one; 0 = this track is not in use.
-    kind_plus_one: u32,
+    kind_plus_one: u16,
+    /// Kind plus one that the newest frames took it for, where that is another one; 0: they did not.
+    taken_for: u16,
+    /// Cycles for which they have.
+    mistaken: u32,
     /// [`FREE`], or bits [`BY_ROBOT`] and [`BY_PERSON`].
     pub holder: u32,
     /// Cycles for which its place has been in view and empty.
@@ -41,9 +52,11 @@ pub(crate) struct PartTrack {
     /// Cycles for which it has lain still.
     pub still: u32,
     /// 1: it is mounted, or was when it lay still in nobody's hand for the last time; else 0.
-    lay_mounted: u32,
+    lay_mounted: u8,
     /// 1: it was mounted when the person took it for the last time; else 0.
-    taken_out: u32,
+    taken_out: u8,
+    /// Frames that have shown it, as far as they are needed to believe in it.
+    frames: u16,
     /// Cycle of the newest sighting.
     pub seen: u64,
     /// Centre of the underside, m.
@@ -56,7 +69,8 @@ impl PartTrack {
     /// A part that is sighted for the first time.
     pub fn new(sighting: &Sighting, captured: u64) -> Self {
         Self {
-            kind_plus_one: sighting.kind + 1,
+            kind_plus_one: kind_plus_one(sighting),
+            frames: 1,
             seen: captured,
             position: sighting.position,
             orientation: sighting.orientation.map(|value| value as f32),
@@ -69,10 +83,21 @@ impl PartTrack {
         (self.kind_plus_one > 0).then(|| self.kind_plus_one as usize - 1)
     }
 
+    /// Whether the kinds of part that it is about are among so many `kinds`.
+    pub fn is_about(&self, kinds: usize) -> bool {
+        self.kind_plus_one as usize <= kinds && self.taken_for as usize <= kinds
+    }
+
+    /// Whether enough frames have shown it: before, there may be nothing.
+    pub fn is_believed(&self) -> bool {
+        self.frames >= BELIEVED
+    }
+
     /// Refuses what is no track.
     pub fn check(&self) -> Result<(), Implausible> {
         ensure(self.holder <= BY_ROBOT | BY_PERSON, "parts.holder", "the bits of robot and person")?;
         bounded("parts.position", &self.position, FARTHEST)?;
+        ensure(self.frames <= BELIEVED, "parts.frames", "no more frames than are needed")?;
         let truths = self.lay_mounted <= 1 && self.taken_out <= 1;
         ensure(truths, "parts: mounted, taken out", "0 or 1")?;
         let [x, y, z, w] = self.orientation.map(f64::from);
@@ -80,8 +105,10 @@ impl PartTrack {
         ensure(square == 0.0 || (square - 1.0).abs() <= UNIT, "parts.orientation", "a quaternion of length 1")
     }
 
-    /// Takes in a new sighting, `cycles` after the last frame.
+    /// Takes in a new sighting, `cycles` after the last frame. Of another kind than the part's, it tells where the part is all the same.
     pub fn follow(&mut self, sighting: &Sighting, captured: u64, cycles: u64) {
+        self.look_again_what_it_is(kind_plus_one(sighting), cycles as u32);
+        self.frames = (self.frames + 1).min(BELIEVED);
         let (old, new) = (Vector3::from(self.position), Vector3::from(sighting.position));
         if (new - old).norm() > MOVED {
             self.position = sighting.position;
@@ -93,6 +120,19 @@ impl PartTrack {
         self.orientation = sighting.orientation.map(|value| value as f32);
         self.seen = captured;
         self.absent = 0;
+    }
+
+    /// A part that is taken for one of another kind for long, and never for its own, is one.
+    fn look_again_what_it_is(&mut self, kind_plus_one: u16, cycles: u32) {
+        self.mistaken = match kind_plus_one {
+            own if own == self.kind_plus_one => 0,
+            other if other == self.taken_for => self.mistaken.saturating_add(cycles),
+            _ => cycles,
+        };
+        self.taken_for = if self.mistaken > 0 { kind_plus_one } else { 0 };
+        if self.mistaken > RELABELLED {
+            (self.kind_plus_one, self.taken_for, self.mistaken) = (kind_plus_one, 0, 0);
+        }
     }
 
     /// Point on the part's axis, `height` above its underside, m.
@@ -140,4 +180,9 @@ impl PartTrack {
     pub fn is_held(&self) -> bool {
         self.holder != FREE
     }
+}
+
+/// Of a sighting whose kind is one of the task's, which are few.
+fn kind_plus_one(sighting: &Sighting) -> u16 {
+    sighting.kind as u16 + 1
 }

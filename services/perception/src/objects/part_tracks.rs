@@ -13,6 +13,9 @@ const GATE: f64 = 0.12;
 /// How long a place must be in view and empty before its part is taken to be gone: ten frames of the recogniser, which
 /// misses single ones.
 const ABSENT: u32 = cycles(Duration::from_millis(350)) as u32;
+/// Sightings of different kinds that are nearer to each other are of one part, m, unless both are in one frame: no two parts lie so near to each
+/// other, one upon the other among them. Five times the scatter of a sighting.
+const SAME_PLACE: f64 = 0.012;
 /// How far from the origin a part may be sighted, m: none beyond it concerns the robot, the recogniser is mistaken.
 const FARTHEST: f64 = 10.0;
 
@@ -35,14 +38,13 @@ impl PartTracks {
 
     /// The same, each with the index of its track.
     pub fn numbered(&self) -> impl Iterator<Item = (usize, usize, &PartTrack)> + Clone {
-        self.tracks.iter().enumerate().filter_map(|(index, track)| Some((index, track.kind()?, track)))
+        let all = self.tracks.iter().enumerate();
+        all.filter_map(|(index, track)| Some((index, believed_kind(track)?, track)))
     }
 
     /// The part in the robot's hand: index of its track and kind.
     pub fn with_the_robot(&self) -> Option<(usize, usize)> {
-        let found =
-            self.tracks.iter().position(|track| track.kind().is_some() && track.is_with_the_robot())?;
-        Some((found, self.tracks[found].kind()?))
+        self.numbered().find(|(_, _, track)| track.is_with_the_robot()).map(|(index, kind, _)| (index, kind))
     }
 
     /// Whether the person has one.
@@ -59,7 +61,12 @@ impl PartTracks {
 
     /// One track, if it is in use.
     pub fn track(&self, index: usize) -> Option<&PartTrack> {
-        self.tracks.get(index).filter(|track| track.kind().is_some())
+        self.tracks.get(index).filter(|track| believed_kind(track).is_some())
+    }
+
+    /// Whether the kinds of part that they are about are among so many `kinds`.
+    pub fn are_about(&self, kinds: usize) -> bool {
+        self.tracks.iter().all(|track| track.is_about(kinds))
     }
 
     /// Refuses what is no state of them.
@@ -94,7 +101,7 @@ impl PartTracks {
     fn find_holders(&mut self, around: &Hands, places: &TaskPlaces) {
         let mut busy = FREE;
         for track in &mut self.tracks {
-            if let Some(kind) = track.kind() {
+            if let Some(kind) = believed_kind(track) {
                 track.look_whether(places.is_mounted(kind, track.position), around.followed);
                 track.let_go(places.size(kind), around);
                 busy |= track.holder;
@@ -102,7 +109,7 @@ impl PartTracks {
         }
         let nearest = self.nearest_to_fingers(around, places);
         for (index, track) in self.tracks.iter_mut().enumerate() {
-            if let Some(kind) = track.kind() {
+            if let Some(kind) = believed_kind(track) {
                 let airborne = places.is_airborne(kind, track.position);
                 let beside = if nearest == Some(index) { FREE } else { BY_PERSON };
                 track.take(!(busy | beside), places.size(kind), around, airborne);
@@ -120,18 +127,32 @@ impl PartTracks {
         reached.min_by(|(_, one), (_, other)| one.total_cmp(other)).map(|(index, _)| index)
     }
 
-    /// Gives every sighting to the nearest track of its kind, or to a new one.
+    /// Gives every sighting to the nearest track of its kind; what is left, to a part that it may be another sight of, or to a new track.
     fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces) {
-        for sighting in view.sightings().iter().filter(|sighting| is_plausible(sighting, places)) {
-            match self.nearest(sighting).or_else(|| self.turned_up(sighting, view, places)) {
+        let mut left = [None; MAX_PARTS];
+        let plausible = view.sightings().iter().filter(|sighting| is_plausible(sighting, places));
+        for (sighting, left) in plausible.zip(&mut left) {
+            match self.nearest(sighting) {
                 Some(index) => self.tracks[index].follow(sighting, self.captured, cycles),
-                None => {
-                    if let Some(unused) = self.tracks.iter_mut().find(|track| track.kind().is_none()) {
-                        *unused = PartTrack::new(sighting, self.captured);
-                    }
-                }
+                None => *left = Some(sighting),
             }
         }
+        for sighting in left.into_iter().flatten() {
+            let known = self.at_its_place(sighting).or_else(|| self.turned_up(sighting, view, places));
+            match known.or_else(|| self.tracks.iter().position(|track| track.kind().is_none())) {
+                Some(index) if known.is_some() => self.tracks[index].follow(sighting, self.captured, cycles),
+                Some(index) => self.tracks[index] = PartTrack::new(sighting, self.captured),
+                None => {}
+            }
+        }
+    }
+
+    /// The track of a part that no sighting of this frame was given to, and that lies where this one of another kind is.
+    fn at_its_place(&self, sighting: &Sighting) -> Option<usize> {
+        self.tracks.iter().position(|track| {
+            let away = (Vector3::from(track.position) - Vector3::from(sighting.position)).norm();
+            track.kind().is_some() && track.seen < self.captured && away < SAME_PLACE
+        })
     }
 
     /// The track of the sighting's kind that lies nearest to it and has no sighting in this frame yet.
@@ -156,19 +177,25 @@ impl PartTracks {
         })
     }
 
-    /// Gives up parts whose place has been in view and empty for long enough.
+    /// Gives up parts whose place has been in view and empty for long enough; those that were not believed in yet, at once.
     fn miss(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces) {
         for track in &mut self.tracks {
-            if track.kind().is_none() || track.seen == self.captured || places.is_hidden(track.position, view)
-            {
+            if track.kind().is_none() || track.seen == self.captured {
                 continue;
             }
-            track.absent = track.absent.saturating_add(cycles as u32);
-            if track.absent > ABSENT {
+            if !places.is_hidden(track.position, view) {
+                track.absent = track.absent.saturating_add(cycles as u32);
+            }
+            if track.absent > ABSENT || !track.is_believed() {
                 *track = PartTrack::zeroed();
             }
         }
     }
+}
+
+/// Kind of a part that enough frames have shown.
+fn believed_kind(track: &PartTrack) -> Option<usize> {
+    track.kind().filter(|_| track.is_believed())
 }
 
 fn is_plausible(sighting: &Sighting, places: &TaskPlaces) -> bool {

@@ -1,10 +1,14 @@
 use super::frame_rate::is_frame_due;
 use crate::parts::Parts;
-use coact_messages::{SceneView, Sighting};
+use coact_joint_task::Task;
+use coact_messages::{MAX_PARTS, SceneView, Sighting, WORKSPACES};
+use coact_period::cycles;
 use coact_random::{RandomStreams, Stream};
 use glam::{DQuat, DVec3};
 use rand::{Rng, RngExt};
 use rand_distr::{Distribution, StandardNormal};
+use std::ops::RangeInclusive;
+use std::time::Duration;
 
 /// Frames per second, as of usual depth cameras.
 const RATE: u64 = 30;
@@ -15,23 +19,32 @@ const POSITION: f64 = 0.002;
 const ORIENTATION: f64 = 0.015;
 /// Fraction of the sightings that the recogniser misses.
 const MISSED: f64 = 0.02;
+/// Fraction of the intervals in each of which a part is taken for one of another kind for some frames. Chosen by hand, as are the next three.
+const MISTAKEN: f64 = 0.01;
+/// These intervals, and for how long that lasts, cycles: 1 to 6 frames.
+const MISTAKEN_INTERVAL: u64 = cycles(Duration::from_millis(500));
+const MISTAKEN_FOR: RangeInclusive<u64> =
+    cycles(Duration::from_millis(33))..=cycles(Duration::from_millis(200));
+/// Fraction of the frames that show a part where there is none.
+const IMAGINED: f64 = 0.01;
 /// Confidence of those that it reports. Not sensitive: it only has to be high.
 const CONFIDENCE: std::ops::Range<f64> = 0.85..0.99;
 
-/// Takes a frame of all parts when one is due, from `eye` (m); parts in hands and mounted parts are seen where they are,
-/// those behind one of the `occluders` are not.
+/// Takes a frame of all parts when one is due; parts in hands and mounted parts are seen where they are, those behind one of the
+/// `occluders` are not. Now and then a part is missed or taken for one of another kind, or one is seen where there is none.
 pub(crate) fn recognise(
     tick: u64,
     last: Option<u64>,
     random: &RandomStreams,
-    parts: &Parts,
-    (eye, occluders): ([f64; 3], &[[f64; 6]]),
+    (task, parts): (&Task, &Parts),
+    occluders: &[[f64; 6]],
     view: &mut SceneView,
 ) {
     if !is_frame_due(RATE, last, tick) {
         return;
     }
     let mut rng = random.at(Stream::Recogniser, tick);
+    let eye = task.scene.eye();
     view.frame += u64::from(last.is_some());
     view.captured_cycle = tick;
     view.sighting = [Sighting::default(); _];
@@ -41,11 +54,40 @@ pub(crate) fn recognise(
     view.sightings = 0;
     for part in 0..parts.all().len() {
         let missed = rng.random_bool(MISSED);
-        let sighting = sight(part, parts, &mut rng);
+        let taken_for = taken_for(part, tick, random, task).unwrap_or(parts.kind(part));
+        let sighting = Sighting { kind: taken_for as u32, ..sight(part, parts, &mut rng) };
         if !missed && !view.hides(eye, parts.position(part).into(), 0.0) {
             view.sighting[view.sightings as usize] = sighting;
             view.sightings += 1;
         }
+    }
+    if rng.random_bool(IMAGINED) && (view.sightings as usize) < view.sighting.len() {
+        view.sighting[view.sightings as usize] = imagine(task, &mut rng);
+        view.sightings += 1;
+    }
+}
+
+/// The kind that a part is mistaken for at `tick`, if it is.
+fn taken_for(part: usize, tick: u64, random: &RandomStreams, task: &Task) -> Option<usize> {
+    let interval = (tick / MISTAKEN_INTERVAL) * MAX_PARTS as u64 + part as u64;
+    let mut rng = random.at(Stream::Mistaking, interval);
+    let happens = rng.random_bool(MISTAKEN);
+    let length = rng.random_range(MISTAKEN_FOR);
+    let begins = rng.random_range(0..=MISTAKEN_INTERVAL - length);
+    let kind = rng.random_range(0..task.kinds.len());
+    (happens && (begins..begins + length).contains(&(tick % MISTAKEN_INTERVAL))).then_some(kind)
+}
+
+/// A part that is not there, anywhere in a workspace.
+fn imagine<R: Rng>(task: &Task, rng: &mut R) -> Sighting {
+    let [low, high] = task.scene.workspace[rng.random_range(0..WORKSPACES)];
+    let [x, y] = [0, 1].map(|axis| low[axis] + rng.random::<f64>() * (high[axis] - low[axis]));
+    Sighting {
+        kind: rng.random_range(0..task.kinds.len()) as u32,
+        reserved: 0,
+        confidence: rng.random_range(CONFIDENCE),
+        position: [x, y, task.scene.table_height],
+        orientation: [0.0, 0.0, 0.0, 1.0],
     }
 }
 

@@ -29,7 +29,7 @@ impl World {
         track(tick, last, random, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
         out.hand = simulation.tracker.delivered;
         if !blind && !staging.is_blind(Sense::Objects, tick) {
-            recognise(tick, last, random, parts, (eye, occluders), &mut simulation.scene);
+            recognise(tick, last, random, (task, parts), occluders, &mut simulation.scene);
         }
         out.scene = simulation.scene;
         out.heard = simulation.heard;
