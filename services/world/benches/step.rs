@@ -17,7 +17,8 @@ fn step(criterion: &mut Criterion) {
     let robot = Robot::load(&config.join("robots/aros.toml")).expect("the project's own robot");
     let drive = SafetyLimits::load(&config.join("safety.toml")).expect("the project's own limits").drive;
     for mode in [WorldMode::Kinematic, WorldMode::Physics] {
-        let settings = Settings { seed: 1, partner: Partner::Synthetic, reaches: None, mode, drive };
+        let settings =
+            Settings { seed: 1, partner: Partner::Synthetic, reaches: None, ways: None, mode, drive };
         let mut world = World::new(&task, &robot, settings).expect("the project's own scene");
         let (mut sample, mut truth, mut state): (Box<SensorSample>, Box<Truth>, Box<WorldState>) =
             (zeroed_box(), zeroed_box(), zeroed_box());

@@ -48,6 +48,8 @@ pub enum Stream {
     Return = 13,
     /// Whether, where and for how long a random partner hesitates in mid-reach.
     Hesitation = 14,
+    /// Along which recorded way the person carries, gives or withdraws.
+    Way = 15,
 }
 
 /// The random generators of one run.

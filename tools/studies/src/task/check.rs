@@ -57,8 +57,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
 /// Whether the simulated world can begin with the scene.
 fn scene(file: &Path, task: &Task, robot: &Robot, limits: &SafetyLimits) -> Result<Option<Finding>> {
     let partner = Partner::load("synthetic", task, 1)?;
-    let settings =
-        Settings { seed: 1, partner, reaches: None, mode: WorldMode::Physics, drive: limits.drive };
+    let settings = Settings {
+        seed: 1,
+        partner,
+        reaches: None,
+        ways: None,
+        mode: WorldMode::Physics,
+        drive: limits.drive,
+    };
     match World::new(task, robot, settings) {
         Ok(_) => Ok(None),
         Err(error @ WorldError::Scene { .. }) => Ok(Some(Finding {
