@@ -157,7 +157,7 @@ mod tests {
                 let velocity = (now - last[1]) / PERIOD_S;
                 prop_assert!(velocity.length() < 1.1 * FASTEST, "{} m/s", velocity.length());
                 let change = velocity - (last[1] - last[0]) / PERIOD_S;
-                prop_assert!(change.length() < 0.05, "a kick of {} m/s at {} of {}: {} {}", change.length(), tick - movement.start, movement.end - movement.start, covered, change);
+                prop_assert!(change.length() < 0.05, "a kick of {} m/s", change.length());
                 last = [last[1], now];
             }
         }

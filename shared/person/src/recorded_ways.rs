@@ -1,6 +1,7 @@
 use crate::PersonError;
 use crate::recorded_way::RecordedWay;
 use coact_recordings::{WayKind, read_ways};
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// Ways along which hands of real people carried, gave and withdrew, ready to move the partner's hand.
@@ -11,9 +12,10 @@ pub struct RecordedWays {
     growth: f64,
 }
 
-/// What time grows with where the ways do not tell, and the least and the most that is believed of them: movements of one kind take
-/// neither less time the farther they lead, nor more than at the same speed.
-const GROWTH: (f64, f64, f64) = (0.5, 0.0, 1.0);
+/// The power where the ways do not tell it: about that of the shipped ones.
+const UNTOLD: f64 = 0.5;
+/// What is believed of them: a movement takes neither less time the farther it leads, nor more than at the same speed.
+const PLAUSIBLE: RangeInclusive<f64> = 0.0..=1.0;
 
 impl RecordedWays {
     /// Reads a file of ways.
@@ -55,7 +57,6 @@ impl RecordedWays {
 
 /// The power of the distance with which the ways' time grows: least squares on logarithms.
 fn growth(ways: &[RecordedWay]) -> f64 {
-    let (default, least, most) = GROWTH;
     let count = ways.len().max(1) as f64;
     let mean = |value: fn(&RecordedWay) -> f64| ways.iter().map(|way| value(way).ln()).sum::<f64>() / count;
     let middle = (mean(|way| way.distance), mean(|way| way.duration));
@@ -65,5 +66,5 @@ fn growth(ways: &[RecordedWay]) -> f64 {
         common += off * (way.duration.ln() - middle.1);
         spread += off * off;
     }
-    if spread > 1e-6 { (common / spread).clamp(least, most) } else { default }
+    if spread > 1e-6 { (common / spread).clamp(*PLAUSIBLE.start(), *PLAUSIBLE.end()) } else { UNTOLD }
 }

@@ -14,8 +14,8 @@ use std::process::ExitCode;
 /// The same recordings make the same file, bit by bit.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
-  coact carries                                  the shipped file, from the recordings beside the checkout
-  coact carries --from DIR --out mine.csv        from other recordings, into another file
+  coact carries                            makes the shipped file anew
+  coact carries --from DIR --out mine.csv  from other recordings, into another file
 
 DIR holds folders named after what was done in them (CollaborativeStacking, HumanRobotHandover,
 RobotHumanHandover; others are left out), and these hold files of motion capture (.csv): t_s, then
