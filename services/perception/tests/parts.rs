@@ -46,7 +46,9 @@ fn taken_for_a_nut(mistaken: impl Fn(u64) -> bool) -> [f64; 2] {
 
 #[test]
 fn a_part_that_is_taken_for_another_now_and_then_stays_what_it_is() {
-    for mistaken in [|time: u64| time % 1000 < 200, |time: u64| time / 33 % 3 == 0, |time: u64| time > 2200] {
+    for mistaken in
+        [|time: u64| time % 1000 < 200, |time: u64| (time / 33).is_multiple_of(3), |time: u64| time > 2200]
+    {
         let [own, other] = taken_for_a_nut(mistaken);
         assert!(own > 0.9 && other < 0.1, "{own} {other}");
     }

@@ -24,6 +24,7 @@ fn step(criterion: &mut Criterion) {
             partner: Partner::Synthetic,
             habits: habits.clone(),
             reaches: None,
+            ways: None,
             mode,
             drive,
         };

@@ -1,6 +1,6 @@
 use crate::{HandRecording, Scenario, WorldError};
 use coact_joint_task::Task;
-use coact_person::{Habits, RandomBehaviour, RecordedArm, RecordedReaches};
+use coact_person::{Habits, RandomBehaviour, RecordedArm, RecordedReaches, RecordedWays};
 use coact_pipeline::{Movement, RunSettings, WorldMode};
 use coact_recordings::ArmSide;
 use coact_safety::DriveLimits;
@@ -17,6 +17,8 @@ pub struct Settings {
     pub habits: Habits,
     /// Reaches that move the person's hand in place of the model's, where the partner has none of its own.
     pub reaches: Option<RecordedReaches>,
+    /// Ways along which the person carries, gives and withdraws, in place of straight ones.
+    pub ways: Option<RecordedWays>,
     /// How the robot and loose parts behave.
     pub mode: WorldMode,
     /// When the drive brakes by itself.
@@ -27,7 +29,8 @@ impl Settings {
     /// Those of a run in which this task is built.
     ///
     /// # Errors
-    /// As [`Partner::load`]; recordings of the movement that cannot be used.
+    /// As [`Partner::load`]; recordings of the movement, or ways beside recorded reaches, that cannot
+    /// be used.
     pub fn of_run(run: &RunSettings, task: &Task, drive: DriveLimits) -> Result<Self, WorldError> {
         let reaches = match &run.movement {
             Movement::MinimumJerk => None,
@@ -37,7 +40,9 @@ impl Settings {
         };
         let partner = Partner::load(&run.partner, task, run.seed)?;
         let habits = Habits::load(&run.person, task)?;
-        Ok(Self { seed: run.seed, partner, habits, reaches, mode: run.world, drive })
+        let is_recorded = reaches.is_some() || matches!(partner, Partner::Recorded(_));
+        let ways = if is_recorded { Some(RecordedWays::load(&run.carries)?) } else { None };
+        Ok(Self { seed: run.seed, partner, habits, reaches, ways, mode: run.world, drive })
     }
 }
 

@@ -84,7 +84,8 @@ impl World {
         Ok(Self {
             random,
             hand: RobotHand::new(robot, &task),
-            person: Person::new(&task.scene, &settings.habits, policy, random, recorded.or(settings.reaches)),
+            person: Person::new(&task.scene, &settings.habits, policy, random, recorded.or(settings.reaches))
+                .with_ways(settings.ways),
             again,
             drive: Drive::new(joint_limits(robot), settings.drive),
             hold: HoldReason::None,

@@ -6,7 +6,7 @@ use bytemuck::zeroed_box;
 use coact_joint_task::Task;
 use coact_messages::{Command, LAYOUT, SensorSample, Truth, WorldState};
 use coact_period::{CYCLES_PER_SECOND, seconds};
-use coact_person::Habits;
+use coact_person::{Habits, RecordedWays};
 use coact_pipeline::WorldMode;
 use coact_robot::Robot;
 use coact_safety::SafetyLimits;
@@ -21,13 +21,19 @@ fn steps_of_a_minute_allocate_nothing() {
     let drive = SafetyLimits::load(&config.join("safety.toml")).unwrap().drive;
     let habits = Habits::load(&config.join("person.toml"), &task).unwrap();
     let scenario = format!("script:{}", config.join("scenarios/proactive.toml").display());
-    for partner in ["synthetic", "random:goal=0.4,hidden=0.2,words=0.2,dropouts=1", &scenario] {
+    let data = config.with_file_name("data");
+    let recorded = format!("recorded:{}", data.join("reaches").display());
+    let recorded_ways = RecordedWays::load(&data.join("carries/carries.csv")).unwrap();
+    let random = "random:goal=0.4,hidden=0.2,words=0.2,dropouts=1";
+    for partner in ["synthetic", random, &scenario, &recorded] {
+        let ways = (partner == recorded).then(|| recorded_ways.clone());
         let partner = Partner::load(partner, &task, 0).unwrap();
         let settings = Settings {
             seed: 1,
             partner,
             habits: habits.clone(),
             reaches: None,
+            ways,
             mode: WorldMode::Kinematic,
             drive,
         };

@@ -129,6 +129,11 @@ impl HandModel {
         points
     }
 
+    /// Unit vector on the table plane in which the person faces.
+    pub(crate) fn ahead(&self) -> DVec3 {
+        DVec3::new(self.facing.cos(), self.facing.sin(), 0.0)
+    }
+
     /// Direction on the table plane in which the person faces, rad.
     pub(crate) fn facing(&self) -> f64 {
         self.facing

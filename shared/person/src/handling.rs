@@ -6,6 +6,7 @@ use crate::{Activity, ActivityPhase, Holder, Manipulation, Person, PersonState, 
 use coact_messages::PartnerError;
 use coact_period::cycles;
 use coact_random::Stream;
+use coact_recordings::WayKind;
 use coact_stage_state::Slot;
 use rand::RngExt;
 use std::ops::Range;
@@ -108,9 +109,13 @@ impl Person {
         match (state.activity(), state.subgoal.get()) {
             (Activity::Insert | Activity::Receive, Some(subgoal)) => {
                 let goal = &around.task.subgoals[subgoal];
-                self.carry_to(state, around, goal.socket.into(), goal.axis.into());
+                let place = (goal.socket.into(), goal.axis.into());
+                self.carry_to(state, around, place, WayKind::Carry);
             }
-            _ => self.carry_to(state, around, around.task.scene.handover.into(), glam::DVec3::Z),
+            _ => {
+                let place = (around.task.scene.handover.into(), glam::DVec3::Z);
+                self.carry_to(state, around, place, WayKind::Give);
+            }
         }
         state.enter(ActivityPhase::Carry, state.movement.end);
     }

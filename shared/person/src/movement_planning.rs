@@ -1,13 +1,12 @@
 //! The movements of the person's hand: reaching, showing, carrying, withdrawing.
 
-use crate::reach_profile::{
-    FINGERS, minimum_jerk, movement_time, peak_aperture, peak_time, time_before_onset,
-};
+use crate::reach_profile::{FINGERS, movement_time, peak_aperture, peak_time, time_before_onset};
 use crate::recorded_reach::LEAD;
 use crate::{Activity, ActivityPhase, HandMovement, HandPose, Person, PersonState, Surroundings};
 use coact_joint_task::{Act, Task};
 use coact_period::cycles;
 use coact_random::Stream;
+use coact_recordings::WayKind;
 use glam::{DQuat, DVec3};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -111,7 +110,13 @@ impl Person {
     }
 
     /// Plans the path of the held part to `place`, where its own z axis points along `axis`.
-    pub(crate) fn carry_to(&self, state: &mut PersonState, around: &Surroundings, place: DVec3, axis: DVec3) {
+    pub(crate) fn carry_to(
+        &self,
+        state: &mut PersonState,
+        around: &Surroundings,
+        (place, axis): (DVec3, DVec3),
+        kind: WayKind,
+    ) {
         let Some(part) = state.held.get() else { return };
         let (tick, hand) = (around.tick, state.hand);
         let from = around.parts.orientation(part);
@@ -132,6 +137,7 @@ impl Person {
             peak_aperture: 0.0,
             peak_time: 0.0,
         };
+        self.choose_way(kind, state);
     }
 
     /// Moves the hand along the present movement. Tells where the held part is then.
@@ -140,9 +146,9 @@ impl Person {
         state: &mut PersonState,
         around: &Surroundings,
     ) -> Option<(usize, DVec3, DQuat)> {
-        state.hand = state.movement.pose(around.tick);
+        let along;
+        (state.hand, along) = self.moving_pose(state, around.tick);
         let part = state.held.get()?;
-        let along = minimum_jerk(state.movement.time(around.tick as f64));
         let turn =
             DQuat::from_array(state.turn_from).slerp(DQuat::from_array(state.turn_to), along).normalize();
         let centre = self.model.centre(&state.hand) + (1.0 - along) * DVec3::from(state.offset);
@@ -167,7 +173,8 @@ impl Person {
             peak_aperture: 0.0,
             peak_time: 0.0,
         };
-        state.enter(ActivityPhase::Withdraw, around.tick + time);
+        self.choose_way(WayKind::Withdraw, state);
+        state.enter(ActivityPhase::Withdraw, state.movement.end);
     }
 }
 

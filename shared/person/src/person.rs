@@ -1,11 +1,12 @@
 use crate::habits::OwnHabits;
 use crate::{
-    ActivityPhase, Habits, HandModel, Manipulation, PersonState, Policy, RecordedReaches, Surroundings,
-    random_policy,
+    ActivityPhase, Habits, HandModel, Manipulation, PersonState, Policy, RecordedReaches, RecordedWays,
+    Surroundings, random_policy,
 };
 use coact_joint_task::{Scene, Task};
 use coact_messages::PartnerError;
 use coact_random::{RandomStreams, Stream};
+use coact_recordings::WayKind;
 use coact_stage_state::{Implausible, Slot};
 use glam::DVec3;
 
@@ -18,6 +19,8 @@ pub struct Person {
     pub(crate) habits: OwnHabits,
     /// Recorded reaches that drive the hand in place of the model's profiles.
     pub(crate) recorded: Option<RecordedReaches>,
+    /// Recorded ways along which the hand goes otherwise, in place of straight ones.
+    pub(crate) ways: Option<RecordedWays>,
 }
 
 impl Person {
@@ -29,7 +32,13 @@ impl Person {
         random: RandomStreams,
         recorded: Option<RecordedReaches>,
     ) -> Self {
-        Self { model: HandModel::new(scene), habits: habits.draw(&random), policy, random, recorded }
+        let habits = habits.draw(&random);
+        Self { model: HandModel::new(scene), habits, policy, random, recorded, ways: None }
+    }
+
+    /// The same person, who carries, gives and withdraws along `ways`, if there are any.
+    pub fn with_ways(self, ways: Option<RecordedWays>) -> Self {
+        Self { ways, ..self }
     }
 
     /// The person at the start of a run: hand at rest.
@@ -45,7 +54,8 @@ impl Person {
     /// The field that is not what it can be.
     pub fn check(&self, state: &PersonState, task: &Task, now: u64) -> Result<(), Implausible> {
         let recordings = self.recorded.as_ref().map_or(0, |recorded| recorded.reaches.len());
-        state.check(task, recordings, now)
+        let ways = self.ways.as_ref().map_or(0, |own| own.ways.len());
+        state.check(task, (recordings, ways), now)
     }
 
     /// One tick: moves the hand, and what it holds, and goes on to the next phase when the present one is over.
@@ -138,7 +148,7 @@ impl Person {
 
     /// Carries the held part back to where it lay, or what was mounted to a free place.
     pub(crate) fn take_back(&self, state: &mut PersonState, around: &Surroundings) {
-        self.carry_to(state, around, state.home.into(), DVec3::Z);
+        self.carry_to(state, around, (state.home.into(), DVec3::Z), WayKind::Carry);
         state.enter(ActivityPhase::Return, state.movement.end);
     }
 
@@ -150,7 +160,7 @@ impl Person {
     }
 
     fn withdrawing(&self, state: &mut PersonState, around: &Surroundings) {
-        state.hand = state.movement.pose(around.tick);
+        (state.hand, _) = self.moving_pose(state, around.tick);
         if state.movement.is_over(around.tick) {
             state.ended = around.tick;
             state.set_occluder(None);

@@ -28,6 +28,8 @@ pub struct PersonState {
     pub held: Slot,
     /// Recorded reach that drives the hand.
     pub(crate) recording: Slot,
+    /// Recorded way along which the present movement goes, unless it is a reach.
+    pub(crate) way: Slot,
     /// How many actions of the script are done.
     pub(crate) script_done: u64,
     /// Tick at which the last action of the script ended.
@@ -115,16 +117,22 @@ impl PersonState {
         self.occluder = occluder.unwrap_or_default();
     }
 
-    /// Refuses a state that nobody can be in who builds `task` with `recordings` recorded reaches, and has lived up to
-    /// tick `now`.
-    pub(crate) fn check(&self, task: &Task, recordings: usize, now: u64) -> Result<(), Implausible> {
+    /// Refuses a state that nobody can be in who builds `task` with so many recorded reaches and ways, and has lived up
+    /// to tick `now`.
+    pub(crate) fn check(
+        &self,
+        task: &Task,
+        (recordings, ways): (usize, usize),
+        now: u64,
+    ) -> Result<(), Implausible> {
         let indices = self.chain.is_below(task.chains.len())
             && self.subgoal.is_below(task.subgoals.len())
             && self.part.is_below(task.parts.len())
             && self.held.is_below(task.parts.len())
             && self.between.is_below(task.parts.len())
-            && self.recording.is_below(recordings);
-        ensure(indices, "person: chain, subgoal, part or recording", "one that there is")?;
+            && self.recording.is_below(recordings)
+            && self.way.is_below(ways);
+        ensure(indices, "person: chain, subgoal, part, recording or way", "one that there is")?;
         let since = [self.onset, self.grasped, self.felt_since, self.waiting_since, self.contact_since];
         ensure(since.iter().all(|tick| *tick <= now.max(1)), "person: tick", "one that has been")?;
         let counts =

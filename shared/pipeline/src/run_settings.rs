@@ -34,6 +34,9 @@ pub struct RunSettings {
     /// How the person's hand reaches, unless the partner is one that has a movement of its own.
     #[serde(default)]
     pub movement: Movement,
+    /// The ways along which a person carries, gives and withdraws whose reaches are recorded ones.
+    #[serde(default)]
+    pub carries: PathBuf,
     /// How the world computes.
     pub world: WorldMode,
     /// How long the run lasts; without it, until all subgoals are achieved, or the supervisor has waited long enough.
@@ -49,7 +52,7 @@ impl RunSettings {
     pub const HAND: &str = "hand";
 
     /// The toy vehicle and ARoS with the synthetic partner, in the physics world, seed 1, without a report: all that is
-    /// shipped in the folder `rt_config`. To be varied with `..RunSettings::shipped(rt_config)`.
+    /// shipped in the folder `rt_config`, and in `data` beside it. To be varied with `..RunSettings::shipped(rt_config)`.
     pub fn shipped(rt_config: &Path) -> Self {
         Self {
             task: rt_config.join("tasks/toy-vehicle.toml"),
@@ -63,6 +66,7 @@ impl RunSettings {
             partner: "synthetic".into(),
             layout: Layout::Task,
             movement: Movement::MinimumJerk,
+            carries: rt_config.with_file_name("data/carries/carries.csv"),
             world: WorldMode::Physics,
             duration: None,
             requested: Vec::new(),

@@ -52,6 +52,8 @@ pub enum Stream {
     Habit = 15,
     /// When the recogniser takes a part for one of another kind.
     Mistaking = 16,
+    /// Along which recorded way the person carries, gives or withdraws.
+    Way = 17,
 }
 
 /// The random generators of one run.

@@ -1,4 +1,5 @@
-use crate::read::{at, broken, number, read_text};
+use crate::place_columns::{PlaceColumns, time_after, time_column};
+use crate::read::{at, broken, read_text};
 use crate::{ArmSide, RecordingError};
 use csv::StringRecord;
 use std::path::{Path, PathBuf};
@@ -35,10 +36,6 @@ const BRIDGED: f64 = 0.055;
 /// Acceleration that no joint of an arm had, m/s²: of the recorded hands, 25 m/s² hold 99.9 %. What exceeds this jumps from
 /// sample to sample: markers were mistaken for others. 1 sample in 100 does, most of them shoulders and elbows.
 const FASTEST: f64 = 100.0;
-/// Nobody was recorded farther than this from the origin, mm.
-const FARTHEST: f64 = 20_000.0;
-/// Longest recording that is plausible, s: some hundred times the longest one that is known.
-const LONGEST: f64 = 3600.0;
 
 impl ArmRecording {
     /// Shortest stretch that is used, s: a movement of an arm takes about as long, with what leads to it.
@@ -60,12 +57,7 @@ impl ArmRecording {
         for record in reader.records() {
             let record = record.map_err(|error| broken(path, &error))?;
             let line = record.position().map_or(0, csv::Position::line);
-            let (time, joints) = columns.row(&record).map_err(|message| at(path, line, message))?;
-            if time <= times.1 {
-                let message =
-                    format!("t_s: expected more than {}, as in the line before, found {time}", times.1);
-                return Err(at(path, line, message));
-            }
+            let (time, joints) = columns.row(&record, times.1).map_err(|message| at(path, line, message))?;
             times = (times.0.min(time), time);
             samples.extend(joints.map(|joints| ArmSample { time, joints }));
         }
@@ -123,43 +115,25 @@ fn acceleration(samples: &[ArmSample]) -> f64 {
 /// Where each column stands.
 struct Columns {
     time: usize,
-    /// x, y and z of each body, and what they are called.
-    bodies: [[(usize, String); 3]; 3],
+    bodies: [PlaceColumns; 3],
 }
 
 impl Columns {
     fn find(path: &Path, side: ArmSide, header: &StringRecord) -> Result<Self, RecordingError> {
-        let column = |name: &str, expected: &'static str| {
-            header.iter().position(|own| own == name).ok_or_else(|| RecordingError::Column {
-                path: PathBuf::from(path),
-                column: name.to_owned(),
-                expected,
-            })
-        };
-        let place = |body: &str, axis: &str| {
-            let name = format!("{}_{body}.{axis}_mm", side.name());
-            Ok((column(&name, "mm, or nothing where the body was lost")?, name))
-        };
-        let body = |body: &str| Ok([place(body, "x")?, place(body, "y")?, place(body, "z")?]);
+        let body = |body: &str| PlaceColumns::find(path, header, &format!("{}_{body}", side.name()));
         let [shoulder, elbow, hand] = BODIES;
-        Ok(Self {
-            time: column("t_s", "seconds since the recording began")?,
-            bodies: [body(shoulder)?, body(elbow)?, body(hand)?],
-        })
+        Ok(Self { time: time_column(path, header)?, bodies: [body(shoulder)?, body(elbow)?, body(hand)?] })
     }
 
-    /// Time, and the joints where none of them was lost.
-    fn row(&self, record: &StringRecord) -> Result<(f64, Option<Joints>), String> {
-        let field = |column: usize| record.get(column).unwrap_or_default();
-        let time = number(field(self.time), "t_s", -LONGEST, LONGEST)?;
+    /// Time, later than that of the row `before`, and the joints where none of them was lost.
+    fn row(&self, record: &StringRecord, before: f64) -> Result<(f64, Option<Joints>), String> {
+        let time = time_after(before, record.get(self.time).unwrap_or_default())?;
         let mut joints = [[0.0; 3]; 3];
         let mut seen = true;
         for (joint, columns) in joints.iter_mut().zip(&self.bodies) {
-            for (value, (column, name)) in joint.iter_mut().zip(columns) {
-                match field(*column) {
-                    "" => seen = false,
-                    text => *value = 1e-3 * number(text, name, -FARTHEST, FARTHEST)?,
-                }
+            match columns.read(record)? {
+                Some(place) => *joint = place,
+                None => seen = false,
             }
         }
         Ok((time, seen.then_some(joints)))

@@ -21,21 +21,32 @@
 //! [`JOINTS`]. Rows of one reach stand together, in the order of time. Size, `mt_s` and `rtg` are labels: truth.
 //!
 //! Beside them, whole arms by motion capture: [`ArmRecording`], one arm of a file; [`arm_files`] finds those of a folder.
+//! [`BodyRecording`] has both hands against the body. What was made of them: [`read_ways`] reads the ways of hands that
+//! carried, gave and withdrew.
 //!
 //! A file is read whole or refused: every row ends up in a [`Reach`], or an error names file and line.
 
 mod arm_files;
 mod arm_recording;
 mod arm_side;
+mod body_recording;
 mod error;
 mod order;
+mod place_columns;
 mod reach;
 mod read;
+mod way;
+mod way_kind;
+mod ways_file;
 
 pub use arm_files::arm_files;
 pub use arm_recording::{ArmRecording, ArmSample};
 pub use arm_side::ArmSide;
+pub use body_recording::{BodyFrame, BodyRecording};
 pub use error::RecordingError;
 pub use order::Order;
 pub use reach::{Frame, ImagePoint, Reach, Size};
 pub use read::{JOINTS, read_file, read_folder};
+pub use way::Way;
+pub use way_kind::WayKind;
+pub use ways_file::{read_ways, ways_text};

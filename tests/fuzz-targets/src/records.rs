@@ -3,8 +3,9 @@
 use crate::configuration::{learned, taken};
 use crate::scratch::Scratch;
 use coact_monitor::{IntervalLog, Metrics};
+use coact_person::RecordedWays;
 use coact_pipeline::Run;
-use coact_recordings::{ArmRecording, ArmSide, Order, read_file};
+use coact_recordings::{ArmRecording, ArmSide, BodyRecording, Order, read_file};
 use coact_run_records::{Event, Record, RunLog, Snapshot, Summary, SupervisorEvent};
 use std::path::Path;
 
@@ -27,8 +28,13 @@ pub(crate) fn motion_capture(bytes: &[u8]) -> bool {
     Scratch::with("arms.csv", bytes, |path| {
         let arms = [ArmSide::Left, ArmSide::Right].map(|side| taken(ArmRecording::read(path, side)));
         arms.iter().flatten().for_each(|arm| assert!(arm.seen() <= arm.duration, "{arm:?}"));
-        arms.iter().any(Option::is_some)
+        let body = taken(BodyRecording::read(path));
+        arms.iter().any(Option::is_some) || body.is_some()
     })
+}
+
+pub(crate) fn recorded_ways(bytes: &[u8]) -> bool {
+    Scratch::with("carries.csv", bytes, |path| taken(RecordedWays::load(path)).is_some())
 }
 
 pub(crate) fn event_log(bytes: &[u8]) -> bool {

@@ -10,7 +10,7 @@ const fn target(
 }
 
 /// Every target.
-pub const TARGETS: [Target; 49] = [
+pub const TARGETS: [Target; 50] = [
     target("process-table", Input::Text, &["rt-config/pipeline.toml"], configuration::process_table),
     target("safety-limits", Input::Text, &["rt-config/safety.toml"], configuration::safety_limits),
     target("verdict-rules", Input::Text, &["rt-config/verdict.toml"], configuration::verdict_rules),
@@ -36,6 +36,7 @@ pub const TARGETS: [Target; 49] = [
     target("recording", Input::Text, &[], records::recording),
     target("compressed-recording", Input::Bytes, &[], records::compressed_recording),
     target("motion-capture", Input::Text, &[], records::motion_capture),
+    target("recorded-ways", Input::Text, &["data/carries/carries.csv"], records::recorded_ways),
     target("run-recording", Input::Patch, &[], run_recordings::run_recording),
     target("event-log", Input::Text, &[], records::event_log),
     target("supervisor-log", Input::Text, &[], records::supervisor_log),

@@ -4,13 +4,12 @@ use crate::{closed_pipe, console, lockstep, partner, run_report, snapshots};
 use anyhow::{Result, ensure};
 use coact_joint_task::NetworkPlan;
 use coact_perception::PreshapeModel;
-use coact_person::Habits;
 use coact_pipeline::{Layout, Pipeline, RunSettings, WorldMode};
 use coact_robot::Robot;
 use coact_run_records::{NextRound, Record, Snapshot};
 use coact_safety::SafetyLimits;
 use coact_supervisor::{Ending, Injection, Launch, LaunchError};
-use coact_world::{Partner, laid_out};
+use coact_world::{Partner, Settings, laid_out};
 use std::path::{Path, PathBuf, absolute};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -193,10 +192,9 @@ fn prepare(args: Args) -> Result<Launch> {
     let (task, _) = NetworkPlan::load(&settings.task)?;
     laid_out(&task, settings.layout)?;
     Robot::load(&settings.robot)?;
-    SafetyLimits::load(&settings.safety)?;
+    let limits = SafetyLimits::load(&settings.safety)?;
     PreshapeModel::load(&settings.model)?;
-    Partner::load(&settings.partner, &task, settings.seed)?;
-    Habits::load(&settings.person, &task)?;
+    Settings::of_run(&settings, &task, limits.drive)?;
     Ok(Launch { pipeline: Pipeline::of_run(&settings)?, settings, task, programs, injections: args.inject })
 }
 

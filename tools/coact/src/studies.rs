@@ -6,7 +6,7 @@ use std::ffi::OsString;
 use std::process::Command;
 
 /// Name and description of each study.
-pub const STUDIES: [(&str, &str); 12] = [
+pub const STUDIES: [(&str, &str); 13] = [
     ("task", "Show what is made of a task file"),
     ("learn", "Learn connections of the network: a plan from demonstrations, what acts show"),
     ("reaches", "Measure anticipation on recorded reaches of real people"),
@@ -18,6 +18,7 @@ pub const STUDIES: [(&str, &str); 12] = [
     ("figures", "Draw the chapter's figures from runs made now"),
     ("motion", "Plan a movement of the arm, or measure the planner"),
     ("train", "Train the model of preshaping from recorded reaches"),
+    ("carries", "Extract the ways of hands that carry, give and withdraw, from motion capture"),
     ("completions", "Print completions for a shell"),
 ];
 

@@ -58,7 +58,7 @@ pub struct Args {
     #[arg(long, value_enum, default_value = "task")]
     layout: Laid,
     /// How the person's hand reaches: on straight lines, or as the recorded people of data/reaches did, who take turns, each
-    /// read by a model of preshaping that was made without them
+    /// read by a model of preshaping that was made without them; it then carries and withdraws along the ways of data/carries
     #[arg(long, value_enum, default_value = "minimum-jerk")]
     movement: Moved,
     /// How the world computes: kinematic (no contact forces), or physics

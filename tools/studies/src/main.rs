@@ -1,6 +1,7 @@
 //! The studies of `coact`: its commands that no run needs. `coact` starts this program, and has it built at its first use.
 
 mod bench;
+mod carries;
 mod completions;
 mod evaluate;
 mod faults;
@@ -50,6 +51,8 @@ enum Command {
     Motion(motion::Args),
     /// Train the model of preshaping from recorded reaches
     Train(train::Args),
+    /// Extract the ways of hands that carry, give and withdraw, from motion capture
+    Carries(carries::Args),
     /// Print completions for a shell
     Completions(completions::Args),
 }
@@ -73,6 +76,7 @@ fn main() -> ExitCode {
         Command::Figures(args) => figures::run(args),
         Command::Motion(args) => motion::run(args),
         Command::Train(args) => train::run(args),
+        Command::Carries(args) => carries::run(args),
         Command::Completions(args) => Ok(completions::run(&args)),
     })
 }

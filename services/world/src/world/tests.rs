@@ -89,7 +89,7 @@ pub(super) fn world(seed: u64) -> World {
 
 /// Those of a world whose person moves as the partner does.
 pub(super) fn settings(seed: u64, partner: Partner, mode: WorldMode) -> Settings {
-    Settings { seed, partner, habits: habits(), reaches: None, mode, drive: safety().drive }
+    Settings { seed, partner, habits: habits(), reaches: None, ways: None, mode, drive: safety().drive }
 }
 
 /// The command that takes the joints on as `course`, where they are at each tick, goes on; none before they are driven.

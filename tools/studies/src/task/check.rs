@@ -64,8 +64,15 @@ fn scene(
     (limits, habits): (&SafetyLimits, Habits),
 ) -> Result<Option<Finding>> {
     let partner = Partner::load("synthetic", task, 1)?;
-    let settings =
-        Settings { seed: 1, partner, habits, reaches: None, mode: WorldMode::Physics, drive: limits.drive };
+    let settings = Settings {
+        seed: 1,
+        partner,
+        habits,
+        reaches: None,
+        ways: None,
+        mode: WorldMode::Physics,
+        drive: limits.drive,
+    };
     match World::new(task, robot, settings) {
         Ok(_) => Ok(None),
         Err(error @ WorldError::Scene { .. }) => Ok(Some(Finding {

@@ -1,12 +1,13 @@
 use super::fake_robot::FakeRobot;
 use super::{Out, robot, task};
 use crate::{Partner, Settings, World};
+use coact_joint_task::Agent;
 use coact_messages::{KeypointName, PartnerPhase};
-use coact_person::{ActivityPhase, RandomBehaviour, RecordedReaches};
-use coact_pipeline::WorldMode;
+use coact_person::{ActivityPhase, RandomBehaviour, RecordedReaches, RecordedWays};
+use coact_pipeline::{Movement, RunSettings, WorldMode};
 use glam::DVec3;
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A made-up recording of two people: the wrist goes 60 px to the right in 0.6 s, the thumb opens with the size.
 fn folder(spoil: impl Fn(&mut String)) -> tempfile::TempDir {
@@ -218,4 +219,58 @@ fn recorded_hand_stands_still_and_goes_on_as_it_would_have() {
         }
     }
     assert!(delay >= 450, "{delay}");
+}
+
+/// A folder of the checkout.
+fn shipped(folder: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder)
+}
+
+#[test]
+fn parts_that_are_carried_along_recorded_ways_are_mounted_where_they_belong() {
+    let ways = Some(RecordedWays::load(&shipped("data/carries/carries.csv")).unwrap());
+    let settings = super::settings(3, Partner::Synthetic, WorldMode::Kinematic);
+    let mut world = World::new(&task(), &robot(), Settings { ways, ..settings }).unwrap();
+    let (mut robot, mut out) = (FakeRobot::new(), Out::new());
+    let (mut mounted, mut highest, mut before) = (0, 0.0_f64, DVec3::ZERO);
+    for tick in 1..=120_000 {
+        robot.step(tick, &mut world, &mut out);
+        let person = &world.simulation.person;
+        let now = person.hand.wrist();
+        // A recorded reach's wrist may jump, a way's may not.
+        let carries = matches!(person.phase(), ActivityPhase::Carry | ActivityPhase::Withdraw);
+        if carries && tick > person.movement.start + 1 {
+            highest = highest.max(now.distance(before));
+        }
+        before = now;
+        if person.phase() == ActivityPhase::Mount && person.until == tick + 1 {
+            let (part, goal) = (person.held.get().unwrap(), person.subgoal.get().unwrap());
+            let at = world.parts.view().position(part);
+            let socket = DVec3::from(world.task.subgoals[goal].socket);
+            assert!(at.distance(socket) < 1e-6, "{} m beside the socket", at.distance(socket));
+            assert_eq!(world.task.subgoals[goal].side, Agent::Person);
+            mounted += 1;
+        }
+        if out.truth.assemblies >= 1 {
+            break;
+        }
+    }
+    assert!(out.truth.assemblies >= 1 && mounted >= 2, "{mounted} parts mounted");
+    assert!(highest < 1.65e-3, "{highest} m within a millisecond");
+}
+
+#[test]
+fn a_run_with_recorded_reaches_needs_the_ways_and_one_without_does_not() {
+    let absent: PathBuf = "no/such/carries.csv".into();
+    let run = RunSettings { carries: absent, ..RunSettings::shipped(&shipped("rt-config")) };
+    let drive = super::safety().drive;
+    let refused = |run: &RunSettings| Settings::of_run(run, &task(), drive).unwrap_err().to_string();
+    assert!(Settings::of_run(&run, &task(), drive).unwrap().ways.is_none());
+    let folder = shipped("data/reaches");
+    let partner = format!("recorded:{}", folder.display());
+    assert!(refused(&RunSettings { partner, ..run.clone() }).contains("no/such/carries.csv: "));
+    let recorded = RunSettings { movement: Movement::Recorded { folder, participant: 3 }, ..run };
+    assert!(refused(&recorded).contains("no/such/carries.csv: "));
+    let shipped = RunSettings { carries: shipped("data/carries/carries.csv"), ..recorded };
+    assert!(Settings::of_run(&shipped, &task(), drive).unwrap().ways.is_some());
 }
