@@ -32,6 +32,9 @@ const ARRIVES: (f64, f64) = (0.15, 0.05);
 /// How likely it is beforehand that a reach takes apart what is mounted, against any other place: a logarithm. Chosen by hand: a
 /// twentieth was too little, and with a third reaches to what lies there are understood as soon as without.
 const TAKES_APART: f64 = -1.0;
+/// How likely it is beforehand that a hand which set out from elsewhere returns to rest, against that it goes for any one part: a logarithm.
+/// Chosen by hand: what it held is put down, and most withdraw then, past whatever lies there.
+const RETURNS: f64 = 2.0;
 /// Least that a movement leads anywhere: its logarithm is finite.
 const LEAST: f64 = 1e-12;
 /// A part in the robot's hand is offered when it is this near to the handover place, m: chosen by hand.
@@ -152,7 +155,7 @@ impl Grasps {
         let is_from_rest = movement.phase.is_some();
         let likely = if is_from_rest { likelihoods.fold(f64::NEG_INFINITY, f64::max) } else { 0.0 };
         let shown = (self.handover.xy(), Lead { heads, likely });
-        let back = Lead { heads: movement.heading.leads_to(self.rest), likely: 0.0 };
+        let back = Lead { heads: movement.heading.leads_to(self.rest), likely: RETURNS };
         let back = (!is_from_rest).then_some((self.rest.xy(), back));
         std::iter::once(shown).chain(back)
     }
