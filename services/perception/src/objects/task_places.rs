@@ -22,6 +22,9 @@ const ON_TABLE: f64 = 0.05;
 const RECENT: u64 = cycles(Duration::from_millis(300));
 /// Time in which evidence about parts rises or falls from end to end, cycles: two frames of the recogniser.
 const RAMP: f64 = cycles(Duration::from_millis(60)) as f64;
+/// Time in which evidence that a step is achieved rises from end to end, cycles. Chosen by hand: the hand that has let go of the part is to be
+/// forgotten by then in the mind, or what it did is taken for the next step of the same kind of part.
+const ACHIEVES: f64 = cycles(Duration::from_millis(200)) as f64;
 /// What would be seen this near to the edge of an occluder may be hidden, m: the scatter of sightings, and of where the
 /// occluder is.
 const EDGE: f64 = 0.02;
@@ -162,7 +165,7 @@ impl TaskPlaces {
         let mounted = |part: &PartTrack| away(part) < IN_PLACE && part.has_settled(followed);
         let achieved = own.clone().any(|(_, part)| mounted(part));
         let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !self.is_hidden(socket, view);
-        approach(&mut out.achieved[goal], achieved, RAMP);
+        approach(&mut out.achieved[goal], achieved, if achieved { ACHIEVES } else { RAMP });
         approach(&mut out.open[goal], empty, RAMP);
     }
 }
