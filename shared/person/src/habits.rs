@@ -174,11 +174,11 @@ mod tests {
                 ": no [[grip]] \"side\", which the task has; expected one",
             ),
             (
-                "varies = 6",
-                "varies = -6",
-                "key \"varies\": -6 is out of range; expected degrees from 0 to 45",
+                "varies = 4",
+                "varies = -4",
+                "key \"varies\": -4 is out of range; expected degrees from 0 to 45",
             ),
-            ("varies = 6", "varied = 6", "unknown field `varied`"),
+            ("varies = 4", "varied = 4", "unknown field `varied`"),
             ("[[grip]]\nname", "[[grip]\nname", ""),
         ] {
             std::fs::write(&file, shipped.replacen(old, new, 1)).unwrap();

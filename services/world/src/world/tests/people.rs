@@ -40,7 +40,7 @@ fn other_habits_are_seen_at_the_hand() {
     let (task, other) = (task(), tempfile::tempdir().unwrap());
     let file = other.path().join("person.toml");
     let text = std::fs::read_to_string(config("person.toml")).unwrap();
-    let text = text.replace("pitch = -68", "pitch = -50").replace("pitch = -16", "pitch = 2");
+    let text = text.replace("pitch = -70", "pitch = -52").replace("pitch = -14", "pitch = 4");
     std::fs::write(&file, text).unwrap();
     let steep = habits();
     let flat = coact_person::Habits::load(&file, &task).unwrap();
