@@ -1,6 +1,6 @@
-use crate::due_kinds::Beforehand;
+use crate::likely::Likely;
 use coact_joint_task::DestinationPlan;
-use coact_messages::{Destinations, MAX_KINDS, TableGrid};
+use coact_messages::{MAX_KINDS, TableGrid};
 use coact_neural_field::{MetricField, ParameterError, sigmoid};
 
 /// Standard deviations beyond which a place's input is cut off: there it is a hundredth.
@@ -23,26 +23,19 @@ impl DestinationField {
         Ok(Self { plan: *plan, input: vec![0.0; field.lattice().sites()], field })
     }
 
-    /// One step of `dt` ms from the activity `now` to `next`, driven by what is told of the hand's movement, if anything is, and by what was
-    /// likely before it.
-    pub fn step(
-        &mut self,
-        dt: f64,
-        told: Option<(&Destinations, Beforehand)>,
-        now: &[f64],
-        next: &mut [f64],
-    ) {
+    /// One step of `dt` ms from the activity `now` to `next`, driven by where the hand may go, if anything is told of it.
+    pub fn step(&mut self, dt: f64, told: Option<Likely>, now: &[f64], next: &mut [f64]) {
         let sites = self.input.len();
         let (now, next) = (&now[..sites], &mut next[..sites]);
-        let told = told.filter(|(destinations, _)| destinations.told > 0.0);
+        let told = told.filter(|likely| likely.destinations.told > 0.0);
         if told.is_none() && self.is_quiet(now) {
             let rate = dt / self.plan.constants.tau;
             next.iter_mut().zip(now).for_each(|(next, u)| *next = u + rate * (self.plan.resting - u));
             return;
         }
         self.input.fill(0.0);
-        if let Some((destinations, beforehand)) = told {
-            self.drive(destinations, &beforehand);
+        if let Some(likely) = told {
+            self.drive(likely);
         }
         self.field.step(dt, now, &self.input, self.plan.resting, next);
     }
@@ -55,27 +48,18 @@ impl DestinationField {
 
     /// A Gaussian of input at each place. Places hold each other back before the field does: each counts by its share of all that the
     /// movement may lead to (divisive normalisation, Carandini and Heeger 2012), as far as that is more than mere chance.
-    fn drive(&mut self, destinations: &Destinations, beforehand: &Beforehand) {
-        let Alternatives { all, kinds } = Alternatives::of(destinations, beforehand);
+    fn drive(&mut self, likely: Likely) {
+        let Alternatives { all, kinds } = Alternatives::of(likely);
         if all <= 0.0 {
             return;
         }
         let chance = if kinds > 1 { 1.0 / kinds as f64 } else { 0.0 };
-        let gain = self.plan.gain * destinations.told / (1.0 - chance);
+        let gain = self.plan.gain * likely.destinations.told / (1.0 - chance);
         let (table, sigma) = (self.plan.table, self.plan.input_sigma);
-        let likely = weighed(destinations, beforehand);
-        for (_, place, fit) in likely.filter(|(_, _, fit)| *fit > chance * all) {
+        for (_, place, fit) in likely.iter().filter(|(_, _, fit)| *fit > chance * all) {
             add_gaussian(&table, place, sigma, gain * (fit / all - chance), &mut self.input);
         }
     }
-}
-
-/// Kind and place (m) of each destination, and how well the movement and what was likely before it fit together (Bayes).
-fn weighed<'a>(
-    destinations: &'a Destinations,
-    beforehand: &'a Beforehand,
-) -> impl Iterator<Item = (Option<usize>, [f64; 2], f64)> + 'a {
-    destinations.iter().map(|(kind, place, fit)| (kind, place, fit * beforehand.of(kind)))
 }
 
 /// What the movement may lead to: each kind counts once, however many of its parts lie there, and so does that nothing is taken.
@@ -87,10 +71,10 @@ struct Alternatives {
 }
 
 impl Alternatives {
-    fn of(destinations: &Destinations, beforehand: &Beforehand) -> Self {
+    fn of(likely: Likely) -> Self {
         let mut of_kind = [None; MAX_KINDS];
         let mut nothing = 0.0_f64;
-        for (kind, _, fit) in weighed(destinations, beforehand) {
+        for (kind, _, fit) in likely.iter() {
             match kind {
                 Some(kind) => of_kind[kind] = Some(of_kind[kind].map_or(fit, |best: f64| best.max(fit))),
                 None => nothing = nothing.max(fit),
@@ -123,19 +107,14 @@ fn add_gaussian(table: &TableGrid, place: [f64; 2], sigma: f64, strength: f64, i
 
 /// Of each kind of part, the signal of the highest peak at one of its parts: 0 below threshold, 1 with a full peak (eq. 4). Where other kinds lie at
 /// the same place, the place tells nothing of them apart, and each has its share by how well it fits.
-pub(crate) fn signals(
-    plan: &DestinationPlan,
-    activity: &[f64],
-    destinations: &Destinations,
-    beforehand: &Beforehand,
-) -> [f64; MAX_KINDS] {
+pub(crate) fn signals(plan: &DestinationPlan, activity: &[f64], likely: Likely) -> [f64; MAX_KINDS] {
     let mut signals = [0.0_f64; MAX_KINDS];
     let slope = plan.constants.slope;
-    for (kind, place, fit) in weighed(destinations, beforehand) {
+    for (kind, place, fit) in likely.iter() {
         let Some((kind, site)) = kind.zip(plan.table.site(place)) else { continue };
         let u = activity[site] - plan.constants.threshold;
         if u > 0.0 && fit > 0.0 {
-            let beside = beside(destinations, beforehand, kind, place, plan.input_sigma);
+            let beside = beside(likely, kind, place, plan.input_sigma);
             let signal = (2.0 * sigmoid(u, slope, 0.0) - 1.0) * fit / (fit + beside);
             signals[kind] = signals[kind].max(signal);
         }
@@ -144,14 +123,8 @@ pub(crate) fn signals(
 }
 
 /// How well other kinds fit that lie where this one does.
-fn beside(
-    destinations: &Destinations,
-    beforehand: &Beforehand,
-    kind: usize,
-    place: [f64; 2],
-    sigma: f64,
-) -> f64 {
-    let others = weighed(destinations, beforehand).filter(|(other, _, _)| *other != Some(kind));
+fn beside(likely: Likely, kind: usize, place: [f64; 2], sigma: f64) -> f64 {
+    let others = likely.iter().filter(|(other, _, _)| *other != Some(kind));
     let near = others.filter_map(|(_, other, fit)| {
         let square = (other[0] - place[0]).powi(2) + (other[1] - place[1]).powi(2);
         let deviations = square / (sigma * sigma);
@@ -164,7 +137,9 @@ fn beside(
 #[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 mod tests {
     use super::*;
+    use crate::due_kinds::Beforehand;
     use coact_joint_task::NetworkPlan;
+    use coact_messages::Destinations;
     use std::path::Path;
 
     /// Three kinds of part, and a place where nothing is taken, m.
@@ -191,11 +166,12 @@ mod tests {
         }
 
         fn run_expecting(&mut self, ms: usize, told: &Destinations, beforehand: Beforehand) -> [f64; 3] {
+            let likely = Likely { destinations: told, beforehand: &beforehand };
             for _ in 0..ms {
                 let now = self.activity.clone();
-                self.field.step(1.0, Some((told, beforehand)), &now, &mut self.activity);
+                self.field.step(1.0, Some(likely), &now, &mut self.activity);
             }
-            let signals = signals(&self.plan, &self.activity, told, &beforehand);
+            let signals = signals(&self.plan, &self.activity, likely);
             [signals[0], signals[1], signals[2]]
         }
 

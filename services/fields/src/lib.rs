@@ -10,6 +10,7 @@
 mod destination_field;
 mod due_kinds;
 mod explanation;
+mod likely;
 mod network;
 mod pooled_input;
 mod projections;

@@ -1,5 +1,6 @@
 use crate::destination_field::DestinationField;
 use crate::due_kinds::DueKinds;
+use crate::likely::Likely;
 use crate::{Projections, sources};
 use coact_joint_task::{LayerPlan, NetworkPlan, Synapse};
 use coact_messages::{Decision, FieldFrame, LayerKind, NONE, Percept};
@@ -112,7 +113,8 @@ impl Network {
         let percept = percept.filter(|percept| sources::is_fresh(tick, percept));
         let beforehand = self.due.beforehand(&previous.signal);
         sources::collect(&self.plan, percept, previous, &beforehand, &mut self.sources);
-        let told = percept.map(|percept| (&percept.destinations, beforehand));
+        let told =
+            percept.map(|percept| Likely { destinations: &percept.destinations, beforehand: &beforehand });
         self.destinations.step(STEP_MS, told, &previous.destination, &mut out.destination);
         self.transmit(tick);
         for index in 0..self.plan.layers.len() {

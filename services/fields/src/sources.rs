@@ -1,5 +1,6 @@
 use crate::destination_field;
 use crate::due_kinds::Beforehand;
+use crate::likely::Likely;
 use coact_joint_task::{Channel, NetworkPlan};
 use coact_messages::{FieldFrame, MAX_KINDS, Percept};
 use coact_period::cycles;
@@ -26,8 +27,8 @@ pub(crate) fn collect(
     let populations = plan.populations.len();
     sources[..populations].copy_from_slice(&previous.signal[..populations]);
     let taken = percept.map(|percept| {
-        let activity = &previous.destination;
-        destination_field::signals(&plan.destinations, activity, &percept.destinations, beforehand)
+        let likely = Likely { destinations: &percept.destinations, beforehand };
+        destination_field::signals(&plan.destinations, &previous.destination, likely)
     });
     for (source, plan) in sources[populations..].iter_mut().zip(&plan.channels) {
         let value = match (percept, taken) {

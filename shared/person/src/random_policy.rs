@@ -6,6 +6,7 @@ use crate::{Activity, Intention, RandomBehaviour, Surroundings, Undertaking, Var
 use coact_joint_task::{Act, Agent};
 use coact_messages::PartnerError;
 use coact_period::{PERIOD_S, cycles};
+use coact_random::is_in_burst;
 use coact_stage_state::{Flag, Slot};
 use rand::{Rng, RngExt};
 use std::ops::RangeInclusive;
@@ -108,10 +109,8 @@ pub(crate) fn notices_after<R: Rng>(rng: &mut R) -> u64 {
 /// Whether the tracker has lost the hand at `tick`; `rng_of` makes the generator of an interval of time.
 pub(crate) fn is_lost<R: Rng>(behaviour: &RandomBehaviour, tick: u64, rng_of: impl Fn(u64) -> R) -> bool {
     let mut rng = rng_of(tick / DROPOUT_INTERVAL);
-    let happens = rng.random_bool((behaviour.dropouts * PERIOD_S * DROPOUT_INTERVAL as f64).min(1.0));
-    let length = rng.random_range(DROPOUT);
-    let begins = rng.random_range(0..=DROPOUT_INTERVAL - length);
-    happens && (begins..begins + length).contains(&(tick % DROPOUT_INTERVAL))
+    let probability = (behaviour.dropouts * PERIOD_S * DROPOUT_INTERVAL as f64).min(1.0);
+    is_in_burst(&mut rng, probability, tick, DROPOUT_INTERVAL, DROPOUT)
 }
 
 /// To take an own part for a goal that is not available, among those that are `wanted`.

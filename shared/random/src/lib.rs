@@ -13,8 +13,9 @@
 //! assert_ne!(draw(1, Stream::Choice, 42), draw(1, Stream::Choice, 43));
 //! ```
 
-use rand::SeedableRng;
+use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg32;
+use std::ops::RangeInclusive;
 
 /// What a random generator is for: one independent sequence each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,6 +73,21 @@ impl RandomStreams {
     pub fn at(&self, stream: Stream, tick: u64) -> Pcg32 {
         Pcg32::seed_from_u64(scramble(self.seed ^ scramble(tick ^ scramble(stream as u64))))
     }
+}
+
+/// Whether `tick` falls into a burst: something that happens at most once in each `interval` of ticks, there with this probability, and lasts so
+/// many ticks. `rng` is the generator of the interval, the same at each of its ticks.
+pub fn is_in_burst<R: Rng>(
+    rng: &mut R,
+    probability: f64,
+    tick: u64,
+    interval: u64,
+    lasts: RangeInclusive<u64>,
+) -> bool {
+    let happens = rng.random_bool(probability);
+    let length = rng.random_range(lasts);
+    let begins = rng.random_range(0..=interval - length);
+    happens && (begins..begins + length).contains(&(tick % interval))
 }
 
 /// Finaliser of SplitMix64 (Steele, Lea and Flood 2014): neighbouring numbers become unrelated ones.

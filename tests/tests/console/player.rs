@@ -318,11 +318,10 @@ impl Player {
         for part in &laid.parts {
             let (kind, at) = (laid.kinds[part.kind].name.clone(), DVec2::from(part.at));
             // Single frames miss a part, or take it for another.
-            let is_there = (0..30).any(|_| {
-                std::thread::sleep(Duration::from_millis(50));
-                self.part(&kind, at, 0).is_some_and(|seen| seen.truncate().distance(at) < 0.02)
+            let what = format!("{kind} where it is laid out, at {at}");
+            wait_within(PATIENCE, &what, || {
+                self.part(&kind, at, 0).filter(|seen| seen.truncate().distance(at) < 0.02)
             });
-            assert!(is_there, "{kind}: not seen where it is laid out, at {at}");
         }
     }
 

@@ -13,7 +13,7 @@ pub(crate) const BY_ROBOT: u32 = 1;
 pub(crate) const BY_PERSON: u32 = 2;
 /// Distance of a sighting from the track beyond which the part has moved, m; less is scatter. Six standard
 /// deviations of the simulated recogniser, whose sightings scatter by 2 mm along each axis.
-const MOVED: f64 = 0.012;
+pub(super) const MOVED: f64 = 0.012;
 /// Weight of a new sighting in the position of a part that lies still: the mean of about three sightings. Chosen by hand.
 const SMOOTHING: f64 = 0.3;
 
@@ -86,6 +86,11 @@ impl PartTrack {
     /// Whether the kinds of part that it is about are among so many `kinds`.
     pub fn is_about(&self, kinds: usize) -> bool {
         self.kind_plus_one as usize <= kinds && self.taken_for as usize <= kinds
+    }
+
+    /// Kind of a part that enough frames have shown.
+    pub fn believed_kind(&self) -> Option<usize> {
+        self.kind().filter(|_| self.is_believed())
     }
 
     /// Whether enough frames have shown it: before, there may be nothing.

@@ -1,4 +1,4 @@
-use super::part_track::{BY_PERSON, FREE, PartTrack};
+use super::part_track::{BY_PERSON, FREE, MOVED, PartTrack};
 use super::{Hands, TaskPlaces};
 use crate::plausible_cycle::cycle;
 use bytemuck::{Pod, Zeroable};
@@ -13,9 +13,6 @@ const GATE: f64 = 0.12;
 /// How long a place must be in view and empty before its part is taken to be gone: ten frames of the recogniser, which
 /// misses single ones.
 const ABSENT: u32 = cycles(Duration::from_millis(350)) as u32;
-/// Sightings of different kinds that are nearer to each other are of one part, m, unless both are in one frame: no two parts lie so near to each
-/// other, one upon the other among them. Five times the scatter of a sighting.
-const SAME_PLACE: f64 = 0.012;
 /// How far from the origin a part may be sighted, m: none beyond it concerns the robot, the recogniser is mistaken.
 const FARTHEST: f64 = 10.0;
 
@@ -39,7 +36,7 @@ impl PartTracks {
     /// The same, each with the index of its track.
     pub fn numbered(&self) -> impl Iterator<Item = (usize, usize, &PartTrack)> + Clone {
         let all = self.tracks.iter().enumerate();
-        all.filter_map(|(index, track)| Some((index, believed_kind(track)?, track)))
+        all.filter_map(|(index, track)| Some((index, track.believed_kind()?, track)))
     }
 
     /// The part in the robot's hand: index of its track and kind.
@@ -61,7 +58,7 @@ impl PartTracks {
 
     /// One track, if it is in use.
     pub fn track(&self, index: usize) -> Option<&PartTrack> {
-        self.tracks.get(index).filter(|track| believed_kind(track).is_some())
+        self.tracks.get(index).filter(|track| track.believed_kind().is_some())
     }
 
     /// Whether the kinds of part that they are about are among so many `kinds`.
@@ -101,7 +98,7 @@ impl PartTracks {
     fn find_holders(&mut self, around: &Hands, places: &TaskPlaces) {
         let mut busy = FREE;
         for track in &mut self.tracks {
-            if let Some(kind) = believed_kind(track) {
+            if let Some(kind) = track.believed_kind() {
                 track.look_whether(places.is_mounted(kind, track.position), around.followed);
                 track.let_go(places.size(kind), around);
                 busy |= track.holder;
@@ -109,7 +106,7 @@ impl PartTracks {
         }
         let nearest = self.nearest_to_fingers(around, places);
         for (index, track) in self.tracks.iter_mut().enumerate() {
-            if let Some(kind) = believed_kind(track) {
+            if let Some(kind) = track.believed_kind() {
                 let airborne = places.is_airborne(kind, track.position);
                 let beside = if nearest == Some(index) { FREE } else { BY_PERSON };
                 track.take(!(busy | beside), places.size(kind), around, airborne);
@@ -147,11 +144,12 @@ impl PartTracks {
         }
     }
 
-    /// The track of a part that no sighting of this frame was given to, and that lies where this one of another kind is.
+    /// The track of a part that no sighting of this frame was given to, and that lies where this one of another kind is: no two parts lie so
+    /// near to each other, not even one upon the other.
     fn at_its_place(&self, sighting: &Sighting) -> Option<usize> {
         self.tracks.iter().position(|track| {
             let away = (Vector3::from(track.position) - Vector3::from(sighting.position)).norm();
-            track.kind().is_some() && track.seen < self.captured && away < SAME_PLACE
+            track.kind().is_some() && track.seen < self.captured && away < MOVED
         })
     }
 
@@ -191,11 +189,6 @@ impl PartTracks {
             }
         }
     }
-}
-
-/// Kind of a part that enough frames have shown.
-fn believed_kind(track: &PartTrack) -> Option<usize> {
-    track.kind().filter(|_| track.is_believed())
 }
 
 fn is_plausible(sighting: &Sighting, places: &TaskPlaces) -> bool {

@@ -3,7 +3,7 @@ use crate::parts::Parts;
 use coact_joint_task::Task;
 use coact_messages::{MAX_PARTS, SceneView, Sighting, WORKSPACES};
 use coact_period::cycles;
-use coact_random::{RandomStreams, Stream};
+use coact_random::{RandomStreams, Stream, is_in_burst};
 use glam::{DQuat, DVec3};
 use rand::{Rng, RngExt};
 use rand_distr::{Distribution, StandardNormal};
@@ -71,11 +71,8 @@ pub(crate) fn recognise(
 fn taken_for(part: usize, tick: u64, random: &RandomStreams, task: &Task) -> Option<usize> {
     let interval = (tick / MISTAKEN_INTERVAL) * MAX_PARTS as u64 + part as u64;
     let mut rng = random.at(Stream::Mistaking, interval);
-    let happens = rng.random_bool(MISTAKEN);
-    let length = rng.random_range(MISTAKEN_FOR);
-    let begins = rng.random_range(0..=MISTAKEN_INTERVAL - length);
-    let kind = rng.random_range(0..task.kinds.len());
-    (happens && (begins..begins + length).contains(&(tick % MISTAKEN_INTERVAL))).then_some(kind)
+    let happens = is_in_burst(&mut rng, MISTAKEN, tick, MISTAKEN_INTERVAL, MISTAKEN_FOR);
+    happens.then(|| rng.random_range(0..task.kinds.len()))
 }
 
 /// A part that is not there, anywhere in a workspace.

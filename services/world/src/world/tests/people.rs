@@ -1,27 +1,48 @@
 //! What people do is their own, whatever the robot takes them to do.
 
-use super::{config, habits, robot, settings, swaying, task};
-use crate::{Partner, World};
-use bytemuck::{bytes_of, zeroed_box};
-use coact_messages::{SensorSample, Truth, WorldState};
+use super::fake_robot::FakeRobot;
+use super::{Out, config, habits, robot, settings, task};
+use crate::{Partner, Settings, World};
+use bytemuck::bytes_of;
+use coact_joint_task::Task;
+use coact_messages::SensorSample;
+use coact_person::Habits;
 use coact_pipeline::WorldMode;
 
-/// The sensor samples of 30 s, of a world that is made for this task.
-fn seen(task: &coact_joint_task::Task) -> Vec<Box<SensorSample>> {
-    let partner = Partner::load("random:goal=0.2,request=0.2", task, 3).unwrap();
-    let mut world = World::new(task, &robot(), settings(3, partner, WorldMode::Kinematic)).unwrap();
-    let (mut sample, mut truth, mut state): (Box<SensorSample>, Box<Truth>, Box<WorldState>) =
-        (zeroed_box(), zeroed_box(), zeroed_box());
-    let mut seen = Vec::new();
-    for tick in 1..=30_000 {
-        let command = swaying(tick, &sample);
-        world.step(tick, command.as_deref(), &mut sample, &mut truth, &mut state);
-        if tick % 10 == 0 {
-            seen.push(sample.clone());
+/// Goes on for at most so many ticks, until `is_over`.
+fn live(world: &mut World, ticks: u64, mut is_over: impl FnMut(u64, &Out) -> bool) -> Out {
+    let (mut robot, mut out) = (FakeRobot::new(), Out::new());
+    for tick in 1..=ticks {
+        robot.step(tick, world, &mut out);
+        if is_over(tick, &out) {
+            break;
         }
     }
-    assert!(truth.actions > 2, "the person did nothing");
+    out
+}
+
+/// The sensor samples of 30 s, of a world that is made for this task.
+fn seen(task: &Task) -> Vec<Box<SensorSample>> {
+    let partner = Partner::load("random:goal=0.2,request=0.2", task, 3).unwrap();
+    let mut world = World::new(task, &robot(), settings(3, partner, WorldMode::Kinematic)).unwrap();
+    let mut seen = Vec::new();
+    let out = live(&mut world, 30_000, |tick, out| {
+        if tick % 10 == 0 {
+            seen.push(out.sample.clone());
+        }
+        false
+    });
+    assert!(out.truth.actions > 2, "the person did nothing");
     seen
+}
+
+/// The pitch of a synthetic partner's hand at the first grasp, rad.
+fn pitch_of_first_grasp(habits: Habits) -> f64 {
+    let own = Settings { habits, ..settings(3, Partner::Synthetic, WorldMode::Kinematic) };
+    let mut world = World::new(&task(), &robot(), own).unwrap();
+    let out = live(&mut world, 10_000, |_, out| out.truth.grasp_cycle > 0);
+    assert!(out.truth.grasp_cycle > 0, "nothing was grasped");
+    world.simulation.person.hand.pitch
 }
 
 #[test]
@@ -37,26 +58,12 @@ fn what_the_robot_expects_of_grips_and_gestures_changes_nothing_of_how_people_mo
 
 #[test]
 fn other_habits_are_seen_at_the_hand() {
-    let (task, other) = (task(), tempfile::tempdir().unwrap());
-    let file = other.path().join("person.toml");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("person.toml");
     let text = std::fs::read_to_string(config("person.toml")).unwrap();
     let text = text.replace("pitch = -70", "pitch = -52").replace("pitch = -14", "pitch = 4");
     std::fs::write(&file, text).unwrap();
-    let steep = habits();
-    let flat = coact_person::Habits::load(&file, &task).unwrap();
-    let worlds = [steep, flat].map(|habits| {
-        let own = crate::Settings { habits, ..settings(3, Partner::Synthetic, WorldMode::Kinematic) };
-        let mut world = World::new(&task, &robot(), own).unwrap();
-        let (mut sample, mut truth, mut state): (Box<SensorSample>, Box<Truth>, Box<WorldState>) =
-            (zeroed_box(), zeroed_box(), zeroed_box());
-        for tick in 1..=10_000 {
-            let command = swaying(tick, &sample);
-            world.step(tick, command.as_deref(), &mut sample, &mut truth, &mut state);
-            if truth.grasp_cycle > 0 {
-                break;
-            }
-        }
-        world.simulation.person.hand.pitch
-    });
-    assert!((worlds[1] - worlds[0] - 18_f64.to_radians()).abs() < 0.02, "{worlds:?}");
+    let other = Habits::load(&file, &task()).unwrap();
+    let pitches = [habits(), other].map(pitch_of_first_grasp);
+    assert!((pitches[1] - pitches[0] - 18_f64.to_radians()).abs() < 0.02, "{pitches:?}");
 }
