@@ -83,7 +83,7 @@ fn the_joints_keep_their_limits_of_speed_and_position_when_control_is_killed_and
     let motion = finished.summary().motion;
     assert!(motion.samples > 8000, "{motion:?}");
     // Of the acceleration this says nothing: a simulated world that was late moves the joints on by several cycles at once.
-    // `tools/lockstep/tests/broken_chain.rs` measures it.
+    // `tools/lockstep/tests/lockstep/broken_chain.rs` measures it.
     assert!(motion.speed <= 1.0, "{motion:?}");
     assert!(motion.beyond_position_rad <= SCATTER, "{motion:?}");
 }

@@ -2,7 +2,7 @@
 //! movements are planned on another thread. `cargo bench -p coact-control --bench servo [-- SECONDS]`.
 #![allow(clippy::unwrap_used)]
 
-#[path = "../tests/kinematic_world/mod.rs"]
+#[path = "../tests/control/kinematic_world.rs"]
 mod kinematic_world;
 
 use coact_control::Control;

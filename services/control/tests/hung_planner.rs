@@ -1,6 +1,7 @@
-//! A planner that hangs is found by control; one that works is not taken for one.
+//! A planner that hangs is found by control; one that works is not taken for one. It counts time: a program of its own.
 #![allow(clippy::unwrap_used)]
 
+#[path = "control/kinematic_world.rs"]
 mod kinematic_world;
 
 use coact_control::Control;

@@ -10,7 +10,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// What cargo would build: a program that prints its arguments and ends with status 3.
 const STUDIES: &str = "#!/bin/sh\necho \"$@\"\nexit 3\n";
 
-/// A file that another thread has open for writing just when this one forks cannot be executed: one test at a time.
+/// A file that another thread has open for writing just when this one forks cannot be executed: one test at a time,
+/// and none of other files beside them.
 static ALONE: Mutex<()> = Mutex::new(());
 
 fn alone() -> MutexGuard<'static, ()> {

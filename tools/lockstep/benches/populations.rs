@@ -3,7 +3,7 @@
 //! `cargo bench -p coact-lockstep --bench populations`
 #![allow(missing_docs, clippy::expect_used, reason = "a bench on generated tasks")]
 
-#[path = "../tests/generated/mod.rs"]
+#[path = "../tests/lockstep/generated.rs"]
 mod generated;
 
 use coact_fields::Network;

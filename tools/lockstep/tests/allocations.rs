@@ -2,6 +2,7 @@
 //! tests count.
 #![allow(clippy::unwrap_used)]
 
+#[path = "lockstep/shipped.rs"]
 mod shipped;
 
 use coact_lockstep::Lockstep;

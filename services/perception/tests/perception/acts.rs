@@ -1,0 +1,193 @@
+//! What the hand does is seen while it does it, in proportion, and nothing else is seen in it.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use crate::support::{self, Hand, Stage, resting};
+use coact_joint_task::Act;
+use coact_messages::{Keypoint, KeypointName};
+
+const TOP: usize = 0;
+const SIDE: usize = 1;
+
+#[test]
+fn a_clean_reach_grows_into_the_right_grasp_and_no_other() {
+    for (name, grip) in [("wheel", TOP), ("wheel", SIDE), ("column 1", SIDE)] {
+        let mut stage = Stage::new();
+        let act = Act::Grasp { grip, kind: stage.kind(name) };
+        let mut seen = Vec::new();
+        let mut rivals = 0.0_f64;
+        let end = stage.grasping(stage.part(name), grip);
+
+        stage.move_to(end, 600, |stage| {
+            seen.push(stage.act(act));
+            rivals = rivals.max(stage.rival(act));
+        });
+
+        let drop = seen[..540].windows(60).map(|window| window[0] - window[59]).fold(0.0, f64::max);
+        assert!(seen[480] > 0.6, "{name}: {:.2} at 80 % of the reach", seen[480]);
+        assert!(drop < 0.3, "{name}: evidence fell by {drop:.2} on the way");
+        assert!(seen[60] < 0.2, "{name}: {:.2} before the movement shows anything", seen[60]);
+        // Of a single frame: the destination field takes its time.
+        assert!(rivals < 0.7, "{name}: a rival had {rivals:.2}");
+    }
+}
+
+#[test]
+fn evidence_is_graded() {
+    let mut stage = Stage::new();
+    let act = Act::Grasp { grip: TOP, kind: stage.kind("wheel") };
+    let end = stage.grasping(stage.part("wheel"), TOP);
+    let mut levels = std::collections::BTreeSet::new();
+    stage.move_to(end, 600, |stage| {
+        levels.insert((stage.act(act) * 20.0) as u32);
+    });
+    assert!(levels.len() > 10, "only {} of 20 levels were passed through", levels.len());
+}
+
+#[test]
+fn idling_grows_with_the_seconds_and_ends_with_the_first_movement() {
+    let mut stage = Stage::empty();
+    stage.run(1700, |_, _| {});
+    let early = stage.act(Act::Idle);
+    stage.run(2000, |_, _| {});
+    assert!((0.4..0.6).contains(&early), "{early:.2} after about one and a half seconds");
+    assert!(stage.act(Act::Idle) > 0.95 && stage.act(Act::Rest) > 0.95);
+
+    let end = stage.grasping(stage.part("wheel"), TOP);
+    let mut reaching = false;
+    stage.move_to(end, 500, |stage| {
+        reaching |= stage.percept.hand.reaching == 1 && stage.act(Act::Reach) > 0.9
+    });
+    assert!(reaching);
+    assert!(stage.act(Act::Idle) < 0.05 && stage.act(Act::Rest) < 0.05);
+}
+
+#[test]
+fn a_part_in_the_hand_is_held_until_the_hand_leaves_it() {
+    let mut stage = Stage::new();
+    let (wheel, kind) = (stage.part("wheel"), stage.kind("wheel"));
+    let act = Act::Grasp { grip: TOP, kind };
+    stage.move_to(stage.grasping(wheel, TOP), 600, |_| {});
+    stage.run(150, |_, _| {});
+    assert!(stage.percept.person_holds[kind] > 0.9, "closed on the part");
+
+    let mut carried = stage.grasping(wheel, TOP);
+    carried.centre = [-0.75, 0.30, 0.90];
+    let offset = stage.things[wheel].position[2] - stage.hand.centre[2];
+    let start = stage.hand;
+    let mut least = 1.0_f64;
+    stage.run(900, |stage, time| {
+        stage.hand = start.towards(&carried, support::smooth(time as f64 / 800.0));
+        let [x, y, z] = stage.hand.centre;
+        stage.things[wheel].position = [x, y, z + offset];
+        least = least.min(stage.act(act));
+    });
+    assert!(least > 0.8, "evidence fell to {least:.2} while the part was carried");
+
+    let rest = resting(&stage.task);
+    stage.move_to(rest, 600, |_| {});
+    stage.run(200, |_, _| {});
+    assert!(stage.percept.person_holds[kind] < 0.1 && stage.act(act) < 0.1);
+}
+
+#[test]
+fn withdrawing_over_the_parts_looks_like_no_grasp() {
+    let mut stage = Stage::new();
+    stage.hand = Hand { centre: [-0.70, 0.35, 0.95], pitch: -0.5, aperture: 0.08 };
+    stage.run(800, |_, _| {});
+    let rest = resting(&stage.task);
+    let mut most = 0.0_f64;
+    stage.move_to(rest, 600, |stage| {
+        most = most.max(stage.rival(Act::Rest));
+        assert_eq!(stage.percept.hand.reaching, 0, "a withdrawal is no reach");
+    });
+    assert!(most < 0.4, "evidence of {most:.2} for a grasp");
+}
+
+#[test]
+fn an_open_hand_held_out_is_the_gesture() {
+    let mut stage = Stage::new();
+    let [x, y, z] = stage.task.scene.handover;
+    let open = Hand { centre: [x - 0.08, y, z], pitch: 0.0, aperture: 0.11 };
+    let mut rivals = 0.0_f64;
+    stage.move_to(open, 800, |stage| rivals = rivals.max(stage.rival(Act::Rest)));
+    assert!(stage.act(Act::Gesture(0)) > 0.8, "{:.2} when shown", stage.act(Act::Gesture(0)));
+    assert!(rivals < 0.4, "evidence of {rivals:.2} for a grasp");
+}
+
+#[test]
+fn passing_through_closing_and_holding_a_part_out_are_no_gesture() {
+    let mut stage = Stage::new();
+    let [x, y, z] = stage.task.scene.handover;
+    let closed = Hand { centre: [x - 0.08, y, z], pitch: 0.0, aperture: 0.03 };
+    stage.move_to(closed, 800, |stage| assert!(stage.act(Act::Gesture(0)) < 0.4, "a closed hand"));
+
+    let mut stage = Stage::new();
+    let wheel = stage.part("wheel");
+    let holding = Hand { centre: [x, y, z + 0.0125], pitch: -0.17, aperture: 0.09 };
+    let start = stage.hand;
+    stage.run(1500, |stage, time| {
+        stage.hand = start.towards(&holding, support::smooth(time as f64 / 900.0));
+        let [x, y, z] = stage.hand.centre;
+        stage.things[wheel].position = [x, y, z - 0.0125];
+        assert!(stage.act(Act::Gesture(0)) < 0.4, "a part is held out");
+    });
+
+    let mut stage = Stage::new();
+    stage.hand = Hand { centre: [-0.60, 0.50, 1.0], pitch: 0.0, aperture: 0.10 };
+    stage.run(800, |_, _| {});
+    let beyond = Hand { centre: [-0.64, -0.35, 1.04], ..stage.hand };
+    stage.move_to(beyond, 500, |stage| assert!(stage.act(Act::Gesture(0)) < 0.4, "passing through"));
+}
+
+/// A hand there, whose index finger is stretched out towards a place, and whose middle finger is folded.
+fn pointing(stage: &mut Stage, centre: [f64; 3], at: [f64; 3]) {
+    stage.hand = Hand { centre, pitch: 0.0, aperture: 0.05 };
+    let knuckle: [f64; 3] = [centre[0] - 0.06, centre[1] + 0.025, centre[2]];
+    let way: [f64; 3] = std::array::from_fn(|axis| at[axis] - knuckle[axis]);
+    let length = way.iter().map(|value| value * value).sum::<f64>().sqrt();
+    let tip = std::array::from_fn(|axis| knuckle[axis] + 0.095 * way[axis] / length);
+    let folded = [centre[0] - 0.09, centre[1], centre[2] - 0.02];
+    let seen = |position| Keypoint { position, confidence: 0.9 };
+    stage.wrong = vec![(KeypointName::IndexTip, seen(tip)), (KeypointName::MiddleTip, seen(folded))];
+}
+
+#[test]
+fn a_finger_that_points_is_evidence_for_the_part_that_it_points_at() {
+    for name in ["nut", "column 3", "top floor"] {
+        let mut stage = Stage::new();
+        let [x, y, z] = stage.things[stage.part(name)].position;
+        pointing(&mut stage, [-0.75, 0.45, 1.1], [x, y, z + 0.02]);
+        stage.run(500, |_, _| {});
+        let kind = stage.kind(name);
+        let points = |stage: &Stage, chosen: bool| {
+            let acts = stage.task.acts.iter().enumerate().filter_map(|(index, act)| match act {
+                Act::Point(chain) => Some((stage.task.chains[*chain].kind, stage.percept.act[index])),
+                _ => None,
+            });
+            acts.filter(|(own, _)| (*own == kind) == chosen).map(|(_, evidence)| evidence).fold(0.0, f64::max)
+        };
+        assert!(points(&stage, true) > 0.7, "{name}: {:.2}", points(&stage, true));
+        assert!(points(&stage, false) < 0.3, "{name}: {:.2} for another one", points(&stage, false));
+        assert!(stage.act(Act::Gesture(0)) < 0.3 && stage.rival(Act::Rest) < 0.3);
+    }
+}
+
+#[test]
+fn a_hand_that_passes_and_a_finger_that_points_at_nothing_are_no_pointing() {
+    let none = |stage: &Stage| {
+        let acts = stage.task.acts.iter().zip(&stage.percept.act);
+        acts.filter(|(act, _)| matches!(act, Act::Point(_))).all(|(_, evidence)| *evidence < 0.2)
+    };
+    let mut stage = Stage::new();
+    pointing(&mut stage, [-0.75, 0.45, 1.1], [-0.75, 1.5, 1.1]);
+    stage.run(500, |_, _| {});
+    assert!(none(&stage), "the finger points at nothing");
+
+    let mut stage = Stage::new();
+    let [x, y, z] = stage.things[stage.part("nut")].position;
+    stage.run(500, |stage, time| {
+        pointing(stage, [-0.75, 0.1 + 0.8e-3 * time as f64, 1.1], [x, y, z]);
+        // The hand was put there: its velocity is known after some frames.
+        assert!(time < 200 || none(stage), "the hand goes past, {time} ms");
+    });
+}

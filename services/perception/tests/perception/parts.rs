@@ -1,0 +1,187 @@
+//! Parts, places and hands: seen, gone, or out of view.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use crate::support::{self, Stage};
+use coact_messages::{PERSON, ROBOT};
+
+#[test]
+fn parts_are_seen_where_they_lie() {
+    let stage = Stage::new();
+    let (wheel, nut) = (stage.kind("wheel"), stage.kind("nut"));
+    let [robot, person] = [&stage.percept.workspace[ROBOT], &stage.percept.workspace[PERSON]];
+    assert!(person.seen[wheel] > 0.9 && person.gone[wheel] < 0.1);
+    assert!(robot.seen[nut] > 0.9 && person.seen[nut] < 0.1 && person.gone[nut] > 0.9);
+    let rest = stage.task.scene.person_rest;
+    let away = |at: [f64; 2]| (at[0] - rest[0]).hypot(at[1] - rest[1]);
+    let wheels = stage.task.parts.iter().filter(|part| part.kind == wheel).map(|part| part.at);
+    let nearest = wheels.min_by(|a, b| away(*a).total_cmp(&away(*b))).unwrap();
+    let found = person.position[wheel];
+    assert!((found[0] - nearest[0]).hypot(found[1] - nearest[1]) < 1e-3, "{found:?} instead of {nearest:?}");
+}
+
+#[test]
+fn missed_sightings_do_not_matter_and_a_part_that_is_taken_away_is_gone() {
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("column 1"), stage.kind("column 1"));
+    stage.run(1500, |stage, time| {
+        stage.things[part].visible = time / 33 % 4 != 0;
+        assert!(stage.percept.workspace[PERSON].seen[kind] > 0.9);
+    });
+    stage.run(800, |stage, _| stage.things[part].visible = false);
+    let place = &stage.percept.workspace[PERSON];
+    assert!(place.seen[kind] < 0.1 && place.gone[kind] > 0.9);
+}
+
+/// Shows the person's column 1 as another kind of part in those ms that `mistaken` says; what is said of the two kinds afterwards.
+fn taken_for_a_nut(mistaken: impl Fn(u64) -> bool) -> [f64; 2] {
+    let mut stage = Stage::new();
+    let (part, kind, other) = (stage.part("column 1"), stage.kind("column 1"), stage.kind("nut"));
+    stage.run(3000, |stage, time| {
+        stage.things[part].kind = if mistaken(time) { other } else { kind };
+    });
+    let person = &stage.percept.workspace[PERSON];
+    [kind, other].map(|kind| person.seen[kind])
+}
+
+#[test]
+fn a_part_that_is_taken_for_another_now_and_then_stays_what_it_is() {
+    for mistaken in
+        [|time: u64| time % 1000 < 200, |time: u64| (time / 33).is_multiple_of(3), |time: u64| time > 2200]
+    {
+        let [own, other] = taken_for_a_nut(mistaken);
+        assert!(own > 0.9 && other < 0.1, "{own} {other}");
+    }
+}
+
+#[test]
+fn a_part_that_is_always_taken_for_another_is_one() {
+    let [own, other] = taken_for_a_nut(|time| time > 1000);
+    assert!(own < 0.1 && other > 0.9, "{own} {other}");
+}
+
+#[test]
+fn what_single_frames_show_is_not_there() {
+    let mut stage = Stage::new();
+    let nut = stage.kind("nut");
+    let ghost = stage.part("column 1");
+    stage.things.push(stage.things[ghost]);
+    let index = stage.things.len() - 1;
+    stage.things[index].kind = nut;
+    stage.things[index].position[1] += 0.07;
+    stage.run(3000, |stage, time| {
+        stage.things[index].visible = time / 33 % 4 < 2;
+        assert!(stage.percept.workspace[PERSON].seen[nut] < 0.1, "after {time} ms");
+    });
+    stage.run(300, |stage, _| stage.things[index].visible = true);
+    assert!(stage.percept.workspace[PERSON].seen[nut] > 0.9, "what stays is there");
+}
+
+#[test]
+fn what_is_out_of_view_is_neither_seen_nor_gone() {
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("column 1"), stage.kind("column 1"));
+    let [x, y, z] = stage.things[part].position;
+    stage.run(2000, |stage, _| {
+        stage.things[part].visible = false;
+        stage.sample.scene.occluders = 1;
+        stage.sample.scene.occluder[0] = [x, y, z + 0.1, 0.08, 0.08, 0.1];
+    });
+    let place = &stage.percept.workspace[PERSON];
+    assert!(place.seen[kind] < 0.1 && place.gone[kind] < 0.1);
+    assert!((place.position[kind][0] - x).abs() < 1e-2, "the last known place is kept");
+    stage.run(400, |stage, _| {
+        stage.things[part].visible = true;
+        stage.sample.scene.occluders = 0;
+    });
+    assert!(stage.percept.workspace[PERSON].seen[kind] > 0.9);
+}
+
+#[test]
+fn a_subgoal_is_open_until_its_part_lies_in_the_socket() {
+    let mut stage = Stage::new();
+    let goal = stage.task.subgoals.iter().position(|goal| goal.name == "column 1 in its hole").unwrap();
+    let part = stage.part("column 1");
+    assert!(stage.percept.open[goal] > 0.9 && stage.percept.achieved[goal] < 0.1);
+    let socket = stage.task.subgoals[goal].socket;
+    stage.run(700, |stage, _| stage.things[part].position = [socket[0] + 0.01, socket[1], socket[2]]);
+    assert!(stage.percept.achieved[goal] > 0.9 && stage.percept.open[goal] < 0.1);
+    stage.run(1000, |stage, _| stage.things[part].visible = false);
+    assert!(stage.percept.open[goal] > 0.9 && stage.percept.achieved[goal] < 0.1, "taken out again");
+}
+
+#[test]
+fn a_part_that_stands_beside_its_socket_is_not_in_it() {
+    for (away, mounted) in [(0.012, true), (0.016, false), (0.025, false)] {
+        let mut stage = Stage::new();
+        let goal = stage.task.subgoals.iter().position(|goal| goal.name == "column 1 in its hole").unwrap();
+        let (part, socket) = (stage.part("column 1"), stage.task.subgoals[goal].socket);
+        stage.run(700, |stage, _| stage.things[part].position = [socket[0], socket[1] + away, socket[2]]);
+        let achieved = stage.percept.achieved[goal];
+        assert!(if mounted { achieved > 0.9 } else { achieved < 0.1 }, "{away} m: {achieved}");
+    }
+}
+
+#[test]
+fn a_mounted_part_is_free_in_no_workspace_and_stays_mounted_while_the_hand_is_near() {
+    let mut stage = Stage::new();
+    let goal = stage.task.subgoals.iter().position(|goal| goal.name == "wheel on the person's side").unwrap();
+    let wheel = stage.part("wheel");
+    stage.things[wheel].position = stage.task.subgoals[goal].socket;
+    stage.run(800, |_, _| {});
+    let nut = stage.kind("nut");
+    let near = support::Hand { centre: stage.task.subgoals[goal].socket, pitch: -1.3, aperture: 0.03 };
+    let nut_part = stage.part("nut");
+    let start = stage.hand;
+    stage.things[nut_part].position = start.centre;
+    stage.run(1500, |stage, time| {
+        stage.hand = start.towards(&near, support::smooth(time as f64 / 900.0));
+        let [x, y, z] = stage.hand.centre;
+        stage.things[nut_part].position = [x, y, z - 0.01];
+    });
+    assert!(stage.percept.person_holds[nut] > 0.9, "the nut is in the hand");
+    assert!(stage.percept.achieved[goal] > 0.9, "the wheel beside it is not");
+}
+
+#[test]
+fn a_touched_part_in_the_air_is_in_the_robots_hand() {
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("top floor"), stage.kind("top floor"));
+    stage.run(500, |stage, _| stage.sample.joints.touch = 5.0);
+    assert!(stage.percept.robot_holds[kind] < 0.1, "it lies on the table");
+    stage.run(1000, |stage, time| {
+        stage.things[part].position[2] += if time < 400 { 0.0005 } else { 0.0 };
+        stage.sample.joints.touch = 5.0;
+    });
+    assert!(stage.percept.robot_holds[kind] > 0.9);
+    assert!(stage.percept.workspace[ROBOT].seen[kind] < 0.1, "it is not free any more");
+    stage.run(300, |stage, _| stage.sample.joints.touch = 0.0);
+    assert!(stage.percept.robot_holds[kind] < 0.1);
+}
+
+/// The robot holds the top floor 0.2 m above the table, and opens its fingers; `then` moves things from there on. Tells
+/// the evidence that the part is lost.
+fn lost_after_opening(then: impl Fn(&mut Stage, usize)) -> f64 {
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("top floor"), stage.kind("top floor"));
+    stage.run(1000, |stage, time| {
+        stage.things[part].position[2] += if time < 400 { 0.0005 } else { 0.0 };
+        stage.sample.joints.touch = 5.0;
+        stage.sample.joints.position[8..11].fill(1.4);
+    });
+    assert!(stage.percept.robot_holds[kind] > 0.9);
+    stage.run(800, |stage, _| {
+        stage.sample.joints.touch = 0.0;
+        stage.sample.joints.position[8..11].fill(1.0);
+        then(stage, part);
+    });
+    stage.percept.lost[kind]
+}
+
+#[test]
+fn a_part_that_falls_when_the_robot_lets_it_go_is_lost_and_one_that_is_taken_is_not() {
+    let table = |stage: &Stage| stage.task.scene.table_height;
+    assert!(lost_after_opening(|stage, part| stage.things[part].position[2] = table(stage)) > 0.9);
+    assert!(lost_after_opening(|_, _| {}) < 0.1, "somebody has it");
+    let taken_away = |stage: &mut Stage, part: usize| stage.things[part].visible = false;
+    assert!(lost_after_opening(taken_away) < 0.1, "a hand hides it");
+}

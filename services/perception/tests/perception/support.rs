@@ -1,0 +1,233 @@
+//! A person's hand and parts on a table, as sensors would show them, for tests of perception.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use coact_joint_task::{Act, Task};
+use coact_messages::{Keypoint, KeypointName, Percept, SensorSample, Sighting};
+use coact_perception::{Perception, PreshapeModel};
+use std::path::PathBuf;
+
+pub fn configuration(file: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../rt-config").join(file)
+}
+
+pub fn task() -> Task {
+    Task::load(&configuration("tasks/toy-vehicle.toml")).unwrap()
+}
+
+pub fn perception(task: &Task) -> Perception {
+    Perception::new(task, &PreshapeModel::load(&configuration("perception/preshape.toml")).unwrap()).unwrap()
+}
+
+/// The hand: middle of the finger tips (m), pitch (rad), thumb to index (m).
+#[derive(Clone, Copy)]
+pub struct Hand {
+    pub centre: [f64; 3],
+    pub pitch: f64,
+    pub aperture: f64,
+}
+
+impl Hand {
+    pub fn towards(&self, end: &Self, along: f64) -> Self {
+        let mix = |a: f64, b: f64| a + (b - a) * along;
+        Self {
+            centre: std::array::from_fn(|axis| mix(self.centre[axis], end.centre[axis])),
+            pitch: mix(self.pitch, end.pitch),
+            aperture: mix(self.aperture, end.aperture),
+        }
+    }
+
+    /// Keypoints of a hand that points along x: fingers 0.15 m from the wrist, thumb and index opposed along y.
+    fn keypoints(&self) -> [Keypoint; 9] {
+        let on_hand = |along: f64, aside: f64| Keypoint {
+            position: [
+                self.centre[0] + (along - 0.15) * self.pitch.cos(),
+                self.centre[1] + aside,
+                self.centre[2] + (along - 0.15) * self.pitch.sin(),
+            ],
+            confidence: 0.9,
+        };
+        let half = 0.5 * self.aperture;
+        [
+            on_hand(-0.5, 0.1),
+            on_hand(-0.26, 0.05),
+            on_hand(0.0, 0.0),
+            on_hand(0.02, 0.02),
+            on_hand(0.15, half),
+            on_hand(0.09, 0.025),
+            on_hand(0.15, -half),
+            on_hand(0.16, -half),
+            on_hand(0.08, -0.04),
+        ]
+    }
+}
+
+/// Minimum jerk.
+pub fn smooth(time: f64) -> f64 {
+    let t = time.clamp(0.0, 1.0);
+    t * t * t * (10.0 + t * (-15.0 + 6.0 * t))
+}
+
+/// One part of the scene.
+#[derive(Clone, Copy)]
+pub struct Thing {
+    pub kind: usize,
+    pub position: [f64; 3],
+    pub visible: bool,
+}
+
+/// A table with parts, a hand, and a perception that watches.
+pub struct Stage {
+    pub task: Task,
+    pub perception: Perception,
+    pub hand: Hand,
+    pub things: Vec<Thing>,
+    pub sample: Box<SensorSample>,
+    pub percept: Box<Percept>,
+    pub tick: u64,
+    /// Whether the hand tracker delivers.
+    pub tracking: bool,
+    /// Keypoints that it delivers in the place of the hand's own.
+    pub wrong: Vec<(KeypointName, Keypoint)>,
+}
+
+impl Stage {
+    /// All parts where the task lays them out, the hand at rest for two seconds.
+    pub fn new() -> Self {
+        let mut stage = Self::empty();
+        stage.run(2000, |_, _| {});
+        stage
+    }
+
+    /// The same, before anything was seen.
+    pub fn empty() -> Self {
+        let task = task();
+        let things = task.parts.iter().map(|part| Thing {
+            kind: part.kind,
+            position: [part.at[0], part.at[1], task.scene.table_height],
+            visible: true,
+        });
+        Self {
+            things: things.collect(),
+            perception: perception(&task),
+            hand: resting(&task),
+            task,
+            sample: bytemuck::zeroed_box(),
+            percept: bytemuck::zeroed_box(),
+            tick: 1,
+            tracking: true,
+            wrong: Vec::new(),
+        }
+    }
+
+    /// Runs `ticks` periods; before each, `change` is told the time since the first and may change anything.
+    pub fn run(&mut self, ticks: u64, mut change: impl FnMut(&mut Self, u64)) {
+        for time in 0..ticks {
+            change(self, time);
+            self.sense();
+            self.perception.step(self.tick, Some(&self.sample), &mut self.percept);
+            self.tick += 1;
+        }
+    }
+
+    /// Moves the hand on a minimum-jerk way to `end`; `watch` sees each percept.
+    pub fn move_to(&mut self, end: Hand, ticks: u64, mut watch: impl FnMut(&Self)) {
+        let start = self.hand;
+        for time in 1..=ticks {
+            self.hand = start.towards(&end, smooth(time as f64 / ticks as f64));
+            self.run(1, |_, _| {});
+            watch(self);
+        }
+    }
+
+    /// The hand as it grasps part `index` with grip `grip`.
+    pub fn grasping(&self, index: usize, grip: usize) -> Hand {
+        let thing = self.things[index];
+        let kind = &self.task.kinds[thing.kind];
+        let [x, y, z] = thing.position;
+        Hand {
+            centre: [x, y, z + 0.5 * kind.shape.height()],
+            pitch: self.task.grips[grip].pitch,
+            aperture: kind.width,
+        }
+    }
+
+    /// Evidence for one act; of a grasp also that the hand is on its way to one.
+    pub fn act(&self, act: Act) -> f64 {
+        let shown = self.percept.act[self.task.acts.iter().position(|own| *own == act).unwrap()];
+        match act {
+            Act::Grasp { grip, kind } => shown + self.on_the_way(kind) * self.percept.destinations.grip[grip],
+            _ => shown,
+        }
+    }
+
+    /// By how much more than mere chance the hand's movement leads to parts of a kind, as far as it tells anything.
+    pub fn on_the_way(&self, kind: usize) -> f64 {
+        let destinations = &self.percept.destinations;
+        let best = |kind: Option<usize>| {
+            let of_kind = destinations.iter().filter(|(own, _, _)| *own == kind);
+            of_kind.map(|(_, _, fit)| fit).fold(0.0, f64::max)
+        };
+        let kinds = || (0..self.task.kinds.len()).map(|kind| best(Some(kind)));
+        let all = best(None) + kinds().sum::<f64>();
+        let lie_there = kinds().filter(|best| *best > 0.0).count();
+        let chance = if lie_there > 1 { 1.0 / lie_there as f64 } else { 0.0 };
+        let share = best(Some(kind)) / all.max(f64::MIN_POSITIVE);
+        destinations.told * ((share - chance) / (1.0 - chance)).max(0.0)
+    }
+
+    /// The strongest grasp that is not `act`.
+    pub fn rival(&self, act: Act) -> f64 {
+        let grasps = self.task.acts.iter().filter(|own| matches!(own, Act::Grasp { .. }));
+        grasps.filter(|own| **own != act).map(|own| self.act(*own)).fold(0.0, f64::max)
+    }
+
+    pub fn kind(&self, name: &str) -> usize {
+        self.task.kinds.iter().position(|kind| kind.name == name).unwrap()
+    }
+
+    /// The first part of a kind.
+    pub fn part(&self, name: &str) -> usize {
+        let kind = self.kind(name);
+        self.things.iter().position(|thing| thing.kind == kind).unwrap()
+    }
+
+    /// Shows the sensors what there is now: hand at 60 Hz, parts at 30 Hz.
+    pub fn sense(&mut self) {
+        self.sample.header.cycle = self.tick;
+        if self.tracking && self.tick.is_multiple_of(17) {
+            self.sample.hand.frame += 1;
+            self.sample.hand.captured_cycle = self.tick;
+            self.sample.hand.keypoints = self.hand.keypoints();
+            for (name, keypoint) in &self.wrong {
+                self.sample.hand.keypoints[*name as usize] = *keypoint;
+            }
+        }
+        if self.tick.is_multiple_of(33) {
+            self.show_parts();
+        }
+    }
+
+    fn show_parts(&mut self) {
+        let scene = &mut self.sample.scene;
+        scene.frame += 1;
+        scene.captured_cycle = self.tick;
+        scene.sightings = 0;
+        for thing in self.things.iter().filter(|thing| thing.visible) {
+            scene.sighting[scene.sightings as usize] = Sighting {
+                kind: thing.kind as u32,
+                reserved: 0,
+                confidence: 0.9,
+                position: thing.position,
+                orientation: [0.0, 0.0, 0.0, 1.0],
+            };
+            scene.sightings += 1;
+        }
+    }
+}
+
+/// The hand at rest.
+pub fn resting(task: &Task) -> Hand {
+    let [x, y, z] = task.scene.person_rest;
+    let pitch = -0.35_f64;
+    Hand { centre: [x + 0.15 * pitch.cos(), y, z + 0.15 * pitch.sin()], pitch, aperture: 0.03 }
+}

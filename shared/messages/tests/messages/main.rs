@@ -1,0 +1,5 @@
+//! Messages and topics.
+
+mod drawing;
+mod plausibility;
+mod processes;

@@ -1,0 +1,4 @@
+//! Runs, and the table of their processes.
+
+mod run;
+mod table;

@@ -1,0 +1,5 @@
+//! Recordings of people: reaches, arms, ways of carrying.
+
+mod arms;
+mod reading;
+mod ways;

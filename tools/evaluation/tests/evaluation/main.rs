@@ -1,0 +1,4 @@
+//! Campaigns and encounters, judged.
+
+mod campaign;
+mod encounters;

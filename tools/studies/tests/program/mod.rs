@@ -1,8 +1,0 @@
-//! The program as `coact` starts it.
-
-use std::process::{Command, Output};
-
-/// Runs a study with these arguments, to its end.
-pub fn coact(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_coact-studies")).args(arguments).output().unwrap()
-}
