@@ -8,8 +8,8 @@ use coact_robot::HAND_JOINTS;
 use coact_safety::{SafetyLimits, StaleLimits};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
-/// Touch below this is nothing, N. Chosen by hand: fingers that are closed on a part press far harder; not sensitive.
-const TOUCH: f64 = 0.02;
+/// Touch below this is nothing, N. Chosen by hand: above a sensor's noise, and fingers that are closed on a part press far harder.
+const TOUCH: f64 = 0.2;
 /// Evidence above this is believed: more likely than not.
 const BELIEF: f64 = 0.5;
 /// The person's wrist is at a place when nearer than this, m: a hand's length and some.

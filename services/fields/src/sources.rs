@@ -45,6 +45,7 @@ fn read(percept: &Percept, taken: &[f64; MAX_KINDS], channel: Channel) -> f64 {
         Channel::Always => 1.0,
         Channel::Act(act) => percept.act[act],
         Channel::Destination { grip, kind } => taken[kind] * percept.destinations.grip[grip],
+        Channel::BoundFor(kind) => taken[kind],
         Channel::Seen { workspace, kind } => percept.workspace[workspace].seen[kind],
         Channel::Gone { workspace, kind } => percept.workspace[workspace].gone[kind],
         Channel::Achieved(subgoal) => percept.achieved[subgoal],

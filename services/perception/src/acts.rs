@@ -8,7 +8,7 @@ use crate::present_movement::PresentMovement;
 use crate::preshape::Classifier;
 use crate::reaching::MovementReader;
 use coact_joint_task::{Act, Agent, Task};
-use coact_messages::{MAX_ACTS, Percept};
+use coact_messages::{MAX_ACTS, Percept, SceneView};
 use coact_period::cycles;
 use nalgebra::Vector3;
 use std::time::Duration;
@@ -101,6 +101,19 @@ impl Acts {
             };
             let cycles = if target > out.act[index] { rise } else { fall };
             follow(&mut out.act[index], target, cycles);
+        }
+    }
+
+    /// Tells where a hand may be that has gone out of sight.
+    pub fn look_behind(
+        &self,
+        state: &PerceptionState,
+        places: &TaskPlaces,
+        view: &SceneView,
+        out: &mut Percept,
+    ) {
+        if state.occlusion.is_hidden() {
+            self.grasps.report_hidden(state, places, view, &mut out.destinations);
         }
     }
 

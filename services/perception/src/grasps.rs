@@ -6,7 +6,7 @@ use crate::present_movement::PresentMovement;
 use crate::preshape::{Classifier, LAST_READ};
 use crate::reaching::{HANDOVER, MovementReader, PLACES};
 use coact_joint_task::{PersonGrip, Task};
-use coact_messages::{MAX_KINDS, MAX_PARTS, PERSON, Percept};
+use coact_messages::{Destinations, MAX_KINDS, MAX_PARTS, PERSON, Percept, SceneView};
 use nalgebra::{Vector2, Vector3};
 use std::cmp::Ordering;
 
@@ -102,6 +102,26 @@ impl Grasps {
         for (grip, likeness) in out.grip.iter_mut().enumerate().take(self.grips.len()) {
             *likeness = grip_resemblance(&self.grips, grip, state.hand.pitch_ahead(), trust);
         }
+    }
+
+    /// Tells where a hand may be that has gone out of sight: at a part that is out of sight as well, or it would be seen there. Its way until
+    /// then still counts; its grip does not show.
+    pub fn report_hidden(
+        &self,
+        state: &PerceptionState,
+        places: &TaskPlaces,
+        view: &SceneView,
+        out: &mut Destinations,
+    ) {
+        let parts = state.parts.numbered();
+        let takable = parts.filter(|(_, kind, part)| self.is_takable(*kind, part, places));
+        (out.told, out.count) = (1.0, 0);
+        out.grip.fill(0.0);
+        for (index, kind, part) in takable.filter(|(_, _, part)| places.is_hidden(part.position, view)) {
+            let centre = part.centre(places.size(kind));
+            out.push(Some(kind), centre.xy().into(), state.likelihoods.of(index));
+        }
+        against_the_best(&mut out.fit[..out.count as usize]);
     }
 
     /// One cycle's part of finding out which places the movement leads to.

@@ -84,6 +84,9 @@ impl Perception {
         self.acts.look_ahead(&mut self.state, &self.movements, &self.places);
         let heard = self.words.heard(tick);
         self.acts.report(tick, &mut self.state, &self.classifier, &self.places, heard, &mut self.percept);
+        if let Some(sample) = sample {
+            self.acts.look_behind(&self.state, &self.places, &sample.scene, &mut self.percept);
+        }
         self.state.loss.report(tick, self.places.kinds(), &mut self.percept);
         self.report_hand(tick);
         let header = out.header;

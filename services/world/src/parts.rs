@@ -1,4 +1,4 @@
-use coact_joint_task::{Fit, Task};
+use coact_joint_task::{Fit, Part, Task};
 use coact_messages::{MAX_PARTS, NONE, PartState};
 use coact_person::{Holder, PartsView};
 use coact_stage_state::{Implausible, ensure, finite};
@@ -182,12 +182,19 @@ impl Parts {
         self.is(part, Holder::Nobody) && (fallen || !task.scene.workspace.iter().any(within))
     }
 
-    /// Puts a part back to where the task lays it out, unless another one lies there.
+    /// Puts a part back to where the task lays it out, or where other parts lie there, as near to it as its workspace has room.
     pub fn put_back(&mut self, part: usize, task: &Task) {
-        let home = DVec3::new(task.parts[part].at[0], task.parts[part].at[1], task.scene.table_height);
-        let taken = |other: usize| other != part && self.position(other).distance(home) < HOME_CLEARANCE;
-        if !(0..self.count).any(taken) {
-            self.move_to(part, home, DQuat::IDENTITY, [0.0; 3]);
+        let Part { at: [x, y], workspace, .. } = task.parts[part];
+        let home = DVec3::new(x, y, task.scene.table_height);
+        let room = |place: &DVec3| {
+            let mut others = (0..self.count).filter(|other| *other != part);
+            others.all(|other| self.position(other).distance(*place) >= HOME_CLEARANCE)
+        };
+        let away = |place: &DVec3| place.distance(home);
+        let around = grid(task.scene.workspace[workspace.index()], task.scene.table_height);
+        let places = std::iter::once(home).chain(around).filter(room);
+        if let Some(place) = places.min_by(|one, other| away(one).total_cmp(&away(other))) {
+            self.move_to(part, place, DQuat::IDENTITY, [0.0; 3]);
         }
     }
 
@@ -225,7 +232,49 @@ impl Parts {
     }
 }
 
+/// Places all over a workspace, m.
+fn grid([low, high]: [[f64; 2]; 2], height: f64) -> impl Iterator<Item = DVec3> {
+    let steps = move |axis: usize| {
+        let count = ((high[axis] - low[axis]) / HOME_CLEARANCE).max(0.0) as u32;
+        (0..=count).map(move |step| low[axis] + HOME_CLEARANCE * f64::from(step))
+    };
+    steps(0).flat_map(move |x| steps(1).map(move |y| DVec3::new(x, y, height)))
+}
+
 /// The shortest turn that brings a part's own z axis onto `axis`.
 fn upright_along(axis: DVec3) -> DQuat {
     DQuat::from_rotation_arc(DVec3::Z, axis.normalize_or(DVec3::Z))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    fn laid_out() -> (Task, Parts) {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/toy-vehicle.toml");
+        let task = Task::load(&file).unwrap();
+        let parts = Parts::new(&task, Vec::new(), task.scene.fit);
+        (task, parts)
+    }
+
+    #[test]
+    fn a_part_that_fell_is_put_where_it_lay_or_beside_what_lies_there_now() {
+        let (task, laid) = laid_out();
+        for part in 0..task.parts.len() {
+            let home = laid.position(part);
+            for intruder in 0..task.parts.len() {
+                let mut parts = laid.clone();
+                parts.place(intruder, home + DVec3::new(0.01, 0.0, 0.0), DQuat::IDENTITY);
+                parts.place(part, DVec3::new(0.0, 3.0, -40.0), DQuat::IDENTITY);
+                parts.put_back(part, &task);
+                let at = parts.position(part);
+                assert!(!parts.is_stray(part, &task), "part {part} at {at}");
+                assert_eq!(at == home, intruder == part, "part {part}, where {intruder} lies, at {at}");
+                let mut others = (0..task.parts.len()).filter(|other| *other != part);
+                assert!(others.all(|other| parts.position(other).distance(at) >= HOME_CLEARANCE));
+            }
+        }
+    }
 }

@@ -65,6 +65,7 @@ pub enum Channel {
     Always,
     Act(usize),
     Destination { grip: usize, kind: usize },
+    BoundFor(usize),
     Seen { workspace: usize, kind: usize },
     Gone { workspace: usize, kind: usize },
     Achieved(usize),

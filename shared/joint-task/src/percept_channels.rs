@@ -19,6 +19,7 @@ pub(crate) fn channels(task: &Task, first: usize) -> (Vec<ChannelPlan>, Vec<(Str
     add("acts", acts(task), &Channel::Act);
     let (meanings, channel): (Vec<_>, Vec<_>) = destinations(task).into_iter().unzip();
     add("destinations", meanings, &|index| channel[index]);
+    add("bound for", objects(task, Agent::Person), &Channel::BoundFor);
     for (agent, name) in [(Agent::Robot, "robot"), (Agent::Person, "person")] {
         let workspace = agent.index();
         add(&format!("seen {name}"), objects(task, agent), &|kind| Channel::Seen { workspace, kind });

@@ -33,7 +33,7 @@ pub struct JointReading {
     /// Measured velocities, rad/s.
     pub velocity: [f64; JOINTS],
     /// Force that the fingers exert on what they hold, N, as the mean of the last 30 ms: contacts chatter from step to
-    /// step, and a force sensor has no more than such a bandwidth. 0 when they touch nothing.
+    /// step, and a force sensor has no more than such a bandwidth. About 0 when they touch nothing.
     pub touch: f64,
     /// Force that something outside exerts on the hand and on what it holds, N, world frame, without the weight and the
     /// inertia of both: 0 while nobody pulls and nothing is in the way. NaN: not measured.

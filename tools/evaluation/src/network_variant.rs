@@ -75,8 +75,10 @@ fn remove_anticipation(plan: &mut NetworkPlan) {
     let predicted = |synapse: &Synapse| {
         goals.contains(&synapse.from) && subgoals.iter().any(|row| row.contains(&synapse.to))
     };
-    let foreseen =
-        |synapse: &Synapse| matches!(channel_of(plan, synapse.from), Some(Channel::Destination { .. }));
+    let foreseen = |synapse: &Synapse| {
+        let channel = channel_of(plan, synapse.from);
+        matches!(channel, Some(Channel::Destination { .. } | Channel::BoundFor(_)))
+    };
     let anticipates = |synapse: &Synapse| hidden(synapse) || predicted(synapse) || foreseen(synapse);
     let others = plan.synapses.iter().filter(|synapse| !anticipates(synapse));
     let mut synapses: Vec<Synapse> = others.copied().collect();

@@ -1,7 +1,7 @@
 //! What needs several sources never ignites from one: every population of ASL, IL and AEL, for every shipped task.
 #![allow(clippy::unwrap_used)]
 
-use coact_joint_task::{NetworkPlan, Pool, Synapse};
+use coact_joint_task::{Channel, NetworkPlan, Pool, Synapse};
 use coact_messages::LayerKind::{self, ActionExecution, ActionSimulation, ErrorMonitoring, Intention};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -16,9 +16,13 @@ fn shipped_tasks() -> Vec<PathBuf> {
 }
 
 /// A source in the sense of the chapter: another layer, or one channel of the percept. What is observed of the hand is
-/// one, by the role of the act, because acts of different roles exclude each other; what the person says is another.
+/// one, by the role of the act, because acts of different roles exclude each other, and which part it is bound for is told
+/// with its grasp; what the person says is another.
 fn source(plan: &NetworkPlan, from: usize) -> String {
     match plan.layer_of(from) {
+        None if matches!(plan.channels[from - plan.populations.len()].channel, Channel::BoundFor(_)) => {
+            GRASP.into()
+        }
         None => plan.meaning(from).label.split(':').next().unwrap_or_default().to_owned(),
         Some(layer) if layer.kind == LayerKind::ActionObservation => {
             format!("{} {}", layer.kind.name(), plan.meaning(from).role)

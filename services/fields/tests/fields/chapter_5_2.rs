@@ -25,6 +25,10 @@ fn hand_behind_the_occluder(person_has_a_wheel: bool, robot_has_a_wheel: bool) -
     robot.run(300);
     robot.act("reach", 0.0);
     robot.act("reach out of sight", 1.0);
+    // No part but wheels is out of sight as well.
+    if person_has_a_wheel {
+        robot.bound_for("wheel");
+    }
     robot.run(300);
     robot
 }

@@ -3,7 +3,7 @@
 
 use coact_fields::Network;
 use coact_joint_task::{Agent, NetworkPlan, Task};
-use coact_messages::{FieldFrame, LayerKind, NONE, Percept};
+use coact_messages::{FieldFrame, LayerKind, NONE, PERSON, Percept};
 use std::path::Path;
 
 pub struct Harness {
@@ -90,6 +90,15 @@ impl Harness {
         let kind = self.kind(kind);
         self.percept.workspace[workspace.index()].seen[kind] = seen;
         self.percept.workspace[workspace.index()].gone[kind] = gone;
+    }
+
+    /// The hand is on its way to a part of this kind, by its movement alone.
+    pub fn bound_for(&mut self, kind: &str) {
+        let (kind, [low, high]) = (self.kind(kind), self.task.scene.workspace[PERSON]);
+        let middle = [0, 1].map(|axis| f64::midpoint(low[axis], high[axis]));
+        let destinations = &mut self.percept.destinations;
+        (destinations.told, destinations.count) = (1.0, 0);
+        destinations.push(Some(kind), middle, 1.0);
     }
 
     pub fn achieve(&mut self, subgoal: &str) {

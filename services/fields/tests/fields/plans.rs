@@ -3,6 +3,7 @@
 
 use crate::harness::Harness;
 use coact_joint_task::NetworkPlan;
+use coact_messages::LayerKind;
 use proptest::prelude::*;
 use std::path::Path;
 use toml::{Table, Value};
@@ -102,6 +103,27 @@ fn a_choice_is_made_by_as_many_as_are_enough_and_spares_the_others() {
             robot.run(200);
             assert_eq!(robot.available(), [LAST], "{offered} steps, of which {enough} are enough");
         }
+    }
+}
+
+#[test]
+fn of_places_that_are_alike_the_person_s_goal_is_one_at_any_time() {
+    for places in 2..=MOST {
+        let mut robot = broad(places);
+        robot.lay_out();
+        robot.act("rest", 1.0);
+        robot.run(SETTLED);
+        robot.act("rest", 0.0);
+        robot.act("top grip: wheel", 1.0);
+        robot.bound_for("wheel");
+        let mut stood = 0;
+        for _ in 0..SETTLED {
+            robot.run(1);
+            let goals = robot.peaks(LayerKind::Intention);
+            assert!(goals.len() <= 1, "{places} places: {goals:?}");
+            stood += goals.len();
+        }
+        assert!(stood > 500, "{places} places: a goal stood for {stood} ms");
     }
 }
 

@@ -10,6 +10,8 @@ use std::time::Duration;
 
 /// How far a part may have moved between two sightings, m: at the recogniser's 30 Hz, in a hand of 3.6 m/s.
 const GATE: f64 = 0.12;
+/// How far a part that is carried goes from one frame of the recogniser to the next, m: a hand at 1.5 m/s. Chosen by hand.
+const GONE_ON: f64 = 0.05;
 /// How long a place must be in view and empty before its part is taken to be gone: ten frames of the recogniser, which
 /// misses single ones.
 const ABSENT: u32 = cycles(Duration::from_millis(350)) as u32;
@@ -124,14 +126,19 @@ impl PartTracks {
         reached.min_by(|(_, one), (_, other)| one.total_cmp(other)).map(|(index, _)| index)
     }
 
-    /// Gives every sighting to the nearest track of its kind; what is left, to a part that it may be another sight of, or to a new track.
+    /// Gives every sighting to the nearest track of its kind, those of what lies still first; what is left, to a part that it may be another
+    /// sight of, or to a new track.
     fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces) {
         let mut left = [None; MAX_PARTS];
         let plausible = view.sightings().iter().filter(|sighting| is_plausible(sighting, places));
-        for (sighting, left) in plausible.zip(&mut left) {
-            match self.nearest(sighting) {
-                Some(index) => self.tracks[index].follow(sighting, self.captured, cycles),
-                None => *left = Some(sighting),
+        left.iter_mut().zip(plausible).for_each(|(left, sighting)| *left = Some(sighting));
+        for within in [MOVED, GATE] {
+            for left in &mut left {
+                if let Some((sighting, index)) = left.and_then(|one| Some((one, self.nearest(one, within)?)))
+                {
+                    self.tracks[index].follow(sighting, self.captured, cycles);
+                    *left = None;
+                }
             }
         }
         for sighting in left.into_iter().flatten() {
@@ -144,21 +151,22 @@ impl PartTracks {
         }
     }
 
-    /// The track of a part that no sighting of this frame was given to, and that lies where this one of another kind is: no two parts lie so
-    /// near to each other, not even one upon the other.
+    /// The track of a part that no sighting of this frame was given to, and that is where this one of another kind is: no two parts lie so
+    /// near to each other, not even one upon the other. One that is carried has gone on since.
     fn at_its_place(&self, sighting: &Sighting) -> Option<usize> {
         self.tracks.iter().position(|track| {
             let away = (Vector3::from(track.position) - Vector3::from(sighting.position)).norm();
-            track.kind().is_some() && track.seen < self.captured && away < MOVED
+            let far = if track.still == 0 || track.holder != FREE { GONE_ON } else { MOVED };
+            track.kind().is_some() && track.seen < self.captured && away < far
         })
     }
 
-    /// The track of the sighting's kind that lies nearest to it and has no sighting in this frame yet.
-    fn nearest(&self, sighting: &Sighting) -> Option<usize> {
+    /// The track of the sighting's kind that lies nearest to it, within so many m, and has no sighting in this frame yet.
+    fn nearest(&self, sighting: &Sighting, within: f64) -> Option<usize> {
         let away =
             |track: &PartTrack| (Vector3::from(track.position) - Vector3::from(sighting.position)).norm();
         let waiting = |track: &PartTrack| {
-            track.kind() == Some(sighting.kind as usize) && track.seen < self.captured && away(track) < GATE
+            track.kind() == Some(sighting.kind as usize) && track.seen < self.captured && away(track) < within
         };
         let all = self.tracks.iter().enumerate().filter(|(_, track)| waiting(track));
         all.min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b))).map(|(index, _)| index)

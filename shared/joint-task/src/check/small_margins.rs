@@ -102,6 +102,12 @@ fn percept(examined: &ExaminedTask, state: &PlanState, person: PersonActivity, c
             PersonActivity::Shows(chain) => task.chains[chain].act == Act::Grasp { grip, kind },
             _ => false,
         },
+        Channel::BoundFor(kind) => match person {
+            PersonActivity::Shows(chain) => {
+                task.chains[chain].kind == kind && matches!(task.chains[chain].act, Act::Grasp { .. })
+            }
+            _ => false,
+        },
         Channel::Seen { workspace, kind } => lies(workspace, kind),
         Channel::Gone { workspace, kind } => !lies(workspace, kind),
         Channel::Achieved(goal) => state.is_achieved(goal),

@@ -153,10 +153,10 @@ fn a_memory_forms_between_others_in_whatever_order_they_were_formed() {
 
 proptest! {
     #[test]
-    fn a_decision_layer_never_holds_two_peaks(first in 1.0..2.2f64, ratio in 0.0..0.98f64) {
-        let kernel = Kernel { inhibition: 1.5, ..KERNEL };
+    fn a_decision_layer_never_holds_two_peaks(first in 1.0..2.5f64, ratio in 0.0..0.99f64) {
+        let kernel = Kernel { amplitude: 4.3, inhibition: 2.8, ..KERNEL };
         let mut bench = Bench::new(parameters(kernel), 3, -3.0);
-        let winner = 2.37 * first;
+        let winner = 2.38 * first;
         let signal = bench.drive(1500, &[winner, winner * ratio, 0.0]);
         prop_assert!(signal.iter().filter(|&&signal| signal > 0.0).count() <= 1, "{:?}", signal);
     }
