@@ -194,7 +194,7 @@ impl Player {
         let part = self.lying(kind, Agent::Person);
         self.grasp(part, SIDE);
         self.go(DVec3::from(self.stages.task().scene.handover).truncate());
-        self.wait_for("the robot's hand", |own| own.stages.sample.joints.touch > 0.0);
+        self.wait_for("the robot's hand", |own| own.stages.sample.joints.touch > 1.0);
         self.stay(300);
         self.let_go_and_rest();
     }

@@ -9,9 +9,9 @@ const POSITION: f64 = 2e-5;
 /// Scatter of a joint's velocity, rad/s: of the size of differences of such counts, filtered. Chosen by hand.
 const VELOCITY: f64 = 1e-3;
 /// Scatter of the fingertips' force, N. Chosen by hand, as is the next one: of the size of what tactile sensors in a gripper show at rest.
-const TOUCH: f64 = 0.03;
+const TOUCH: f64 = 0.02;
 /// Scatter of each component of the force on the wrist, N: of means of 30 ms.
-const WRIST_FORCE: f64 = 0.06;
+const WRIST_FORCE: f64 = 0.03;
 
 /// Reads all joint encoders, the fingertip force and the force on the wrist.
 pub(crate) fn read_joints(

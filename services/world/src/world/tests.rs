@@ -35,6 +35,9 @@ use coact_robot::Robot;
 use coact_safety::SafetyLimits;
 use std::path::{Path, PathBuf};
 
+/// Forces of which fingers and wrist feel no more than this are nothing but their sensors' noise, N.
+pub(super) const NOISE: f64 = 0.2;
+
 /// Messages of one step.
 pub(super) struct Out {
     pub sample: Box<SensorSample>,

@@ -163,7 +163,7 @@ impl Sender {
         let half = 0.5 * self.stages.task().kinds[self.parts().kind(part)].shape.height();
         self.go((handover + half * DVec3::Z, SIDE, around), CARRY, 0.06, around);
         // That the robot's fingers have closed can be seen.
-        self.wait_for("the robot's hand", |own| own.stages.sample.joints.touch > 0.0);
+        self.wait_for("the robot's hand", |own| own.stages.sample.joints.touch > 1.0);
         self.stay(300);
         self.open_and_rest();
     }

@@ -1,5 +1,5 @@
-use super::config;
 use super::manipulator::{Fingers, Manipulator};
+use super::{NOISE, config};
 use coact_joint_task::{Agent, Subgoal};
 use coact_robot::Robot;
 use glam::DVec3;
@@ -38,7 +38,7 @@ fn part_that_is_pulled_away_is_lost_and_no_longer_felt() {
     robot.pull(DVec3::new(0.0, 0.0, -80.0));
     robot.stay(500);
     assert!(!robot.holds());
-    assert_eq!(robot.out.sample.joints.touch, 0.0);
+    assert!(robot.out.sample.joints.touch < NOISE);
     assert_eq!(robot.world.simulation.robot.slipped.get(), Some(0), "out of closed fingers");
 }
 
@@ -48,7 +48,7 @@ fn fingers_that_close_beside_a_part_hold_nothing() {
     let table = robot.world.task.scene.table_height;
     robot.pick(DVec3::new(AT[0] + 0.2, AT[1], table), DVec3::Z);
     assert!(!robot.holds());
-    assert_eq!(robot.out.sample.joints.touch, 0.0);
+    assert!(robot.out.sample.joints.touch < NOISE);
 }
 
 #[test]

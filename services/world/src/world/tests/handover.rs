@@ -1,7 +1,7 @@
 //! What the person does at a part that the robot has as well, and what the robot's wrist feels of it.
 
 use super::manipulator::{Fingers, Manipulator};
-use super::{Out, robot, task};
+use super::{NOISE, Out, robot, task};
 use crate::palm::Palm;
 use crate::{Partner, Scenario, World};
 use coact_period::seconds;
@@ -98,7 +98,7 @@ fn person_pulls_at_a_given_part_until_the_robot_lets_go() {
     let mut meeting = Meeting::giving(TAKES);
     let nut = meeting.nut();
     meeting.until(ActivityPhase::AwaitRelease);
-    assert_eq!(meeting.force(), DVec3::ZERO, "the fingers have just closed");
+    assert!(meeting.force().length() < NOISE, "the fingers have just closed");
     for (ticks, expected) in [(100, 1.0), (200, 3.0), (400, 4.0), (5000, 4.0)] {
         meeting.live(ticks);
         let pull = meeting.towards_person();
@@ -108,7 +108,7 @@ fn person_pulls_at_a_given_part_until_the_robot_lets_go() {
     assert!(meeting.world.parts.is(nut, Holder::Robot));
     meeting.palm.finger_closure = 0.0;
     meeting.live(1);
-    assert_eq!(meeting.force(), DVec3::ZERO);
+    assert!(meeting.force().length() < NOISE);
     assert!(meeting.world.parts.is(nut, Holder::Person));
 }
 
@@ -118,7 +118,7 @@ fn pull_ends_when_the_person_lets_go_again() {
     let nut = meeting.nut();
     meeting.until(ActivityPhase::AwaitRelease);
     meeting.until(ActivityPhase::Withdraw);
-    assert_eq!(meeting.force(), DVec3::ZERO);
+    assert!(meeting.force().length() < NOISE);
     assert!(meeting.world.parts.is(nut, Holder::Robot), "the robot has kept it");
 }
 
@@ -132,7 +132,7 @@ fn person_who_withdraws_leaves_the_part_to_the_robot() {
     assert!(meeting.towards_person() > 2.0);
     meeting.until(ActivityPhase::Withdraw);
     assert_eq!(meeting.tick, grasped + 300);
-    assert_eq!(meeting.force(), DVec3::ZERO);
+    assert!(meeting.force().length() < NOISE);
     meeting.palm.finger_closure = 0.0;
     meeting.live(5);
     assert!(meeting.world.parts.is(nut, Holder::Nobody), "the robot lets go too late");
@@ -174,7 +174,7 @@ fn part_that_nobody_takes_hold_of_in_time_falls_to_the_table_by_physics() {
         robot.world.parts.is(0, Holder::Nobody) && !robot.holds() && lies < 0.1,
         "{lies} m above the table"
     );
-    assert_eq!(robot.out.sample.joints.touch, 0.0);
+    assert!(robot.out.sample.joints.touch < NOISE);
 }
 
 #[test]
@@ -216,7 +216,7 @@ fn part_is_pressed_lightly_into_the_open_hand() {
     let mut meeting = Meeting::new("[[action]]\nchain = \"hand over\"\nkind = \"wheel\"\n");
     meeting.until(ActivityPhase::Give);
     meeting.live(100);
-    assert_eq!(meeting.force(), DVec3::ZERO, "the robot's hand is elsewhere");
+    assert!(meeting.force().length() < NOISE, "the robot's hand is elsewhere");
     meeting.palm.grasp_point = meeting.world.task.scene.handover.into();
     meeting.live(51);
     assert!((meeting.towards_person() + 0.5).abs() < 0.1, "{} N", meeting.towards_person());
@@ -224,7 +224,7 @@ fn part_is_pressed_lightly_into_the_open_hand() {
     assert!((meeting.towards_person() + 1.0).abs() < 0.1, "{} N", meeting.towards_person());
     meeting.palm.finger_closure = 2.0;
     meeting.live(300);
-    assert_eq!(meeting.force(), DVec3::ZERO, "the person has let go");
+    assert!(meeting.force().length() < NOISE, "the person has let go");
     assert!(!super::held_by(&meeting.world, Holder::Robot).is_empty());
 }
 
@@ -246,5 +246,5 @@ fn wrist_feels_a_pull_but_neither_the_weight_nor_the_inertia_of_what_is_held() {
     assert!((pull - 4.0).abs() < 0.3 && robot.holds(), "{} instead of 4 N", force(&robot));
     robot.go(&before, Fingers::Open);
     assert!(robot.world.parts.is(0, Holder::Person), "taken as soon as it was let go");
-    assert_eq!(force(&robot), DVec3::ZERO);
+    assert!(force(&robot).length() < NOISE);
 }
