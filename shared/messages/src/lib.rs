@@ -76,7 +76,7 @@ pub use field_frame::{Decision, FieldFrame, LayerKind, LayerTable};
 pub use hand_points::HandPoints;
 pub use header::{Header, LAYOUT};
 pub use heard::Heard;
-pub use line_of_sight::is_blocked;
+pub use line_of_sight::{is_blocked, is_blocked_by_limb};
 pub use percept::{HandPercept, Percept, WorkspacePercept};
 pub use person_arm::{PersonArm, TrackedPoint};
 pub use plausible::{Flaw, Plausible};

@@ -26,6 +26,27 @@ pub fn is_blocked(boxes: &[[f64; 6]], eye: [f64; 3], place: [f64; 3], margin: f6
     boxes.iter().any(|one| intersects(one, eye, place, margin))
 }
 
+/// Whether something long and round, as thick as `radius` around the line between two points, stands between `eye` and `place`; m. What is not finite
+/// blocks nothing.
+pub fn is_blocked_by_limb(limb: [[f64; 3]; 2], radius: f64, eye: [f64; 3], place: [f64; 3]) -> bool {
+    least_distance(limb, [eye, place]) < radius
+}
+
+/// Least distance of two line segments (Ericson 2005, 5.1.9); NaN where a number is none.
+fn least_distance([from, to]: [[f64; 3]; 2], [eye, place]: [[f64; 3]; 2]) -> f64 {
+    let way = |one: [f64; 3], other: [f64; 3]| [0, 1, 2].map(|axis| other[axis] - one[axis]);
+    let dot = |one: [f64; 3], other: [f64; 3]| (0..3).map(|axis| one[axis] * other[axis]).sum::<f64>();
+    let (limb, sight, between) = (way(from, to), way(eye, place), way(eye, from));
+    let (a, e, f) = (dot(limb, limb), dot(sight, sight).max(PARALLEL), dot(sight, between));
+    let (b, c) = (dot(limb, sight), dot(limb, between));
+    let denominator = a * e - b * b;
+    let nearest = if denominator > PARALLEL { ((b * f - c * e) / denominator).clamp(0.0, 1.0) } else { 0.0 };
+    let along_sight = ((b * nearest + f) / e).clamp(0.0, 1.0);
+    let along_limb = ((b * along_sight - c) / a.max(PARALLEL)).clamp(0.0, 1.0);
+    let apart = [0, 1, 2].map(|axis| between[axis] + along_limb * limb[axis] - along_sight * sight[axis]);
+    dot(apart, apart).sqrt()
+}
+
 /// Whether the line passes through the box: whether it is between all three pairs of its faces at once (the slab method,
 /// Ericson 2005, 5.3.3). A box or a place that is not finite blocks nothing.
 fn intersects(one: &[f64; 6], eye: [f64; 3], place: [f64; 3], margin: f64) -> bool {
@@ -62,6 +83,41 @@ mod tests {
         assert!(!hidden([0.5, 0.0, 1.0]), "before it");
         assert!(!hidden([-1.0, 0.5, 1.0]) && !hidden([-1.0, 0.0, 1.6]), "beside and above it");
         assert!(!is_blocked(&[], EYE, [-1.0, 0.0, 1.0], 0.0));
+    }
+
+    #[test]
+    fn a_limb_hides_what_lies_behind_it_and_nothing_beside_or_before_it() {
+        let forearm = [[-0.2, 0.0, 1.3], [0.0, 0.0, 1.1]];
+        let hidden = |place| is_blocked_by_limb(forearm, 0.04, EYE, place);
+        assert!(hidden([-1.0, 0.0, 1.15]) && hidden([-0.1, 0.0, 1.2]), "behind, and within");
+        assert!(!hidden([0.5, 0.0, 1.1]), "before it");
+        assert!(!hidden([-1.0, 0.2, 1.15]) && !hidden([-1.0, 0.0, 0.9]), "beside and below it");
+        assert!(!hidden([f64::NAN, 0.0, 1.15]));
+        let nothing = [[0.0, 0.0, 1.0]; 2];
+        assert!(is_blocked_by_limb(nothing, 0.04, EYE, [-1.0, 0.0, 1.0]), "as thick as it is long");
+    }
+
+    #[test]
+    fn the_least_distance_of_two_lines_is_that_of_their_nearest_points() {
+        // Against the nearest of many points on both, for lines that cross, pass, or end short of each other.
+        let place =
+            |seed: u64| [0, 1, 2].map(|axis| ((seed * 7919 + axis * 104_729) % 1000) as f64 / 500.0 - 1.0);
+        for seed in 0..200 {
+            let [limb, sight] =
+                [[place(4 * seed), place(4 * seed + 1)], [place(4 * seed + 2), place(4 * seed + 3)]];
+            let at = |line: [[f64; 3]; 2], step: u32| {
+                let along = f64::from(step) / 200.0;
+                [0, 1, 2].map(|axis| line[0][axis] + along * (line[1][axis] - line[0][axis]))
+            };
+            let apart = |one: [f64; 3], other: [f64; 3]| {
+                (0..3).map(|axis| (one[axis] - other[axis]).powi(2)).sum::<f64>().sqrt()
+            };
+            let pairs = (0..=200).flat_map(|one| (0..=200).map(move |other| (one, other)));
+            let nearest =
+                pairs.map(|(one, other)| apart(at(limb, one), at(sight, other))).fold(f64::MAX, f64::min);
+            let found = least_distance(limb, sight);
+            assert!(found <= nearest + 1e-9 && nearest < found + 0.02, "{seed}: {found}, {nearest}");
+        }
     }
 
     #[test]

@@ -4,10 +4,12 @@ mod hands;
 mod holders;
 mod part_track;
 mod part_tracks;
+mod sight;
 mod task_places;
 
 pub(crate) use hands::{Hands, PersonHand};
 pub(crate) use holders::TOUCH;
 pub(crate) use part_track::PartTrack;
 pub(crate) use part_tracks::PartTracks;
+pub(crate) use sight::{Limbs, Sight};
 pub(crate) use task_places::TaskPlaces;

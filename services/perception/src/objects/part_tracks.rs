@@ -1,5 +1,5 @@
 use super::part_track::{BY_PERSON, FREE, MOVED, PartTrack};
-use super::{Hands, TaskPlaces};
+use super::{Hands, Sight, TaskPlaces};
 use crate::plausible_cycle::cycle;
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{MAX_PARTS, SceneView, Sighting};
@@ -87,12 +87,13 @@ impl PartTracks {
     }
 
     /// Takes in a new frame of the recogniser.
-    pub fn observe(&mut self, view: &SceneView, around: &Hands, places: &TaskPlaces) {
+    pub fn observe(&mut self, sight: &Sight, around: &Hands, places: &TaskPlaces) {
+        let view = sight.view;
         let cycles = view.captured_cycle - self.captured;
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;
-        self.associate(view, cycles, places);
-        self.miss(view, cycles, places);
+        self.associate(sight, cycles, places);
+        self.miss(sight, cycles);
         self.find_holders(around, places);
     }
 
@@ -128,9 +129,9 @@ impl PartTracks {
 
     /// Gives every sighting to the nearest track of its kind, those of what lies still first; what is left, to a part that it may be another
     /// sight of, or to a new track.
-    fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces) {
+    fn associate(&mut self, sight: &Sight, cycles: u64, places: &TaskPlaces) {
         let mut left = [None; MAX_PARTS];
-        let plausible = view.sightings().iter().filter(|sighting| is_plausible(sighting, places));
+        let plausible = sight.view.sightings().iter().filter(|sighting| is_plausible(sighting, places));
         left.iter_mut().zip(plausible).for_each(|(left, sighting)| *left = Some(sighting));
         for within in [MOVED, GATE] {
             for left in &mut left {
@@ -142,7 +143,7 @@ impl PartTracks {
             }
         }
         for sighting in left.into_iter().flatten() {
-            let known = self.at_its_place(sighting).or_else(|| self.turned_up(sighting, view, places));
+            let known = self.at_its_place(sighting).or_else(|| self.turned_up(sighting, sight));
             match known.or_else(|| self.tracks.iter().position(|track| track.kind().is_none())) {
                 Some(index) if known.is_some() => self.tracks[index].follow(sighting, self.captured, cycles),
                 Some(index) => self.tracks[index] = PartTrack::new(sighting, self.captured),
@@ -174,22 +175,20 @@ impl PartTracks {
 
     /// The track of a part of the sighting's kind that has been out of sight: one that turns up where none was is rather
     /// that one than another.
-    fn turned_up(&self, sighting: &Sighting, view: &SceneView, places: &TaskPlaces) -> Option<usize> {
+    fn turned_up(&self, sighting: &Sighting, sight: &Sight) -> Option<usize> {
         let unseen = |track: &PartTrack| self.captured.saturating_sub(track.seen) > u64::from(ABSENT);
         self.tracks.iter().position(|track| {
-            track.kind() == Some(sighting.kind as usize)
-                && unseen(track)
-                && places.is_hidden(track.position, view)
+            track.kind() == Some(sighting.kind as usize) && unseen(track) && sight.hides(track.position)
         })
     }
 
     /// Gives up parts whose place has been in view and empty for long enough; those that were not believed in yet, at once.
-    fn miss(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces) {
+    fn miss(&mut self, sight: &Sight, cycles: u64) {
         for track in &mut self.tracks {
             if track.kind().is_none() || track.seen == self.captured {
                 continue;
             }
-            if !places.is_hidden(track.position, view) {
+            if !sight.hides(track.position) {
                 track.absent = track.absent.saturating_add(cycles as u32);
             }
             if track.absent > ABSENT || !track.is_believed() {

@@ -1,6 +1,7 @@
-use super::PartTracks;
 use super::holders::PartSize;
 use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack};
+use super::sight::EDGE;
+use super::{Limbs, PartTracks, Sight};
 use crate::evidence::approach;
 use coact_joint_task::{Scene, Subgoal, Task};
 use coact_messages::{MAX_SUBGOALS, PERSON, Percept, ROBOT, SceneView, WORKSPACES};
@@ -25,9 +26,6 @@ const RAMP: f64 = cycles(Duration::from_millis(60)) as f64;
 /// Time in which evidence that a step is achieved rises from end to end, cycles. Chosen by hand: the hand that has let go of the part is to be
 /// forgotten by then in the mind, or what it did is taken for the next step of the same kind of part.
 const ACHIEVES: f64 = cycles(Duration::from_millis(200)) as f64;
-/// What would be seen this near to the edge of an occluder may be hidden, m: the scatter of sightings, and of where the
-/// occluder is.
-const EDGE: f64 = 0.02;
 
 /// The places of the task: workspaces, sockets, and what each kind of part is like.
 #[derive(Debug, Clone)]
@@ -38,9 +36,14 @@ pub(crate) struct TaskPlaces {
 }
 
 impl TaskPlaces {
-    /// Whether the robot's eye may not see what is at `place`.
+    /// Whether the robot's eye may not see what is at `place`, for what stands on the table.
     pub fn is_hidden(&self, place: [f64; 3], view: &SceneView) -> bool {
         view.hides(self.scene.eye(), place, EDGE)
+    }
+
+    /// What the robot's eye sees of the table past the person's arm.
+    pub fn sight<'a>(&self, view: &'a SceneView, arm: Option<Limbs>) -> Sight<'a> {
+        Sight { view, eye: self.scene.eye(), arm }
     }
 
     pub fn new(task: &Task) -> Self {
@@ -96,18 +99,18 @@ impl TaskPlaces {
     }
 
     /// Moves all evidence about parts and places one cycle on; `followed`: what the person's hand does is known.
-    pub fn report(&self, tick: u64, parts: &PartTracks, view: &SceneView, followed: bool, out: &mut Percept) {
+    pub fn report(&self, tick: u64, parts: &PartTracks, sight: &Sight, followed: bool, out: &mut Percept) {
         if !parts.is_seeing(tick) {
             return;
         }
         for kind in 0..self.kinds() {
-            (0..WORKSPACES).for_each(|side| self.report_workspace(tick, side, kind, parts, view, out));
+            (0..WORKSPACES).for_each(|side| self.report_workspace(tick, side, kind, parts, sight, out));
             let holds = |bit: u32| parts.parts().any(|(own, part)| own == kind && part.holder & bit != 0);
             approach(&mut out.robot_holds[kind], holds(BY_ROBOT), RAMP);
             approach(&mut out.person_holds[kind], holds(BY_PERSON), RAMP);
         }
         (0..self.subgoals.len().min(MAX_SUBGOALS))
-            .for_each(|goal| self.report_subgoal(goal, parts, view, followed, out));
+            .for_each(|goal| self.report_subgoal(goal, parts, sight, followed, out));
     }
 
     fn report_workspace(
@@ -116,7 +119,7 @@ impl TaskPlaces {
         side: usize,
         kind: usize,
         parts: &PartTracks,
-        view: &SceneView,
+        sight: &Sight,
         out: &mut Percept,
     ) {
         let here = |(own, part): &(usize, &PartTrack)| *own == kind && self.is_free_at(side, kind, part);
@@ -128,7 +131,7 @@ impl TaskPlaces {
             place.position[kind] = part.position;
             place.orientation[kind] = part.orientation.map(f64::from);
         }
-        let gone = nearest.is_none() && !self.is_hidden(self.last_place(side, place.position[kind]), view);
+        let gone = nearest.is_none() && !sight.hides(self.last_place(side, place.position[kind]));
         approach(&mut place.seen[kind], seen, RAMP);
         approach(&mut place.gone[kind], gone, RAMP);
     }
@@ -155,7 +158,7 @@ impl TaskPlaces {
         &self,
         goal: usize,
         parts: &PartTracks,
-        view: &SceneView,
+        sight: &Sight,
         followed: bool,
         out: &mut Percept,
     ) {
@@ -164,7 +167,7 @@ impl TaskPlaces {
         let own = parts.parts().filter(|(own, _)| *own == kind);
         let mounted = |part: &PartTrack| away(part) < IN_PLACE && part.has_settled(followed);
         let achieved = own.clone().any(|(_, part)| mounted(part));
-        let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !self.is_hidden(socket, view);
+        let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !sight.hides(socket);
         approach(&mut out.achieved[goal], achieved, if achieved { ACHIEVES } else { RAMP });
         approach(&mut out.open[goal], empty, RAMP);
     }

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::support::{self, Stage};
-use coact_messages::{PERSON, ROBOT};
+use coact_messages::{Keypoint, KeypointName, PERSON, ROBOT};
 
 #[test]
 fn parts_are_seen_where_they_lie() {
@@ -85,6 +85,22 @@ fn carry_the_nut_that_is_taken_for(other: &str) {
 fn a_part_that_is_always_taken_for_another_is_one() {
     let [own, other] = taken_for_a_nut(|time| time > 1000);
     assert!(own < 0.1 && other > 0.9, "{own} {other}");
+}
+
+#[test]
+fn a_part_behind_the_person_s_arm_is_remembered() {
+    for (beside, is_remembered) in [(0.0, true), (0.3, false), (-0.3, false)] {
+        let mut stage = Stage::new();
+        let (part, kind) = (stage.part("column 1"), stage.kind("column 1"));
+        let (eye, at) = (stage.task.scene.eye(), stage.things[part].position);
+        let [x, y, z] = [0, 1, 2].map(|axis| at[axis] + 0.2 * (eye[axis] - at[axis]));
+        let joint = |aside: f64| Keypoint { position: [x, y + beside + aside, z], confidence: 0.9 };
+        stage.wrong = vec![(KeypointName::Shoulder, joint(-0.15)), (KeypointName::Elbow, joint(0.15))];
+        stage.run(1000, |_, _| {});
+        stage.run(1500, |stage, _| stage.things[part].visible = false);
+        let place = &stage.percept.workspace[PERSON];
+        assert_eq!(place.gone[kind] < 0.1, is_remembered, "{beside} m beside it: {}", place.gone[kind]);
+    }
 }
 
 #[test]

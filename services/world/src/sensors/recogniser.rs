@@ -1,7 +1,7 @@
 use super::frame_rate::is_frame_due;
 use crate::parts::Parts;
 use coact_joint_task::Task;
-use coact_messages::{MAX_PARTS, SceneView, Sighting, WORKSPACES};
+use coact_messages::{MAX_PARTS, SceneView, Sighting, WORKSPACES, is_blocked_by_limb};
 use coact_period::cycles;
 use coact_random::{RandomStreams, Stream, is_in_burst};
 use glam::{DQuat, DVec3};
@@ -30,14 +30,17 @@ const IMAGINED: f64 = 0.01;
 /// Confidence of those that it reports. Not sensitive: it only has to be high.
 const CONFIDENCE: std::ops::Range<f64> = 0.85..0.99;
 
+/// Half the width of a person's arm, m. Chosen by hand: about that of a forearm below the elbow.
+const ARM: f64 = 0.043;
+
 /// Takes a frame of all parts when one is due; parts in hands and mounted parts are seen where they are, those behind one of the
-/// `occluders` are not. Now and then a part is missed or taken for one of another kind, or one is seen where there is none.
+/// `occluders`, or behind one of the person's `limbs`, are not. Now and then a part is missed or taken for one of another kind, or one is seen where there is none.
 pub(crate) fn recognise(
     tick: u64,
     last: Option<u64>,
     random: &RandomStreams,
     (task, parts): (&Task, &Parts),
-    occluders: &[[f64; 6]],
+    (occluders, limbs): (&[[f64; 6]], &[[[f64; 3]; 2]]),
     view: &mut SceneView,
 ) {
     if !is_frame_due(RATE, last, tick) {
@@ -56,7 +59,9 @@ pub(crate) fn recognise(
         let missed = rng.random_bool(MISSED);
         let taken_for = taken_for(part, tick, random, task).unwrap_or(parts.kind(part));
         let sighting = Sighting { kind: taken_for as u32, ..sight(part, parts, &mut rng) };
-        if !missed && !view.hides(eye, parts.position(part).into(), 0.0) {
+        let at = parts.position(part).into();
+        let behind_limb = limbs.iter().any(|limb| is_blocked_by_limb(*limb, ARM, eye, at));
+        if !missed && !behind_limb && !view.hides(eye, at, 0.0) {
             view.sighting[view.sightings as usize] = sighting;
             view.sightings += 1;
         }

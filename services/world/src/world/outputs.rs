@@ -14,6 +14,9 @@ impl World {
     pub(super) fn sense(&mut self, tick: u64, out: &mut SensorSample) {
         let last = self.last_tick();
         let (forces, blind) = (self.forces(), tick < self.blind_until);
+        let [shoulder, elbow, wrist, _] = self.person_arm();
+        let limbs = [[shoulder, elbow], [elbow, wrist]];
+        let limbs: &[_] = if self.person.is_unknown(&self.simulation.person, tick) { &[] } else { &limbs };
         let Self { task, random, person, joints, parts, simulation, staging, .. } = self;
         read_joints(tick, random, joints, forces, &mut out.joints);
         let (eye, (blocks, count)) =
@@ -29,7 +32,7 @@ impl World {
         track(tick, last, random, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
         out.hand = simulation.tracker.delivered;
         if !blind && !staging.is_blind(Sense::Objects, tick) {
-            recognise(tick, last, random, (task, parts), occluders, &mut simulation.scene);
+            recognise(tick, last, random, (task, parts), (occluders, limbs), &mut simulation.scene);
         }
         out.scene = simulation.scene;
         out.heard = simulation.heard;

@@ -1,8 +1,9 @@
 //! The partner who reaches behind something.
 
 use super::mistakes::run;
-use coact_messages::{KeypointName, NONE, SensorSample};
+use coact_messages::{KeypointName, NONE, SensorSample, Sighting, is_blocked_by_limb};
 use coact_person::ActivityPhase;
+use glam::DVec3;
 
 const ALWAYS: &str = "idle=0,goal=0,request=0,means=0,hidden=1,words=0,dropouts=0";
 
@@ -76,4 +77,27 @@ fn hand_and_part_are_not_seen_until_the_hand_comes_out_again() {
         });
     }
     assert!(hidden >= 10 && 2 * hidden >= takings, "{hidden} of {takings} were hidden");
+}
+
+#[test]
+fn parts_behind_the_person_s_arm_are_not_seen() {
+    let mut behind = 0;
+    run(3, 60, "hidden=0,dropouts=0", |tick, world, out, _| {
+        let scene = &out.sample.scene;
+        if scene.captured_cycle != tick {
+            return;
+        }
+        let [shoulder, elbow, wrist, _] = out.truth.arm;
+        for part in 0..world.parts.all().len() {
+            let (kind, at) = (world.parts.kind(part) as u32, world.parts.position(part));
+            let by = |limb| is_blocked_by_limb(limb, 0.03, world.task.scene.eye(), at.into());
+            if by([shoulder, elbow]) || by([elbow, wrist]) {
+                behind += 1;
+                let shows =
+                    |one: &Sighting| one.kind == kind && at.distance(DVec3::from(one.position)) < 0.012;
+                assert!(!scene.sightings().iter().any(shows), "part {part} at tick {tick}");
+            }
+        }
+    });
+    assert!(behind > 20, "seldom: {behind}");
 }
