@@ -43,7 +43,8 @@ const SHORTEST_S: f64 = 0.1;
 const LONGER: f64 = 1.04;
 const LONGER_TRIES: u32 = 60;
 /// Rounding of velocity, acceleration and jerk that is allowed to a movement from rest. Its duration was computed from
-/// their limits, so that what is left to be checked are the limits of position.
+/// their limits, so that what is left to be checked are the limits of position. A movement from motion keeps as much below them: what its
+/// knots make of it between them goes beyond it by less.
 const ROUNDING: f64 = 1e-3;
 /// Halvings of an interval of 1 when the minimum-jerk profile is inverted: to 1e-12.
 const HALVINGS: u32 = 40;
@@ -122,7 +123,7 @@ impl Waypoints {
         let mut joint = 0;
         for _ in 0..LONGER_TRIES {
             let segments = self.segments(duration);
-            match broken(&segments, &limits, 1.0) {
+            match broken(&segments, &limits, 1.0 - ROUNDING) {
                 None => return Ok(segments),
                 Some(broken) => joint = broken,
             }
