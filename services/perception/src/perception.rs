@@ -1,6 +1,6 @@
 use crate::acts::Acts;
 use crate::hand::TrackedHand;
-use crate::objects::{Hands, PersonHand, Sight, TaskPlaces};
+use crate::objects::{Hands, PersonHand, TaskPlaces};
 use crate::perception_state::{PerceptionState, ResumeError};
 use crate::preshape::{Classifier, PreshapeModel, ReachRecord};
 use crate::reaching::MovementReader;
@@ -78,7 +78,7 @@ impl Perception {
         if let Some(sample) = sample {
             self.sense(tick, sample);
             let followed = self.state.hand.is_followed(tick);
-            let sight = self.sight(sample);
+            let sight = self.places.sight(&sample.scene, &self.state.hand);
             self.places.report(tick, &self.state.parts, &sight, followed, &mut self.percept);
         }
         self.classifier.learn(&mut self.state.preshape);
@@ -118,7 +118,7 @@ impl Perception {
         if state.parts.is_news(tick, &sample.scene) {
             let around = hands(tick, &state.hand, self.robot.as_ref(), &sample.joints);
             let held = state.parts.is_any_with_the_person();
-            let sight = self.places.sight(&sample.scene, state.hand.limbs_at(sample.scene.captured_cycle));
+            let sight = self.places.sight(&sample.scene, &state.hand);
             state.parts.observe(&sight, &around, &self.places);
             let takes = !held && state.parts.is_any_with_the_person();
             if takes && state.preshape.reach.is_of(&state.hand.movement) {
@@ -129,11 +129,6 @@ impl Perception {
         state.loss.feel(tick, &sample.joints, &state.parts, &self.places);
         state.occlusion.watch(tick, sample, &state.hand, &state.preshape.reach, &self.places);
         self.words.listen(&sample.heard);
-    }
-
-    /// What the robot's eye could see when the newest frame of the parts was taken.
-    fn sight<'a>(&self, sample: &'a SensorSample) -> Sight<'a> {
-        self.places.sight(&sample.scene, self.state.hand.limbs_at(sample.scene.captured_cycle))
     }
 
     fn report_hand(&mut self, tick: u64) {

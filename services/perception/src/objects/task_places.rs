@@ -1,8 +1,9 @@
 use super::holders::PartSize;
 use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack};
 use super::sight::EDGE;
-use super::{Limbs, PartTracks, Sight};
+use super::{PartTracks, Sight};
 use crate::evidence::approach;
+use crate::hand::TrackedHand;
 use coact_joint_task::{Scene, Subgoal, Task};
 use coact_messages::{MAX_SUBGOALS, PERSON, Percept, ROBOT, SceneView, WORKSPACES};
 use coact_period::cycles;
@@ -41,9 +42,9 @@ impl TaskPlaces {
         view.hides(self.scene.eye(), place, EDGE)
     }
 
-    /// What the robot's eye sees of the table past the person's arm.
-    pub fn sight<'a>(&self, view: &'a SceneView, arm: Option<Limbs>) -> Sight<'a> {
-        Sight { view, eye: self.scene.eye(), arm }
+    /// What the robot's eye could see past the person's arm when the frame of the parts was taken.
+    pub fn sight<'a>(&self, view: &'a SceneView, hand: &TrackedHand) -> Sight<'a> {
+        Sight { view, eye: self.scene.eye(), arm: hand.limbs_at(view.captured_cycle) }
     }
 
     pub fn new(task: &Task) -> Self {
