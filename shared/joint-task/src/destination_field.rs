@@ -24,9 +24,10 @@ pub(crate) fn destination_field(
     let entry = entry.get_ref();
     out_of_range(entry).map_or(Ok(()), |(key, problem)| Err(refuse(key, problem)))?;
     let spacing = entry.spacing;
-    let table = over_the_table(scene, spacing).ok_or_else(|| {
+    let table = over_the_table(scene, spacing).map_err(|[length, width]| {
         let problem = format!(
-            "{spacing} m is too fine for the task's workspaces; expected at most {MAX_PLACES} sites around them"
+            "{spacing} m is too fine for a table on which hands go to places {length:.2} m x {width:.2} m apart: expected at most \
+             {MAX_PLACES} sites around workspaces, handover place and resting hand; give a larger spacing, or move them together"
         );
         refuse("spacing", problem)
     })?;
@@ -70,21 +71,22 @@ fn out_of_range(entry: &DestinationsEntry) -> Option<(&'static str, String)> {
         .or_else(|| no_fraction.then(|| ("undue", "expected a number above 0, at most 1".to_owned())))
 }
 
-/// Sites at this distance, m, over all places that a hand may go to; `None` if there are more than a frame holds.
-fn over_the_table(scene: &Scene, spacing: f64) -> Option<TableGrid> {
+/// Sites at this distance, m, over all places that a hand may go to.
+///
+/// # Errors
+/// There are more sites than a frame holds: how far apart the places are, m, along both axes.
+fn over_the_table(scene: &Scene, spacing: f64) -> Result<TableGrid, [f64; 2]> {
     let corners = scene.workspace.into_iter().flatten();
     let places = corners.chain([scene.handover, scene.person_rest].map(|[x, y, _]| [x, y]));
     let places: Vec<[f64; 2]> = places.collect();
-    let along = |axis: usize| {
+    let span = [0, 1].map(|axis| {
         let most = places.iter().map(|place| place[axis]).fold(f64::NEG_INFINITY, f64::max);
         let least = places.iter().map(|place| place[axis]).fold(f64::INFINITY, f64::min);
-        Axis::open(least - BEYOND, most + BEYOND, spacing)
-    };
-    let [x, y] = [along(0), along(1)];
-    let fits = x.sites.saturating_mul(y.sites) <= MAX_PLACES;
-    fits.then(|| TableGrid {
-        first: [x.origin, y.origin],
-        spacing,
-        sites: [x, y].map(|axis| axis.sites as u32),
-    })
+        [least, most]
+    });
+    let [x, y] = span.map(|[least, most]| Axis::open(least - BEYOND, most + BEYOND, spacing));
+    if x.sites.saturating_mul(y.sites) > MAX_PLACES {
+        return Err(span.map(|[least, most]| most - least));
+    }
+    Ok(TableGrid { first: [x.origin, y.origin], spacing, sites: [x, y].map(|axis| axis.sites as u32) })
 }

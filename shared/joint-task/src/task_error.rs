@@ -11,3 +11,11 @@ pub struct TaskError {
     /// What is wrong and what was expected.
     pub problem: String,
 }
+
+impl TaskError {
+    /// The same error of a network file, which also names the task file that asks for the network: what does not go together
+    /// may be mistaken in either.
+    pub(crate) fn with_task(self, task: &std::path::Path) -> Self {
+        Self { problem: format!("{} (the network of {})", self.problem, task.display()), ..self }
+    }
+}

@@ -28,7 +28,8 @@ impl NetworkPlan {
     /// A [`TaskError`] that names file, line, key and what was expected.
     pub fn load(path: &Path) -> Result<(Task, Self), TaskError> {
         let (task, network, learned) = crate::load_task::load(path)?;
-        let (mut task, mut plan) = Self::of_task(task, &network)?;
+        let made = Self::of_task(task, &network).map_err(|error| error.with_task(path));
+        let (mut task, mut plan) = made?;
         if let Some(learned) = learned {
             plan.learn(&mut task, &learned)?;
         }

@@ -181,7 +181,7 @@ fn destination_field_that_cannot_be_is_refused() {
         (
             "spacing = 0.025",
             "spacing = 0.01",
-            "destinations.spacing: 0.01 m is too fine for the task's workspaces",
+            "destinations.spacing: 0.01 m is too fine for a table on which hands go to places ",
         ),
         ("undue = 0.3", "undue = 0", "destinations.undue: expected a number above 0, at most 1"),
         ("input_sigma = 0.025", "input_sigma = 0.001", "destinations.input_sigma: 0.001 is too little"),
@@ -193,6 +193,14 @@ fn destination_field_that_cannot_be_is_refused() {
         let error = error_after(NETWORK, key, wrong);
         assert!(error.contains(expected), "{wrong}: {error}");
     }
+}
+
+#[test]
+fn table_too_large_for_the_network_s_field_names_both_files() {
+    let error = error_after(TASK, "min = [-1.17, 0.00]", "min = [-5.0, 0.00]");
+    assert!(error.contains("joint-action.toml"), "{error}");
+    assert!(error.contains("destinations.spacing: 0.025 m is too fine"), "{error}");
+    assert!(error.ends_with("(the network of tasks/toy-vehicle.toml)"), "{error}");
 }
 
 #[test]
