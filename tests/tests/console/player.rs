@@ -162,10 +162,14 @@ impl Player {
         self.part(kind, near, 2).map(DVec3::truncate)
     }
 
-    /// Takes a part from the table, looks whether the hand has it, and tries again if not: on a busy machine the fingers close late.
     fn takes(&mut self, kind: &str, grip: u32) {
+        self.takes_from(kind, grip, |player| player.lying(kind));
+    }
+
+    /// Takes a part from where it is, looks whether the hand has it, and tries again if not: on a busy machine the fingers close late.
+    fn takes_from(&mut self, kind: &str, grip: u32, place: impl Fn(&mut Self) -> DVec3) {
         for _ in 0..TRIES {
-            let part = self.lying(kind);
+            let part = place(self);
             self.grasp(part.truncate(), grip);
             if self.sees(LOOKS, |player| player.in_hand(kind).is_some()) {
                 return;
@@ -230,10 +234,9 @@ impl Player {
         let is_given = self.sees(PATIENCE, |player| player.part(kind, handover, 1).is_some_and(is_near));
         assert!(is_given, "the robot does not give the {kind}: {}", self.state());
         std::thread::sleep(Duration::from_millis(1000));
-        let given = wait_within(PATIENCE, "the part that is given", || self.part(kind, handover, 1));
-        self.grasp(given.truncate(), 0);
-        let is_mine = self.sees(PATIENCE, |player| player.part(kind, handover, 2).is_some());
-        assert!(is_mine, "the robot does not let the {kind} go: {}", self.state());
+        self.takes_from(kind, 0, |player| {
+            wait_within(PATIENCE, "the part that is given", || player.part(kind, handover, 1))
+        });
         let (socket, _) = self.subgoal(name);
         self.go(socket);
         self.insert(name);
