@@ -9,31 +9,31 @@ impl SceneView {
         &self.sighting[..(self.sightings as usize).min(self.sighting.len())]
     }
 
-    /// The occluders that are valid: centre and half extents, m.
-    pub fn occluders(&self) -> &[[f64; 6]] {
-        &self.occluder[..(self.occluders as usize).min(self.occluder.len())]
-    }
-
-    /// Whether an eye at `eye` cannot see `place`, because an occluder, or what lies within `margin` of one, is between
-    /// them; m.
-    pub fn hides(&self, eye: [f64; 3], place: [f64; 3], margin: f64) -> bool {
-        is_blocked(self.occluders(), eye, place, margin)
+    /// The obstacles that are valid: centre and half extents, m.
+    pub fn obstacles(&self) -> &[[f64; 6]] {
+        &self.obstacle[..(self.obstacles as usize).min(self.obstacle.len())]
     }
 }
 
-/// Whether one of `boxes` (centre and half extents, each grown by `margin`) intersects the line from `eye` to `place`; m.
-pub fn is_blocked(boxes: &[[f64; 6]], eye: [f64; 3], place: [f64; 3], margin: f64) -> bool {
-    boxes.iter().any(|one| intersects(one, eye, place, margin))
+/// How far along the line from `eye` to `place` something long and round, as thick as `radius` around the line between two points, is met, as a
+/// fraction of it; `None` if it is not. Exact where both cross at a right angle. What is not finite is met nowhere.
+pub fn limb_before(limb: [[f64; 3]; 2], radius: f64, eye: [f64; 3], place: [f64; 3]) -> Option<f64> {
+    let Nearest { apart, along_sight, length } = nearest(limb, [eye, place]);
+    (apart < radius).then(|| (along_sight - (radius * radius - apart * apart).sqrt() / length).max(0.0))
 }
 
-/// Whether something long and round, as thick as `radius` around the line between two points, stands between `eye` and `place`; m. What is not finite
-/// blocks nothing.
-pub fn is_blocked_by_limb(limb: [[f64; 3]; 2], radius: f64, eye: [f64; 3], place: [f64; 3]) -> bool {
-    least_distance(limb, [eye, place]) < radius
+/// Where a line of sight comes nearest to a limb.
+struct Nearest {
+    /// Their distance there, m.
+    apart: f64,
+    /// How far along the line of sight that is, as a fraction of it.
+    along_sight: f64,
+    /// How long the line of sight is, m.
+    length: f64,
 }
 
-/// Least distance of two line segments (Ericson 2005, 5.1.9); NaN where a number is none.
-fn least_distance([from, to]: [[f64; 3]; 2], [eye, place]: [[f64; 3]; 2]) -> f64 {
+/// Where two line segments are nearest to each other (Ericson 2005, 5.1.9); NaN where a number is none.
+fn nearest([from, to]: [[f64; 3]; 2], [eye, place]: [[f64; 3]; 2]) -> Nearest {
     let way = |one: [f64; 3], other: [f64; 3]| [0, 1, 2].map(|axis| other[axis] - one[axis]);
     let dot = |one: [f64; 3], other: [f64; 3]| (0..3).map(|axis| one[axis] * other[axis]).sum::<f64>();
     let (limb, sight, between) = (way(from, to), way(eye, place), way(eye, from));
@@ -44,21 +44,22 @@ fn least_distance([from, to]: [[f64; 3]; 2], [eye, place]: [[f64; 3]; 2]) -> f64
     let along_sight = ((b * nearest + f) / e).clamp(0.0, 1.0);
     let along_limb = ((b * along_sight - c) / a.max(PARALLEL)).clamp(0.0, 1.0);
     let apart = [0, 1, 2].map(|axis| between[axis] + along_limb * limb[axis] - along_sight * sight[axis]);
-    dot(apart, apart).sqrt()
+    Nearest { apart: dot(apart, apart).sqrt(), along_sight, length: e.sqrt() }
 }
 
-/// Whether the line passes through the box: whether it is between all three pairs of its faces at once (the slab method,
-/// Ericson 2005, 5.3.3). A box or a place that is not finite blocks nothing.
-fn intersects(one: &[f64; 6], eye: [f64; 3], place: [f64; 3], margin: f64) -> bool {
+/// How far along the line from `eye` to `place` a box (centre and half extents, each grown by `margin`, m) is met, as a fraction of it; `None` if
+/// it is not: where the line is between all three pairs of its faces at once (the slab method, Ericson 2005, 5.3.3). What is not finite is
+/// met nowhere.
+pub fn box_before(one: &[f64; 6], eye: [f64; 3], place: [f64; 3], margin: f64) -> Option<f64> {
     if !one.iter().chain(&place).all(|value| value.is_finite()) {
-        return false;
+        return None;
     }
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
     for axis in 0..3 {
         let (from, way, half) = (eye[axis] - one[axis], place[axis] - eye[axis], one[axis + 3] + margin);
         if way.abs() < PARALLEL {
             if from.abs() > half {
-                return false;
+                return None;
             }
             continue;
         }
@@ -66,7 +67,7 @@ fn intersects(one: &[f64; 6], eye: [f64; 3], place: [f64; 3], margin: f64) -> bo
         enters = enters.max(low.min(high));
         leaves = leaves.min(low.max(high));
     }
-    enters <= leaves
+    (enters <= leaves).then_some(enters)
 }
 
 #[cfg(test)]
@@ -78,23 +79,25 @@ mod tests {
 
     #[test]
     fn what_lies_behind_or_in_a_box_is_hidden_and_nothing_else() {
-        let hidden = |place| is_blocked(&[BOX], EYE, place, 0.0);
+        let hidden = |place| box_before(&BOX, EYE, place, 0.0).is_some();
         assert!(hidden([-1.0, 0.0, 1.0]) && hidden([0.0, 0.0, 1.0]) && hidden([-1.0, 0.25, 0.8]));
         assert!(!hidden([0.5, 0.0, 1.0]), "before it");
         assert!(!hidden([-1.0, 0.5, 1.0]) && !hidden([-1.0, 0.0, 1.6]), "beside and above it");
-        assert!(!is_blocked(&[], EYE, [-1.0, 0.0, 1.0], 0.0));
+        let met = box_before(&BOX, EYE, [-1.0, 0.0, 1.0], 0.0).unwrap_or(f64::NAN);
+        assert!((met - 1.9 / 3.0).abs() < 1e-9, "at its face: {met}");
     }
 
     #[test]
     fn a_limb_hides_what_lies_behind_it_and_nothing_beside_or_before_it() {
         let forearm = [[-0.2, 0.0, 1.3], [0.0, 0.0, 1.1]];
-        let hidden = |place| is_blocked_by_limb(forearm, 0.04, EYE, place);
+        let hidden = |place| limb_before(forearm, 0.04, EYE, place).is_some();
         assert!(hidden([-1.0, 0.0, 1.15]) && hidden([-0.1, 0.0, 1.2]), "behind, and within");
         assert!(!hidden([0.5, 0.0, 1.1]), "before it");
         assert!(!hidden([-1.0, 0.2, 1.15]) && !hidden([-1.0, 0.0, 0.9]), "beside and below it");
         assert!(!hidden([f64::NAN, 0.0, 1.15]));
         let nothing = [[0.0, 0.0, 1.0]; 2];
-        assert!(is_blocked_by_limb(nothing, 0.04, EYE, [-1.0, 0.0, 1.0]), "as thick as it is long");
+        let met = limb_before(nothing, 0.04, EYE, [-1.0, 0.0, 1.0]).unwrap_or(f64::NAN);
+        assert!((met - 1.96 / 3.0).abs() < 1e-9, "as thick as it is long, and met at its surface: {met}");
     }
 
     #[test]
@@ -115,7 +118,7 @@ mod tests {
             let pairs = (0..=200).flat_map(|one| (0..=200).map(move |other| (one, other)));
             let nearest =
                 pairs.map(|(one, other)| apart(at(limb, one), at(sight, other))).fold(f64::MAX, f64::min);
-            let found = least_distance(limb, sight);
+            let found = super::nearest(limb, sight).apart;
             assert!(found <= nearest + 1e-9 && nearest < found + 0.02, "{seed}: {found}, {nearest}");
         }
     }
@@ -123,12 +126,13 @@ mod tests {
     #[test]
     fn a_margin_hides_more_and_numbers_that_are_none_hide_nothing() {
         let beside = [0.0, 0.215, 1.0];
-        assert!(!is_blocked(&[BOX], EYE, beside, 0.0) && is_blocked(&[BOX], EYE, beside, 0.02));
-        assert!(!is_blocked(&[[f64::NAN; 6]], EYE, [3.0, 0.0, 1.0], 0.0));
-        let mut view: SceneView = bytemuck::Zeroable::zeroed();
-        view.occluder[0] = BOX;
-        assert!(!view.hides(EYE, [-1.0, 0.0, 1.0], 0.0), "no occluder is valid");
-        view.occluders = u32::MAX;
-        assert!(view.hides(EYE, [-1.0, 0.0, 1.0], 0.0));
+        let hidden = |one: &[f64; 6], place, margin| box_before(one, EYE, place, margin).is_some();
+        assert!(!hidden(&BOX, beside, 0.0) && hidden(&BOX, beside, 0.02));
+        assert!(!hidden(&[f64::NAN; 6], [3.0, 0.0, 1.0], 0.0));
+        let mut view: Box<SceneView> = bytemuck::zeroed_box();
+        view.obstacle[0] = BOX;
+        assert!(view.obstacles().is_empty(), "none is valid");
+        view.obstacles = u32::MAX;
+        assert_eq!(view.obstacles().len(), view.obstacle.len());
     }
 }

@@ -2,26 +2,38 @@
 
 use super::World;
 use crate::scenario::Sense;
-use crate::sensors::{Capture, read_joints, recognise, track};
+use crate::sensors::{Capture, LinesOfSight, is_captured, read_joints, recognise, track};
 use crate::simulation_state::SimulationState;
-use coact_messages::{KeypointName, NONE, PartnerPhase, SensorSample, Truth, is_blocked};
+use coact_messages::{KeypointName, NONE, PartnerPhase, SensorSample, Truth};
+use coact_motion::Capsule;
 use coact_person::{Activity, Holder};
 use coact_stage_state::Slot;
 use glam::DVec3;
+use nalgebra::Point3;
+
+/// Half the width of a person's arm, m. Chosen by hand: about that of a forearm below the elbow.
+const ARM: f64 = 0.043;
 
 impl World {
     /// Reads all sensors.
     pub(super) fn sense(&mut self, tick: u64, out: &mut SensorSample) {
         let last = self.last_tick();
-        let (forces, blind) = (self.forces(), tick < self.blind_until);
-        let [shoulder, elbow, wrist, _] = self.person_arm();
-        let limbs = [[shoulder, elbow], [elbow, wrist]];
-        let limbs: &[_] = if self.person.is_unknown(&self.simulation.person, tick) { &[] } else { &limbs };
-        let Self { task, random, person, joints, parts, simulation, staging, .. } = self;
-        read_joints(tick, random, joints, forces, &mut out.joints);
-        let (eye, (blocks, count)) =
-            (task.scene.eye(), staging.occluders(tick, simulation.person.occluder()));
-        let occluders = &blocks[..count];
+        read_joints(tick, &self.random, &self.joints, self.forces(), &mut out.joints);
+        if is_captured(last, tick) {
+            self.look(tick, last);
+        }
+        out.hand = self.simulation.tracker.delivered;
+        out.scene = self.simulation.scene;
+        out.heard = self.simulation.heard;
+    }
+
+    /// Takes the frames of the cameras that are due.
+    fn look(&mut self, tick: u64, last: Option<u64>) {
+        let blind = tick < self.blind_until;
+        let arm = self.person_limbs(tick);
+        let Self { task, random, person, joints, parts, simulation, staging, shape, .. } = self;
+        let (boxes, count) = staging.occluders(tick, simulation.person.occluder());
+        let (eye, boxes) = (task.scene.eye(), &boxes[..count]);
         let SimulationState { person: moved, tracker, .. } = simulation;
         let capture = || match person.recorded_keypoints(moved, tick) {
             _ if blind || staging.is_blind(Sense::Hand, tick) => Capture::Nothing,
@@ -29,13 +41,25 @@ impl World {
             None if person.is_lost(moved, tick) => Capture::Nothing,
             None => Capture::Simulated(person.keypoints(moved, tick)),
         };
-        track(tick, last, random, tracker, capture, |place| is_blocked(occluders, eye, place, 0.0));
-        out.hand = simulation.tracker.delivered;
+        // The tracker has a camera of its own, which sees the hand past both arms.
+        let boards = LinesOfSight { eye, boxes, robot: &[], person: &[] };
+        track(tick, last, random, tracker, capture, |place| boards.hide(place));
         if !blind && !staging.is_blind(Sense::Objects, tick) {
-            recognise(tick, last, random, (task, parts), (occluders, limbs), &mut simulation.scene);
+            let robot = shape.links(&joints.position);
+            let person = arm.as_ref().map_or(&[][..], |arm| arm);
+            let sight = LinesOfSight { robot, person, ..boards };
+            recognise(tick, last, random, (task, parts), &sight, &mut simulation.scene);
         }
-        out.scene = simulation.scene;
-        out.heard = simulation.heard;
+    }
+
+    /// Upper arm and forearm of a person whose arm is known.
+    fn person_limbs(&self, tick: u64) -> Option<[Capsule; 2]> {
+        if self.person.is_unknown(&self.simulation.person, tick) {
+            return None;
+        }
+        let [shoulder, elbow, wrist, _] = self.person_arm().map(Point3::from);
+        let limb = |start, end| Capsule { start, end, radius: ARM };
+        Some([limb(shoulder, elbow), limb(elbow, wrist)])
     }
 
     /// What the fingers hold a part with, and what the outside exerts on the wrist, N.
