@@ -102,6 +102,18 @@ pub struct SceneView {
     pub surface: Surface,
 }
 
+impl SceneView {
+    /// The recognised parts, as many as are valid.
+    pub fn sightings(&self) -> &[Sighting] {
+        &self.sighting[..(self.sightings as usize).min(self.sighting.len())]
+    }
+
+    /// The obstacles that are valid: centre and half extents, m.
+    pub fn obstacles(&self) -> &[[f64; 6]] {
+        &self.obstacle[..(self.obstacles as usize).min(self.obstacle.len())]
+    }
+}
+
 /// One recognised part. The recogniser names the kind, not the individual.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable, ZeroCopySend)]

@@ -1,8 +1,9 @@
 //! The occluder before a part whose taking the robot is not to see.
 
+use crate::line_of_sight::box_before;
 use crate::{HandMovement, PartsView, Person, PersonState, Surroundings};
 use coact_joint_task::Task;
-use coact_messages::{KeypointName, box_before};
+use coact_messages::KeypointName;
 use glam::DVec3;
 
 /// How far the occluder stands before what it hides, and how thick it is, m. Chosen by hand; not sensitive.

@@ -2,7 +2,8 @@
 
 use super::lines_of_sight::LinesOfSight;
 use coact_joint_task::Scene;
-use coact_messages::{MAX_PLACES, Surface, TableGrid, box_before};
+use coact_messages::{MAX_PLACES, Surface, TableGrid};
+use coact_person::box_before;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 use std::ops::Range;

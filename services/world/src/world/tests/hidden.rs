@@ -2,8 +2,8 @@
 
 use super::mistakes::run;
 use crate::parts::Parts;
-use crate::sensors::{LinesOfSight, recognise};
-use coact_messages::{KeypointName, NONE, SceneView, SensorSample, Sighting, limb_before};
+use crate::sensors::{LinesOfSight, limb_before, recognise};
+use coact_messages::{KeypointName, NONE, SceneView, SensorSample, Sighting};
 use coact_motion::Capsule;
 use coact_person::ActivityPhase;
 use coact_random::RandomStreams;
