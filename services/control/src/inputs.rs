@@ -191,8 +191,8 @@ impl<'a> Inputs<'a> {
         Some(&self.sample?.scene)
     }
 
-    /// All occluders in sight: centre and half extents, m.
-    pub fn occluders(&self) -> &'a [[f64; 6]] {
-        self.sample.map_or(&[], |sample| sample.scene.occluders())
+    /// All obstacles in sight: centre and half extents, m.
+    pub fn obstacles(&self) -> &'a [[f64; 6]] {
+        self.sample.map_or(&[], |sample| sample.scene.obstacles())
     }
 }

@@ -198,7 +198,7 @@ impl Control {
             held: hand.held().map(|kind| (kind, hand.in_palm.isometry())),
             held_in: self.held_in(),
             person: self.person(inputs),
-            surroundings: Surroundings::of(self.state.seen, inputs.occluders()),
+            surroundings: Surroundings::of(self.state.seen, inputs.obstacles()),
         }
     }
 

@@ -115,9 +115,11 @@ impl Grasps {
     ) {
         let parts = state.parts.numbered();
         let takable = parts.filter(|(_, kind, part)| self.is_takable(*kind, part, places));
+        let sight = places.sight(view);
+        let hidden = |kind: usize, part: &PartTrack| sight.hides(part.position, places.size(kind).height);
         (out.told, out.count) = (1.0, 0);
         out.grip.fill(0.0);
-        for (index, kind, part) in takable.filter(|(_, _, part)| places.is_hidden(part.position, view)) {
+        for (index, kind, part) in takable.filter(|(_, kind, part)| hidden(*kind, part)) {
             let centre = part.centre(places.size(kind));
             out.push(Some(kind), centre.xy().into(), state.likelihoods.of(index));
         }

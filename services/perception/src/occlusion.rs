@@ -3,7 +3,7 @@ use crate::objects::TaskPlaces;
 use crate::plausible_cycle::cycle;
 use crate::preshape::ReachRecord;
 use bytemuck::{Pod, Zeroable};
-use coact_messages::SensorSample;
+use coact_messages::SceneView;
 use coact_period::cycles;
 use coact_stage_state::Implausible;
 use std::time::Duration;
@@ -45,7 +45,7 @@ impl Occlusion {
     pub fn watch(
         &mut self,
         tick: u64,
-        sample: &SensorSample,
+        view: &SceneView,
         hand: &TrackedHand,
         reach: &ReachRecord,
         places: &TaskPlaces,
@@ -58,17 +58,16 @@ impl Occlusion {
         }
         let reaches = hand.movement.is_moving() && reach.is_of(&hand.movement);
         let vanished = reaches && (OUT_OF_SIGHT..LATE).contains(&age) && hand.captured != self.last_seen;
-        if vanished && leads_behind(sample, hand, places) {
+        if vanished && leads_behind(view, hand, places) {
             (self.since, self.last_seen) = (tick.max(1), hand.captured);
         }
     }
 }
 
 /// Whether the hand's way led out of the robot's sight.
-fn leads_behind(sample: &SensorSample, hand: &TrackedHand, places: &TaskPlaces) -> bool {
+pub(crate) fn leads_behind(view: &SceneView, hand: &TrackedHand, places: &TaskPlaces) -> bool {
+    let sight = places.sight(view);
     let way = hand.velocity() * (AHEAD / STEPS as f64);
     let starts = [hand.centre(), hand.shape().wrist.into()];
-    starts.iter().any(|start| {
-        (0..=STEPS).any(|step| places.is_hidden((start + way * step as f64).into(), &sample.scene))
-    })
+    starts.iter().any(|start| (0..=STEPS).any(|step| sight.hides_hand((start + way * step as f64).into())))
 }

@@ -1,6 +1,7 @@
 use crate::acts::Acts;
 use crate::hand::TrackedHand;
 use crate::objects::{Hands, PersonHand, TaskPlaces};
+use crate::occlusion::leads_behind;
 use crate::perception_state::{PerceptionState, ResumeError};
 use crate::preshape::{Classifier, PreshapeModel, ReachRecord};
 use crate::reaching::MovementReader;
@@ -78,7 +79,7 @@ impl Perception {
         if let Some(sample) = sample {
             self.sense(tick, sample);
             let followed = self.state.hand.is_followed(tick);
-            let sight = self.places.sight(&sample.scene, &self.state.hand);
+            let sight = self.places.sight(&sample.scene);
             self.places.report(tick, &self.state.parts, &sight, followed, &mut self.percept);
         }
         self.classifier.learn(&mut self.state.preshape);
@@ -103,7 +104,8 @@ impl Perception {
 
     fn sense(&mut self, tick: u64, sample: &SensorSample) {
         let state = &mut *self.state;
-        if let Some(onset) = state.hand.observe(tick, &sample.hand, sample.scene.occluders > 0) {
+        let hide = leads_behind(&sample.scene, &state.hand, &self.places);
+        if let Some(onset) = state.hand.observe(tick, &sample.hand, hide) {
             let from_rest = onset && self.acts.is_from_rest(state.hand.movement.departure);
             self.classifier.observe(&state.hand, from_rest, &mut state.preshape);
             state.path.observe(&state.hand, onset);
@@ -118,7 +120,7 @@ impl Perception {
         if state.parts.is_news(tick, &sample.scene) {
             let around = hands(tick, &state.hand, self.robot.as_ref(), &sample.joints);
             let held = state.parts.is_any_with_the_person();
-            let sight = self.places.sight(&sample.scene, &state.hand);
+            let sight = self.places.sight(&sample.scene);
             state.parts.observe(&sight, &around, &self.places);
             let takes = !held && state.parts.is_any_with_the_person();
             if takes && state.preshape.reach.is_of(&state.hand.movement) {
@@ -127,7 +129,7 @@ impl Perception {
             state.loss.look(&state.parts, &around, &self.places);
         }
         state.loss.feel(tick, &sample.joints, &state.parts, &self.places);
-        state.occlusion.watch(tick, sample, &state.hand, &state.preshape.reach, &self.places);
+        state.occlusion.watch(tick, &sample.scene, &state.hand, &state.preshape.reach, &self.places);
         self.words.listen(&sample.heard);
     }
 
@@ -152,9 +154,9 @@ fn hands(tick: u64, hand: &TrackedHand, robot: Option<&Robot>, joints: &JointRea
         aperture: hand.aperture(),
         speed: hand.movement.speed,
     });
-    let hand_axis = robot.map(|robot| {
-        let (palm, hand) = (robot.palm(&joints.position), &robot.hand);
+    let palm = robot.map(|robot| robot.palm(&joints.position));
+    let hand_axis = robot.zip(palm).map(|(Robot { hand, .. }, palm)| {
         [hand.palm_face, hand.grasp_distance].map(|along| (palm * Point3::new(0.0, 0.0, along)).coords)
     });
-    Hands { person, followed: hand.is_followed(tick), hand_axis, touch: joints.touch }
+    Hands { person, followed: hand.is_followed(tick), palm, hand_axis, touch: joints.touch }
 }

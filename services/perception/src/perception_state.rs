@@ -53,7 +53,7 @@ pub enum ResumeError {
 
 impl StageState for PerceptionState {
     const STAGE: &'static str = "perception";
-    const LAYOUT: u32 = 5;
+    const LAYOUT: u32 = 6;
 
     fn check(&self) -> Result<(), Implausible> {
         self.hand.check()?;

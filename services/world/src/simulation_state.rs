@@ -36,7 +36,7 @@ pub(crate) struct SimulationState {
 
 impl StageState for SimulationState {
     const STAGE: &'static str = "world";
-    const LAYOUT: u32 = 6;
+    const LAYOUT: u32 = 7;
 
     fn check(&self) -> Result<(), Implausible> {
         let counts = [self.assemblies, self.scene.frame, self.heard.sentences, self.tick >> 16];

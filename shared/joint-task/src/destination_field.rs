@@ -1,8 +1,7 @@
 //! The destination field as a network file describes it.
 
-use crate::network_file::DestinationsEntry;
+use crate::network_file::{DestinationsEntry, LEAST_TAU};
 use crate::source_file::SourceFile;
-use crate::wiring::LEAST_TAU;
 use crate::{DestinationPlan, Scene, TaskError};
 use coact_messages::{MAX_PLACES, TableGrid};
 use coact_neural_field::{Axis, MetricConstants};

@@ -4,6 +4,10 @@ use crate::{Agent, Pool, Role, task_file::Name};
 use serde::Deserialize;
 use toml::Spanned;
 
+/// Shortest time scale of a layer, ms: explicit Euler steps of one period follow a field's equation as long as they are at
+/// most a twentieth of tau, for slopes of the sigmoid about 5.
+pub(crate) const LEAST_TAU: f64 = 20.0;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NetworkFile {

@@ -1,7 +1,7 @@
 //! From the network file's rules and a task to layers, populations and synapses.
 
 use crate::destination_field::destination_field;
-use crate::network_file::{KernelEntry, LayerEntry, NetworkFile};
+use crate::network_file::{KernelEntry, LEAST_TAU, LayerEntry, NetworkFile};
 use crate::network_plan::{LayerPlan, NetworkPlan};
 use crate::percept_channels::channels;
 use crate::population::{Population, populations};
@@ -17,9 +17,6 @@ use std::path::Path;
 /// Fewest sites of a population: fewer do not hold the middle of its input, a Gaussian of some sites' width. Chosen by
 /// hand; the shipped networks have 10.
 const LEAST_SITES: usize = 6;
-/// Shortest time scale of a layer, ms: explicit Euler steps of one period follow a field's equation as long as they are at
-/// most a twentieth of tau, for slopes of the sigmoid about 5.
-pub(crate) const LEAST_TAU: f64 = 20.0;
 
 impl NetworkPlan {
     /// Makes the network of the task file at `path` by the rules of the network file that it names.

@@ -3,7 +3,7 @@
 use crate::{
     ArmPath, Command, Decision, Destinations, DriveReport, FieldFrame, HandPercept, HandView, Header, Heard,
     JointReading, Keypoint, LayerTable, PathKnot, Percept, PersonArm, Pulse, SceneView, SensorSample,
-    Sighting, Speech, TableGrid, TrackedPoint, Truth, WorkspacePercept,
+    Sighting, Speech, Surface, TableGrid, TrackedPoint, Truth, WorkspacePercept,
 };
 use std::fmt;
 
@@ -148,7 +148,8 @@ described! {
     }
     HandView { frame, captured_cycle, keypoints }
     Keypoint { position, confidence }
-    SceneView { frame, captured_cycle, sightings, occluders, sighting, occluder }
+    SceneView { frame, captured_cycle, sightings, obstacles, sighting, obstacle, surface }
+    Surface { grid, level, height }
     Sighting { kind, reserved, confidence, position, orientation }
     Heard { sentences, cycle, length, text }
     Percept {

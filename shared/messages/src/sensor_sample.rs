@@ -1,5 +1,5 @@
 use crate::plausible::{bounded, ensure, fractions, kind, not_after, orientations, places};
-use crate::{DriveReport, Flaw, Header, Heard, JOINTS, MAX_PARTS, Plausible};
+use crate::{DriveReport, Flaw, Header, Heard, JOINTS, MAX_PARTS, Plausible, Surface};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -92,12 +92,26 @@ pub struct SceneView {
     pub captured_cycle: u64,
     /// How many of `sightings` are valid.
     pub sightings: u32,
-    /// How many of `occluders` are valid.
-    pub occluders: u32,
+    /// How many of `obstacle` are valid.
+    pub obstacles: u32,
     /// Recognised parts. A part that is occluded, or missed by the recogniser, is absent.
     pub sighting: [Sighting; MAX_PARTS],
-    /// Opaque boxes that hide what lies behind them, as the robot's eye sees it: centre and half extents, m.
-    pub occluder: [[f64; 6]; 4],
+    /// Boxes that stand on the table besides the parts, for the arm to keep clear of: centre and half extents, m.
+    pub obstacle: [[f64; 6]; 4],
+    /// What of all this is in view: the same frame's picture of depth.
+    pub surface: Surface,
+}
+
+impl SceneView {
+    /// The recognised parts, as many as are valid.
+    pub fn sightings(&self) -> &[Sighting] {
+        &self.sighting[..(self.sightings as usize).min(self.sighting.len())]
+    }
+
+    /// The obstacles that are valid: centre and half extents, m.
+    pub fn obstacles(&self) -> &[[f64; 6]] {
+        &self.obstacle[..(self.obstacles as usize).min(self.obstacle.len())]
+    }
 }
 
 /// One recognised part. The recogniser names the kind, not the individual.
@@ -165,10 +179,11 @@ impl SceneView {
     /// # Errors
     /// The first such field.
     pub fn check(&self) -> Result<(), Flaw> {
-        let (sightings, occluders) = (self.sightings as usize, self.occluders as usize);
+        let (sightings, obstacles) = (self.sightings as usize, self.obstacles as usize);
         ensure(sightings <= self.sighting.len(), "scene.sightings", "no more than there is room for")?;
-        ensure(occluders <= self.occluder.len(), "scene.occluders", "no more than there is room for")?;
-        places("scene.occluder", self.occluder[..occluders].as_flattened())?;
+        ensure(obstacles <= self.obstacle.len(), "scene.obstacles", "no more than there is room for")?;
+        places("scene.obstacle", self.obstacle[..obstacles].as_flattened())?;
+        self.surface.check()?;
         self.sighting[..sightings].iter().try_for_each(Sighting::check)
     }
 }

@@ -1,8 +1,9 @@
 //! The occluder before a part whose taking the robot is not to see.
 
+use crate::line_of_sight::box_before;
 use crate::{HandMovement, PartsView, Person, PersonState, Surroundings};
 use coact_joint_task::Task;
-use coact_messages::{KeypointName, is_blocked};
+use coact_messages::KeypointName;
 use glam::DVec3;
 
 /// How far the occluder stands before what it hides, and how thick it is, m. Chosen by hand; not sensitive.
@@ -29,7 +30,8 @@ impl Person {
         let hands = (0..=STEPS).map(arriving).flat_map(hand);
         let places = hands.chain(corners(part, around.parts, around.task));
         let (eye, table) = (around.task.scene.eye(), around.task.scene.table_height);
-        let hides = |occluder: &[f64; 6], place: DVec3| is_blocked(&[*occluder], eye, place.into(), OVERLAP);
+        let hides =
+            |occluder: &[f64; 6], place: DVec3| box_before(occluder, eye, place.into(), OVERLAP).is_some();
         board(eye.into(), table, places)
             .filter(|occluder| !hand(state.hand).any(|place| hides(occluder, place)))
     }
@@ -86,7 +88,7 @@ mod tests {
     #[test]
     fn a_board_on_the_table_hides_all_places_and_nothing_beside_above_or_before_them() {
         let occluder = board(EYE, 0.8, corners_around(AT)).unwrap();
-        let hidden = |place: DVec3| is_blocked(&[occluder], EYE.into(), place.into(), 0.0);
+        let hidden = |place: DVec3| box_before(&occluder, EYE.into(), place.into(), 0.0).is_some();
         assert!(corners_around(AT).all(hidden), "{occluder:?}");
         for beside in [[0.0, 0.12, 0.0], [0.0, -0.07, 0.0], [0.0, 0.0, 0.16], [0.12, 0.0, 0.0]] {
             assert!(!hidden(AT + DVec3::from(beside)), "{beside:?} of {occluder:?}");

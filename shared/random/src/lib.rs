@@ -55,6 +55,8 @@ pub enum Stream {
     Mistaking = 16,
     /// Along which recorded way the person carries, gives or withdraws.
     Way = 17,
+    /// Noise of the depth camera.
+    Depth = 18,
 }
 
 /// The random generators of one run.

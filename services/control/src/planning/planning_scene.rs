@@ -51,9 +51,9 @@ impl PlanningScene {
         let mut obstacles = self.fixtures.clone();
         obstacles.extend(self.parts(query));
         obstacles.extend(self.awaited(query));
-        for [x, y, z, half_x, half_y, half_z] in query.surroundings.occluders() {
+        for [x, y, z, half_x, half_y, half_z] in query.surroundings.obstacles() {
             let edges = 2.0 * Vector3::new(*half_x, *half_y, *half_z);
-            obstacles.push(Obstacle::new("occluder", Solid::Box(edges), &Isometry3::translation(*x, *y, *z)));
+            obstacles.push(Obstacle::new("obstacle", Solid::Box(edges), &Isometry3::translation(*x, *y, *z)));
         }
         let allowed_leaving = self.allowed_leaving(query, &obstacles);
         let allowed_at_goal = allowed_at_goal(query, goals, &obstacles);

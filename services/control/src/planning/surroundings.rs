@@ -5,26 +5,26 @@ use crate::state::SeenParts;
 pub(crate) struct Surroundings {
     /// The parts.
     pub parts: SeenParts,
-    occluders: [[f64; 6]; MOST_OCCLUDERS],
-    occluder_count: usize,
+    obstacles: [[f64; 6]; MOST_OBSTACLES],
+    obstacle_count: usize,
 }
 
-/// Most occluders of a scene view.
-const MOST_OCCLUDERS: usize = 4;
+/// Most obstacles of a scene view.
+const MOST_OBSTACLES: usize = 4;
 
 impl Surroundings {
-    /// These parts, and occluders, as many as there is room for.
-    pub fn of(parts: SeenParts, occluders: &[[f64; 6]]) -> Self {
-        let mut surroundings = Self { parts, occluders: [[0.0; 6]; MOST_OCCLUDERS], occluder_count: 0 };
-        for (slot, occluder) in surroundings.occluders.iter_mut().zip(occluders) {
-            *slot = *occluder;
-            surroundings.occluder_count += 1;
+    /// These parts, and obstacles, as many as there is room for.
+    pub fn of(parts: SeenParts, obstacles: &[[f64; 6]]) -> Self {
+        let mut surroundings = Self { parts, obstacles: [[0.0; 6]; MOST_OBSTACLES], obstacle_count: 0 };
+        for (slot, obstacle) in surroundings.obstacles.iter_mut().zip(obstacles) {
+            *slot = *obstacle;
+            surroundings.obstacle_count += 1;
         }
         surroundings
     }
 
-    /// The occluders: centre and half extents, m.
-    pub fn occluders(&self) -> &[[f64; 6]] {
-        &self.occluders[..self.occluder_count]
+    /// The obstacles: centre and half extents, m.
+    pub fn obstacles(&self) -> &[[f64; 6]] {
+        &self.obstacles[..self.obstacle_count]
     }
 }

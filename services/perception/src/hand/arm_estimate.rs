@@ -1,9 +1,7 @@
 use super::TrackedHand;
 use super::tracked_joint::TrackedJoint;
-use crate::objects::Limbs;
 use coact_messages::{KeypointName, PersonArm, TrackedPoint};
-use coact_period::{cycles, seconds};
-use std::time::Duration;
+use coact_period::seconds;
 
 /// Scatter of a keypoint, m. Recorded ones lie 0.7 pixels (median; 6 mm) off the line between their neighbours in time,
 /// simulated ones scatter by 2 mm along each axis.
@@ -14,9 +12,6 @@ const SCATTER: f64 = 0.005;
 const ACCELERATION: f64 = 5.0;
 /// Speed of a hand that ISO 13855 reckons with, m/s.
 const HAND_SPEED: f64 = 2.0;
-
-/// Age up to which a joint is where it is followed to: some frames that missed it. Chosen by hand.
-const FOLLOWED: u64 = cycles(Duration::from_millis(200));
 
 impl TrackedHand {
     /// The person's arm at `tick`: each joint filtered and extrapolated by itself. One that was never found is where the
@@ -41,15 +36,6 @@ impl TrackedHand {
             tracked: u32::from(self.is_tracked(tick)),
             reserved: 0,
         }
-    }
-
-    /// Upper arm and forearm at `tick`; `None` unless all their joints are followed.
-    pub fn limbs_at(&self, tick: u64) -> Option<Limbs> {
-        let names = [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist];
-        let followed = names.iter().all(|name| self.age_of(*name, tick).is_some_and(|age| age < FOLLOWED));
-        let [shoulder, elbow, wrist, _] = self.joints();
-        let [shoulder, elbow, wrist] = [shoulder, elbow, wrist].map(|joint| joint.expected_at(tick).into());
-        followed.then_some([[shoulder, elbow], [elbow, wrist]])
     }
 
     /// Standard deviation of a joint that moves at `speed`, m: its scatter, and how far it may be from where it is thought

@@ -1,4 +1,4 @@
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 
 /// What perception knows at this instant of both hands, either of which may hold a part.
 #[derive(Debug, Clone, Copy)]
@@ -7,6 +7,8 @@ pub(crate) struct Hands {
     pub person: Option<PersonHand>,
     /// Whether it has been tracked for so long that what it does is known.
     pub followed: bool,
+    /// The robot's palm, when its kinematics are known.
+    pub palm: Option<Isometry3<f64>>,
     /// The middle of the robot's hand, from its palm to its grasp point, m, when its kinematics are known.
     pub hand_axis: Option<[Vector3<f64>; 2]>,
     /// Force at the robot's finger tips, N.

@@ -11,5 +11,5 @@ pub(crate) use hands::{Hands, PersonHand};
 pub(crate) use holders::TOUCH;
 pub(crate) use part_track::PartTrack;
 pub(crate) use part_tracks::PartTracks;
-pub(crate) use sight::{Limbs, Sight};
+pub(crate) use sight::Sight;
 pub(crate) use task_places::TaskPlaces;

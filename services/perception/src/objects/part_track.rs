@@ -2,7 +2,7 @@ use bytemuck::{Pod, Zeroable};
 use coact_messages::Sighting;
 use coact_period::cycles;
 use coact_stage_state::{Implausible, bounded, ensure};
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 use std::time::Duration;
 
 /// Nobody has the part.
@@ -127,6 +127,17 @@ impl PartTrack {
         self.absent = 0;
     }
 
+    /// It has been moved so with what holds it.
+    pub fn go_along(&mut self, moved: &Isometry3<f64>) {
+        let before = Isometry3::from_parts(Vector3::from(self.position).into(), self.turn());
+        let now = moved * before;
+        if (now.translation.vector - before.translation.vector).norm() > MOVED {
+            self.still = 0;
+        }
+        self.position = now.translation.vector.into();
+        self.orientation = now.rotation.coords.map(|value| value as f32).into();
+    }
+
     /// A part that is taken for one of another kind for long, and never for its own, is one.
     fn look_again_what_it_is(&mut self, kind_plus_one: u16, cycles: u32) {
         self.mistaken = match kind_plus_one {
@@ -142,9 +153,12 @@ impl PartTrack {
 
     /// Point on the part's axis, `height` above its underside, m.
     pub fn above_underside(&self, height: f64) -> Vector3<f64> {
+        Vector3::from(self.position) + self.turn() * (Vector3::z() * height)
+    }
+
+    fn turn(&self) -> UnitQuaternion<f64> {
         let [x, y, z, w] = self.orientation.map(f64::from);
-        let turn = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
-        Vector3::from(self.position) + turn * (Vector3::z() * height)
+        UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
     }
 
     /// Whether it has lain still for so long, in nobody's hand, that it has settled where it is; `followed`: what the person's hand does

@@ -4,8 +4,8 @@ use crate::plausible_cycle::cycle;
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{MAX_PARTS, SceneView, Sighting};
 use coact_period::cycles;
-use coact_stage_state::{Implausible, ensure};
-use nalgebra::Vector3;
+use coact_stage_state::{Implausible, bounded, ensure};
+use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 use std::time::Duration;
 
 /// How far a part may have moved between two sightings, m: at the recogniser's 30 Hz, in a hand of 3.6 m/s.
@@ -26,6 +26,8 @@ pub(crate) struct PartTracks {
     seen: u64,
     /// Cycle at which it was captured.
     pub captured: u64,
+    /// The robot's palm at the newest frame: place, m, and quaternion x, y, z, w; zeros: not known.
+    palm: [f64; 7],
     tracks: [PartTrack; MAX_PARTS],
 }
 
@@ -72,6 +74,7 @@ impl PartTracks {
     pub fn check(&self) -> Result<(), Implausible> {
         ensure(self.seen > 0 || self.captured == 0, "parts.captured", "0 before the first frame")?;
         cycle("parts.captured", self.captured)?;
+        bounded("parts.palm", &self.palm, FARTHEST)?;
         self.tracks.iter().try_for_each(PartTrack::check)
     }
 
@@ -93,7 +96,8 @@ impl PartTracks {
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;
         self.associate(sight, cycles, places);
-        self.miss(sight, cycles);
+        self.follow_robot(around.palm);
+        self.miss(sight, cycles, places);
         self.find_holders(around, places);
     }
 
@@ -143,7 +147,7 @@ impl PartTracks {
             }
         }
         for sighting in left.into_iter().flatten() {
-            let known = self.at_its_place(sighting).or_else(|| self.turned_up(sighting, sight));
+            let known = self.at_its_place(sighting).or_else(|| self.turned_up(sighting, sight, places));
             match known.or_else(|| self.tracks.iter().position(|track| track.kind().is_none())) {
                 Some(index) if known.is_some() => self.tracks[index].follow(sighting, self.captured, cycles),
                 Some(index) => self.tracks[index] = PartTrack::new(sighting, self.captured),
@@ -175,20 +179,31 @@ impl PartTracks {
 
     /// The track of a part of the sighting's kind that has been out of sight: one that turns up where none was is rather
     /// that one than another.
-    fn turned_up(&self, sighting: &Sighting, sight: &Sight) -> Option<usize> {
+    fn turned_up(&self, sighting: &Sighting, sight: &Sight, places: &TaskPlaces) -> Option<usize> {
+        let height = places.size(sighting.kind as usize).height;
         let unseen = |track: &PartTrack| self.captured.saturating_sub(track.seen) > u64::from(ABSENT);
         self.tracks.iter().position(|track| {
-            track.kind() == Some(sighting.kind as usize) && unseen(track) && sight.hides(track.position)
+            track.kind() == Some(sighting.kind as usize)
+                && unseen(track)
+                && sight.hides(track.position, height)
         })
     }
 
+    /// What the robot holds goes where its palm goes, seen or not.
+    fn follow_robot(&mut self, palm: Option<Isometry3<f64>>) {
+        if let (Some(before), Some(now)) = (pose(self.palm), palm) {
+            let moved = now * before.inverse();
+            let unseen = |track: &&mut PartTrack| track.is_with_the_robot() && track.seen < self.captured;
+            self.tracks.iter_mut().filter(unseen).for_each(|track| track.go_along(&moved));
+        }
+        self.palm = palm.map_or([0.0; 7], pose_words);
+    }
+
     /// Gives up parts whose place has been in view and empty for long enough; those that were not believed in yet, at once.
-    fn miss(&mut self, sight: &Sight, cycles: u64) {
+    fn miss(&mut self, sight: &Sight, cycles: u64, places: &TaskPlaces) {
         for track in &mut self.tracks {
-            if track.kind().is_none() || track.seen == self.captured {
-                continue;
-            }
-            if !sight.hides(track.position) {
+            let Some(kind) = track.kind().filter(|_| track.seen < self.captured) else { continue };
+            if !sight.hides(track.position, places.size(kind).height) {
                 track.absent = track.absent.saturating_add(cycles as u32);
             }
             if track.absent > ABSENT || !track.is_believed() {
@@ -203,4 +218,16 @@ fn is_plausible(sighting: &Sighting, places: &TaskPlaces) -> bool {
     let norm: f64 = sighting.orientation.iter().map(|value| value * value).sum();
     let upright = (0.5..2.0).contains(&norm);
     (sighting.kind as usize) < places.kinds() && near && upright && sighting.confidence > 0.0
+}
+
+/// A pose in words, place and quaternion x, y, z, w; none in zeros.
+fn pose([x, y, z, i, j, k, w]: [f64; 7]) -> Option<Isometry3<f64>> {
+    let turn = UnitQuaternion::try_new(Quaternion::new(w, i, j, k), f64::EPSILON)?;
+    Some(Isometry3::from_parts(Vector3::new(x, y, z).into(), turn))
+}
+
+/// The other way.
+fn pose_words(pose: Isometry3<f64>) -> [f64; 7] {
+    let ([x, y, z], [i, j, k, w]) = (pose.translation.vector.into(), pose.rotation.coords.into());
+    [x, y, z, i, j, k, w]
 }

@@ -1,32 +1,32 @@
-use coact_messages::{SceneView, is_blocked_by_limb};
+use coact_messages::SceneView;
 
-/// What would be seen this near to the edge of an occluder may be hidden, m: the scatter of sightings, and of where the
-/// occluder is.
-pub(super) const EDGE: f64 = 0.02;
-/// How far from the line between its joints an arm may hide something, m: half of a strong arm's width, and what its joints are misplaced by.
-const ARM: f64 = 0.07;
+/// How much higher than something what is seen in its direction must be to hide it, m: a depth camera's scatter, and its steps.
+const SCATTER: f64 = 0.02;
+/// The same for a hand, m: its own back is as high above its middle.
+const BACK: f64 = 0.05;
 
-/// Upper arm and forearm, each from joint to joint, m.
-pub(crate) type Limbs = [[[f64; 3]; 2]; 2];
-
-/// What the robot's eye can see of the table: what stands on it, and the person's arm, hide what is behind them.
+/// What the robot's eye sees of the table, in the recogniser's newest frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sight<'a> {
-    /// The recogniser's newest frame.
+    /// The frame.
     pub view: &'a SceneView,
     /// Where the eye is, m.
     pub eye: [f64; 3],
-    /// The person's arm when the frame was taken, if it was followed.
-    pub arm: Option<Limbs>,
 }
 
 impl Sight<'_> {
-    /// Whether the eye may not see what is at `place`.
-    pub fn hides(&self, place: [f64; 3]) -> bool {
-        let by_arm = || {
-            let mut limbs = self.arm.iter().flatten();
-            limbs.any(|limb| is_blocked_by_limb(*limb, ARM, self.eye, place))
-        };
-        self.view.hides(self.eye, place, EDGE) || by_arm()
+    /// Whether the eye may not see what stands at `place` and is so high, m: something higher is seen in its direction, or the picture does not
+    /// tell.
+    pub fn hides(&self, place: [f64; 3], height: f64) -> bool {
+        self.above(place).is_none_or(|above| above > height + SCATTER)
+    }
+
+    /// Whether something is seen before a hand at `place`.
+    pub fn hides_hand(&self, place: [f64; 3]) -> bool {
+        self.above(place).is_some_and(|above| above > BACK)
+    }
+
+    fn above(&self, place: [f64; 3]) -> Option<f64> {
+        self.view.surface.above(self.eye, place)
     }
 }

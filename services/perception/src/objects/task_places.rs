@@ -1,9 +1,7 @@
 use super::holders::PartSize;
 use super::part_track::{BY_PERSON, BY_ROBOT, PartTrack};
-use super::sight::EDGE;
 use super::{PartTracks, Sight};
 use crate::evidence::approach;
-use crate::hand::TrackedHand;
 use coact_joint_task::{Scene, Subgoal, Task};
 use coact_messages::{MAX_SUBGOALS, PERSON, Percept, ROBOT, SceneView, WORKSPACES};
 use coact_period::cycles;
@@ -37,14 +35,9 @@ pub(crate) struct TaskPlaces {
 }
 
 impl TaskPlaces {
-    /// Whether the robot's eye may not see what is at `place`, for what stands on the table.
-    pub fn is_hidden(&self, place: [f64; 3], view: &SceneView) -> bool {
-        view.hides(self.scene.eye(), place, EDGE)
-    }
-
-    /// What the robot's eye could see past the person's arm when the frame of the parts was taken.
-    pub fn sight<'a>(&self, view: &'a SceneView, hand: &TrackedHand) -> Sight<'a> {
-        Sight { view, eye: self.scene.eye(), arm: hand.limbs_at(view.captured_cycle) }
+    /// What the robot's eye sees in a frame.
+    pub fn sight<'a>(&self, view: &'a SceneView) -> Sight<'a> {
+        Sight { view, eye: self.scene.eye() }
     }
 
     pub fn new(task: &Task) -> Self {
@@ -132,7 +125,8 @@ impl TaskPlaces {
             place.position[kind] = part.position;
             place.orientation[kind] = part.orientation.map(f64::from);
         }
-        let gone = nearest.is_none() && !sight.hides(self.last_place(side, place.position[kind]));
+        let gone = nearest.is_none()
+            && !sight.hides(self.last_place(side, place.position[kind]), self.size(kind).height);
         approach(&mut place.seen[kind], seen, RAMP);
         approach(&mut place.gone[kind], gone, RAMP);
     }
@@ -168,7 +162,8 @@ impl TaskPlaces {
         let own = parts.parts().filter(|(own, _)| *own == kind);
         let mounted = |part: &PartTrack| away(part) < IN_PLACE && part.has_settled(followed);
         let achieved = own.clone().any(|(_, part)| mounted(part));
-        let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !sight.hides(socket);
+        let empty =
+            !own.clone().any(|(_, part)| away(part) < EMPTY) && !sight.hides(socket, self.size(kind).height);
         approach(&mut out.achieved[goal], achieved, if achieved { ACHIEVES } else { RAMP });
         approach(&mut out.open[goal], empty, RAMP);
     }

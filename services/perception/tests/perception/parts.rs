@@ -1,8 +1,9 @@
 //! Parts, places and hands: seen, gone, or out of view.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::support::{self, Stage};
-use coact_messages::{Keypoint, KeypointName, PERSON, ROBOT};
+use crate::support::{self, Stage, stands_before};
+use coact_messages::{JOINTS, PERSON, ROBOT};
+use coact_robot::Robot;
 
 #[test]
 fn parts_are_seen_where_they_lie() {
@@ -88,22 +89,6 @@ fn a_part_that_is_always_taken_for_another_is_one() {
 }
 
 #[test]
-fn a_part_behind_the_person_s_arm_is_remembered() {
-    for (beside, is_remembered) in [(0.0, true), (0.3, false), (-0.3, false)] {
-        let mut stage = Stage::new();
-        let (part, kind) = (stage.part("column 1"), stage.kind("column 1"));
-        let (eye, at) = (stage.task.scene.eye(), stage.things[part].position);
-        let [x, y, z] = [0, 1, 2].map(|axis| at[axis] + 0.2 * (eye[axis] - at[axis]));
-        let joint = |aside: f64| Keypoint { position: [x, y + beside + aside, z], confidence: 0.9 };
-        stage.wrong = vec![(KeypointName::Shoulder, joint(-0.15)), (KeypointName::Elbow, joint(0.15))];
-        stage.run(1000, |_, _| {});
-        stage.run(1500, |stage, _| stage.things[part].visible = false);
-        let place = &stage.percept.workspace[PERSON];
-        assert_eq!(place.gone[kind] < 0.1, is_remembered, "{beside} m beside it: {}", place.gone[kind]);
-    }
-}
-
-#[test]
 fn what_single_frames_show_is_not_there() {
     let mut stage = Stage::new();
     let nut = stage.kind("nut");
@@ -124,20 +109,34 @@ fn what_single_frames_show_is_not_there() {
 fn what_is_out_of_view_is_neither_seen_nor_gone() {
     let mut stage = Stage::new();
     let (part, kind) = (stage.part("column 1"), stage.kind("column 1"));
-    let [x, y, z] = stage.things[part].position;
-    stage.run(2000, |stage, _| {
-        stage.things[part].visible = false;
-        stage.sample.scene.occluders = 1;
-        stage.sample.scene.occluder[0] = [x, y, z + 0.1, 0.08, 0.08, 0.1];
-    });
+    let at = stage.things[part].position;
+    stands_before(&stage.task, &mut stage.sample.scene.surface, at, 0.3);
+    stage.run(2000, |stage, _| stage.things[part].visible = false);
     let place = &stage.percept.workspace[PERSON];
     assert!(place.seen[kind] < 0.1 && place.gone[kind] < 0.1);
-    assert!((place.position[kind][0] - x).abs() < 1e-2, "the last known place is kept");
-    stage.run(400, |stage, _| {
-        stage.things[part].visible = true;
-        stage.sample.scene.occluders = 0;
-    });
+    assert!((place.position[kind][0] - at[0]).abs() < 1e-2, "the last known place is kept");
+    stage.run(400, |stage, _| stage.things[part].visible = true);
     assert!(stage.percept.workspace[PERSON].seen[kind] > 0.9);
+}
+
+#[test]
+fn a_part_that_is_not_seen_where_the_table_is_seen_is_gone() {
+    // Nothing is there; something no higher than the part; something high beside it; something high before it.
+    for (height, aside, is_gone) in [(0.0, 0.0, true), (0.05, 0.0, true), (0.3, 0.2, true), (0.3, 0.0, false)]
+    {
+        let mut stage = Stage::new();
+        let (part, kind) = (stage.part("column 1"), stage.kind("column 1"));
+        let [x, y, z] = stage.things[part].position;
+        stands_before(&stage.task, &mut stage.sample.scene.surface, [x, y + aside, z], height);
+        stage.run(1500, |stage, _| stage.things[part].visible = false);
+        let gone = stage.percept.workspace[PERSON].gone[kind];
+        assert_eq!(gone > 0.9, is_gone, "{height} m high, {aside} m beside it: {gone}");
+    }
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("column 1"), stage.kind("column 1"));
+    stage.sample.scene.surface.grid.sites = [0, 0];
+    stage.run(1500, |stage, _| stage.things[part].visible = false);
+    assert!(stage.percept.workspace[PERSON].gone[kind] < 0.1, "without a picture it may be there");
 }
 
 #[test]
@@ -200,6 +199,36 @@ fn a_touched_part_in_the_air_is_in_the_robots_hand() {
     assert!(stage.percept.workspace[ROBOT].seen[kind] < 0.1, "it is not free any more");
     stage.run(300, |stage, _| stage.sample.joints.touch = 0.0);
     assert!(stage.percept.robot_holds[kind] < 0.1);
+}
+
+#[test]
+fn what_the_robot_holds_out_of_sight_goes_where_its_palm_goes() {
+    let mut stage = Stage::new();
+    let robot = Robot::load(&support::configuration("robots/aros.toml")).unwrap();
+    stage.perception = support::perception(&stage.task).with_robot(robot.clone());
+    let (part, kind) = (stage.part("top floor"), stage.kind("top floor"));
+    let mut joints = [0.0; JOINTS];
+    joints[..7].copy_from_slice(&robot.park);
+    let middle = 0.5 * stage.task.kinds[kind].shape.height();
+    let held_at = |joints: &[f64; JOINTS]| {
+        let point = robot.grasp_point(joints);
+        [point.x, point.y, point.z - middle]
+    };
+    stage.run(1000, |stage, _| {
+        (stage.sample.joints.position, stage.sample.joints.touch) = (joints, 5.0);
+        stage.things[part].position = held_at(&joints);
+    });
+    assert!(stage.percept.robot_holds[kind] > 0.9);
+    stage.sample.scene.surface.height.fill(200);
+    stage.things[part].visible = false;
+    stage.run(1000, |stage, _| {
+        joints[0] += 0.0006;
+        stage.sample.joints.position = joints;
+        assert!(stage.percept.robot_holds[kind] > 0.9, "while it is carried unseen");
+    });
+    stage.things[part].position = held_at(&joints);
+    stage.things[part].visible = true;
+    stage.run(200, |stage, _| assert!(stage.percept.robot_holds[kind] > 0.9, "seen where it was carried to"));
 }
 
 /// The robot holds the top floor 0.2 m above the table, and opens its fingers; `then` moves things from there on. Tells

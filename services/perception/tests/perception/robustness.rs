@@ -119,7 +119,9 @@ fn garbage_makes_no_garbage() {
         scene.frame = round as u64 * 3;
         scene.captured_cycle = if round % 7 == 0 { u64::MAX } else { stage.tick };
         scene.sightings = u32::MAX;
-        scene.occluders = u32::MAX;
+        scene.obstacles = u32::MAX;
+        scene.surface.grid.sites = [round as u32, u32::MAX];
+        scene.surface.level = pick(3);
         for (index, sighting) in scene.sighting.iter_mut().enumerate() {
             sighting.kind = (index as u32).wrapping_mul(0x9E37_79B9);
             sighting.position = std::array::from_fn(|axis| pick(index + axis));

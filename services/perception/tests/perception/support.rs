@@ -1,8 +1,8 @@
 //! A person's hand and parts on a table, as sensors would show them, for tests of perception.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use coact_joint_task::{Act, Task};
-use coact_messages::{Keypoint, KeypointName, Percept, SensorSample, Sighting};
+use coact_joint_task::{Act, Scene, Task};
+use coact_messages::{Keypoint, KeypointName, Percept, SensorSample, Sighting, Surface, TableGrid};
 use coact_perception::{Perception, PreshapeModel};
 use std::path::PathBuf;
 
@@ -106,12 +106,14 @@ impl Stage {
             position: [part.at[0], part.at[1], task.scene.table_height],
             visible: true,
         });
+        let mut sample: Box<SensorSample> = bytemuck::zeroed_box();
+        bare_table(&task, &mut sample.scene.surface);
         Self {
             things: things.collect(),
             perception: perception(&task),
             hand: resting(&task),
             task,
-            sample: bytemuck::zeroed_box(),
+            sample,
             percept: bytemuck::zeroed_box(),
             tick: 1,
             tracking: true,
@@ -221,6 +223,27 @@ impl Stage {
                 orientation: [0.0, 0.0, 0.0, 1.0],
             };
             scene.sightings += 1;
+        }
+    }
+}
+
+/// The picture of a table on which nothing is higher than it.
+pub fn bare_table(task: &Task, surface: &mut Surface) {
+    let Scene { table_centre: [x, y], table_size: [length, width], table_height, .. } = task.scene;
+    let spacing = 0.022;
+    let sites = [length, width].map(|size| (size / spacing) as u32 + 1);
+    surface.grid = TableGrid { first: [x - 0.5 * length, y - 0.5 * width], spacing, sites };
+    surface.level = table_height;
+    surface.height.fill(0);
+}
+
+/// Something this high, m, stands on the line of sight to `place`, and around it.
+pub fn stands_before(task: &Task, surface: &mut Surface, place: [f64; 3], height: f64) {
+    let shadow = surface.shadow(task.scene.eye(), place).unwrap();
+    for site in 0..surface.grid.used() {
+        let [x, y] = surface.grid.place(site);
+        if (x - shadow[0]).hypot(y - shadow[1]) < 0.08 {
+            surface.height[site] = (100.0 * height) as u8;
         }
     }
 }

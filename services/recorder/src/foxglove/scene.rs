@@ -45,7 +45,7 @@ impl Scene {
             entity("person", ns, "lines", vec![line(&limbs(sample), PERSON)]),
             entity("parts", ns, "cubes", parts),
             entity("names", ns, "texts", names),
-            entity("occluders", ns, "cubes", occluders(&sample.scene)),
+            entity("obstacles", ns, "cubes", obstacles(&sample.scene)),
         ];
         json!({ "deletions": [], "entities": entities })
     }
@@ -87,11 +87,11 @@ fn limbs(sample: &SensorSample) -> Vec<[f64; 3]> {
     keypoints.iter().filter(|keypoint| keypoint.confidence > 0.0).map(|keypoint| keypoint.position).collect()
 }
 
-fn occluders(scene: &SceneView) -> Vec<Value> {
+fn obstacles(scene: &SceneView) -> Vec<Value> {
     let shown = |[x, y, z, half_x, half_y, half_z]: [f64; 6]| {
         cube(pose(&[x, y, z], &UPRIGHT), &[2.0 * half_x, 2.0 * half_y, 2.0 * half_z], OCCLUDER)
     };
-    scene.occluders().iter().copied().map(shown).collect()
+    scene.obstacles().iter().copied().map(shown).collect()
 }
 
 fn cube(pose: Value, size: &[f64; 3], of: [f64; 4]) -> Value {

@@ -1,7 +1,9 @@
+use super::depth_camera::picture;
 use super::frame_rate::is_frame_due;
+use super::lines_of_sight::LinesOfSight;
 use crate::parts::Parts;
 use coact_joint_task::Task;
-use coact_messages::{MAX_PARTS, SceneView, Sighting, WORKSPACES, is_blocked_by_limb};
+use coact_messages::{MAX_PARTS, SceneView, Sighting, WORKSPACES};
 use coact_period::cycles;
 use coact_random::{RandomStreams, Stream, is_in_burst};
 use glam::{DQuat, DVec3};
@@ -30,38 +32,32 @@ const IMAGINED: f64 = 0.01;
 /// Confidence of those that it reports. Not sensitive: it only has to be high.
 const CONFIDENCE: std::ops::Range<f64> = 0.85..0.99;
 
-/// Half the width of a person's arm, m. Chosen by hand: about that of a forearm below the elbow.
-const ARM: f64 = 0.043;
-
-/// Takes a frame of all parts when one is due; parts in hands and mounted parts are seen where they are, those behind one of the
-/// `occluders`, or behind one of the person's `limbs`, are not. Now and then a part is missed or taken for one of another kind, or one is seen where there is none.
+/// Takes a frame when one is due: a picture of depth, and all parts; parts in hands and mounted parts are seen where they are, those that
+/// something hides are not. Now and then a part is missed or taken for one of another kind, or one is seen where there is none.
 pub(crate) fn recognise(
     tick: u64,
     last: Option<u64>,
     random: &RandomStreams,
     (task, parts): (&Task, &Parts),
-    (occluders, limbs): (&[[f64; 6]], &[[[f64; 3]; 2]]),
+    sight: &LinesOfSight,
     view: &mut SceneView,
 ) {
     if !is_frame_due(RATE, last, tick) {
         return;
     }
     let mut rng = random.at(Stream::Recogniser, tick);
-    let eye = task.scene.eye();
     view.frame += u64::from(last.is_some());
     view.captured_cycle = tick;
     view.sighting = [Sighting::default(); _];
-    view.occluder = [[0.0; 6]; _];
-    view.occluder[..occluders.len()].copy_from_slice(occluders);
-    view.occluders = occluders.len() as u32;
+    view.obstacle = [[0.0; 6]; _];
+    view.obstacle[..sight.boxes.len()].copy_from_slice(sight.boxes);
+    view.obstacles = sight.boxes.len() as u32;
     view.sightings = 0;
     for part in 0..parts.all().len() {
         let missed = rng.random_bool(MISSED);
         let taken_for = taken_for(part, tick, random, task).unwrap_or(parts.kind(part));
-        let sighting = Sighting { kind: taken_for as u32, ..sight(part, parts, &mut rng) };
-        let at = parts.position(part).into();
-        let behind_limb = limbs.iter().any(|limb| is_blocked_by_limb(*limb, ARM, eye, at));
-        if !missed && !behind_limb && !view.hides(eye, at, 0.0) {
+        let sighting = Sighting { kind: taken_for as u32, ..sighting(part, parts, &mut rng) };
+        if !missed && !sight.hide(parts.position(part).into()) {
             view.sighting[view.sightings as usize] = sighting;
             view.sightings += 1;
         }
@@ -70,6 +66,7 @@ pub(crate) fn recognise(
         view.sighting[view.sightings as usize] = imagine(task, &mut rng);
         view.sightings += 1;
     }
+    picture(sight, &task.scene, &mut random.at(Stream::Depth, tick), &mut view.surface);
 }
 
 /// The kind that a part is mistaken for at `tick`, if it is.
@@ -94,7 +91,7 @@ fn imagine<R: Rng>(task: &Task, rng: &mut R) -> Sighting {
 }
 
 /// One part as the recogniser sees it.
-fn sight<R: Rng>(part: usize, parts: &Parts, rng: &mut R) -> Sighting {
+fn sighting<R: Rng>(part: usize, parts: &Parts, rng: &mut R) -> Sighting {
     let confidence = rng.random_range(CONFIDENCE);
     let mut deviates = || DVec3::from_array(std::array::from_fn(|_| StandardNormal.sample(rng)));
     let position = parts.position(part) + POSITION * deviates();

@@ -60,6 +60,11 @@ pub(crate) enum Capture {
     Recorded([Keypoint; 9]),
 }
 
+/// Whether the tracker captures a frame after tick `last` and up to `tick`; the recogniser captures none at any other.
+pub(crate) fn is_captured(last: Option<u64>, tick: u64) -> bool {
+    is_frame_due(RATE, last, tick)
+}
+
 /// When a frame is due: delivers the one before, and captures a new one. So a frame is one frame time old when it
 /// comes. Keypoints that `hides` names are lost; a frame without any is not delivered.
 pub(crate) fn track(

@@ -1,8 +1,11 @@
 //! The partner who reaches behind something.
 
 use super::mistakes::run;
-use coact_messages::{KeypointName, NONE, SensorSample, Sighting, is_blocked_by_limb};
+use crate::parts::Parts;
+use crate::sensors::{LinesOfSight, limb_before, recognise};
+use coact_messages::{KeypointName, NONE, SceneView, SensorSample, Sighting};
 use coact_person::ActivityPhase;
+use coact_random::RandomStreams;
 use glam::DVec3;
 
 const ALWAYS: &str = "idle=0,goal=0,request=0,means=0,hidden=1,words=0,dropouts=0";
@@ -33,7 +36,7 @@ impl Hidden {
         if scene.captured_cycle < self.chosen {
             return;
         }
-        assert_eq!(scene.occluders, 1);
+        assert_eq!(scene.obstacles, 1);
         for sighting in &scene.sighting[..scene.sightings as usize] {
             let away =
                 (0..3).map(|axis| (sighting.position[axis] - self.home[axis]).powi(2)).sum::<f64>().sqrt();
@@ -90,7 +93,7 @@ fn parts_behind_the_person_s_arm_are_not_seen() {
         let [shoulder, elbow, wrist, _] = out.truth.arm;
         for part in 0..world.parts.all().len() {
             let (kind, at) = (world.parts.kind(part) as u32, world.parts.position(part));
-            let by = |limb| is_blocked_by_limb(limb, 0.03, world.task.scene.eye(), at.into());
+            let by = |limb| limb_before(limb, 0.03, world.task.scene.eye(), at.into()).is_some();
             if by([shoulder, elbow]) || by([elbow, wrist]) {
                 behind += 1;
                 let shows =
@@ -100,4 +103,30 @@ fn parts_behind_the_person_s_arm_are_not_seen() {
         }
     });
     assert!(behind > 20, "seldom: {behind}");
+}
+
+#[test]
+fn what_is_behind_a_limb_is_not_seen_and_the_picture_shows_that_something_is_before_it() {
+    let (task, random) = (super::task(), RandomStreams::new(5));
+    let parts = Parts::new(&task, Vec::new(), task.scene.fit);
+    let (eye, at) = (task.scene.eye(), |part| parts.position(part));
+    let (before, aside) = (at(0).lerp(eye.into(), 0.2), DVec3::new(0.05, 0.02, 0.0));
+    let limb = [before - aside, before + aside].map(Into::into);
+    let sight = LinesOfSight { eye, boxes: &[], limbs: &[limb] };
+    let mut view: Box<SceneView> = bytemuck::zeroed_box();
+    let hidden: Vec<bool> = (0..task.parts.len()).map(|part| sight.hide(at(part).into())).collect();
+    assert!(hidden[0] && hidden.iter().filter(|hidden| **hidden).count() < 4, "{hidden:?}");
+    let mut seen = vec![0; task.parts.len()];
+    for frame in 1..=100_u64 {
+        recognise(100 * frame, Some(100 * frame - 100), &random, (&task, &parts), &sight, &mut view);
+        for (part, seen) in seen.iter_mut().enumerate() {
+            let shows = |one: &Sighting| at(part).distance(DVec3::from(one.position)) < 0.012;
+            *seen += u32::from(view.sightings().iter().any(shows));
+            let above = view.surface.above(eye, at(part).into()).unwrap();
+            assert_eq!(above > 0.1, hidden[part], "part {part}: {above}");
+        }
+    }
+    for (hidden, seen) in hidden.iter().zip(&seen) {
+        assert!(if *hidden { *seen == 0 } else { *seen > 90 }, "{seen:?} of 100, hidden: {hidden:?}");
+    }
 }
