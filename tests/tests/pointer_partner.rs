@@ -60,7 +60,7 @@ impl Player {
         let courses = Course::of_person(person);
         let watch = Anticipation::new(stages.task(), Intentions::from(stages.plan()));
         let hand = PointerHand::new(stages.task());
-        let (around, turn) = (Surroundings::default(), seed as usize);
+        let (around, turn) = (Surroundings::none(), seed as usize);
         let points = seed.is_multiple_of(2);
         Self { stages, hand, around, pointer, turn, courses, watch, events: Vec::new(), points }
     }

@@ -15,6 +15,8 @@ const LIMBS = [0.04, 0.032, 0.02];
 const BONES = [[0, 1], [1, 2], [2, 3], [3, 5], [3, 8], [5, 6], [3, 7], [3, 4]];
 /** Of a person who may be farther away than this nothing but that is drawn, m. */
 const UNCERTAIN = 0.05;
+/** Who holds a part that something covers: it was there when it was seen last. */
+const COVERED = 3;
 const UPRIGHT = [0, 0, 0, 1];
 
 export class Scene {
@@ -125,10 +127,10 @@ export class Scene {
       const [kind, place] = [kinds[parts[index]], placeAt(parts, index + 1)];
       if (!kind || !place) continue;
       const turn = [parts[index + 4], parts[index + 5], parts[index + 6], parts[index + 7]];
-      this.forms.shape(kind.shape, place, turn, rgb(kindColour(parts[index])));
+      this.forms.shape(kind.shape, place, turn, rgb(kindColour(parts[index])), parts[index + 8] === COVERED ? 0.4 : 1);
       const high = kind.shape.cylinder?.height ?? kind.shape.box?.[2] ?? 0;
       words.push({ text: kind.name, place: add(place, scale([0, 0, 1], high + 0.03)) });
-      if (parts[index + 8] > 0) this.#putShadow(place, 0.025);
+      if (parts[index + 8] > 0 && parts[index + 8] < COVERED) this.#putShadow(place, 0.025);
     }
   }
 

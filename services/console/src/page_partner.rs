@@ -29,7 +29,7 @@ impl PagePartner {
         let bus = process.bus();
         let hands = (settings.partner == RunSettings::HAND).then(|| bus.output(topic::HAND)).transpose()?;
         let speech = bus.output(topic::HEARD)?;
-        let (hand, around) = (PointerHand::new(task), Surroundings::default());
+        let (hand, around) = (PointerHand::new(task), Surroundings::none());
         Ok(Self { hand, around, pointed: None, shown: Instant::now(), hands, speech })
     }
 

@@ -9,12 +9,14 @@ use coact_motion::{Capsule, CollisionModel, Mechanism, Solid};
 use coact_period::seconds;
 use coact_robot::{HAND_JOINTS, Knot, Robot, RobotError, state_at};
 use coact_safety::PersonLimits;
+use coact_seen_parts::SeenParts;
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 
 /// Makes pictures of the newest messages. Their numbers, section after section (m, rad, ms; world frame):
 ///
 /// 1. each form of the robot, as [`forms`](PictureMaker::forms) has them: place, quaternion x y z w;
-/// 2. each part that is seen: kind, place, quaternion x y z w, who holds it (0 nobody, 1 the robot, 2 the person); -1 for none;
+/// 2. each part that is seen, or was and may still be there: kind, place, quaternion x y z w, who holds it (0 nobody, 1 the robot, 2 the person,
+///    3 who knows: something is before it); -1 for none;
 /// 3. the nine keypoints as measured: place, confidence;
 /// 4. shoulder, elbow, wrist and finger tip as perceived: place, radius within which it may be, age;
 /// 5. the same four as they truly are;
@@ -34,6 +36,7 @@ pub struct PictureMaker {
     mechanism: Mechanism,
     radii: [f64; 3],
     hand: ShapedHand,
+    parts: SeenParts,
     /// Cycle and place of the robot's hand in the picture before.
     last_hand: Option<(u64, Point3<f64>)>,
 }
@@ -49,6 +52,8 @@ struct ShapedHand {
 const FINGERS_MOVED: f64 = 0.01;
 /// A part that is held is not farther than this from the hand that holds it, m.
 const HELD_WITHIN: f64 = 0.12;
+/// A part that was not seen for so long is covered, cycles. Chosen by hand: a recogniser misses one in a frame or two.
+const COVERED: u64 = 500;
 /// Above this, somebody holds a part, or a goal is inferred: the middle between not at all and surely.
 const SURE: f64 = 0.5;
 /// Deviations beyond which hardly anything is, for the eye.
@@ -73,7 +78,16 @@ impl PictureMaker {
         let mechanism = Mechanism::of(&robot)?;
         let fingers = [0.0; HAND_JOINTS];
         let hand = ShapedHand { fingers, model: mechanism.with_fingers(&robot.hand, &fingers)? };
-        Ok(Self { task, plan, robot, mechanism, radii: person.radii, hand, last_hand: None })
+        Ok(Self {
+            task,
+            plan,
+            robot,
+            mechanism,
+            radii: person.radii,
+            hand,
+            parts: SeenParts::none(),
+            last_hand: None,
+        })
     }
 
     /// The task.
@@ -133,13 +147,14 @@ impl PictureMaker {
         model.bounding_capsules(&self.mechanism, &posture)
     }
 
-    fn draw_parts(&self, seen: &Seen, numbers: &mut Numbers) {
-        let sightings = seen.sample.map(|sample| sample.scene.sightings()).unwrap_or_default();
-        let count = sightings.len().min(self.task.parts.len());
-        for part in &sightings[..count] {
+    fn draw_parts(&mut self, seen: &Seen, numbers: &mut Numbers) {
+        seen.sample.into_iter().for_each(|sample| self.parts.see(&sample.scene, &self.task));
+        let count = self.parts.all().len().min(self.task.parts.len());
+        for (part, cycle) in self.parts.with_cycles().take(count) {
             numbers.push(f64::from(part.kind));
             numbers.extend(part.position.iter().chain(&part.orientation));
-            numbers.push(self.holder(part, seen));
+            let covered = self.parts.newest().saturating_sub(cycle) > COVERED;
+            numbers.push(if covered { 3.0 } else { self.holder(part, seen) });
         }
         for _ in count..self.task.parts.len() {
             numbers.push(-1.0);
@@ -323,6 +338,7 @@ fn draw_destinations(frame: Option<&FieldFrame>, numbers: &mut Numbers) {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use coact_messages::{Surface, TableGrid};
     use std::path::Path;
 
     fn maker() -> PictureMaker {
@@ -364,6 +380,7 @@ mod tests {
         let mut sample: Box<SensorSample> = bytemuck::zeroed_box();
         sample.joints.position[..7].copy_from_slice(&maker.robot.park);
         sample.scene.sightings = 1;
+        sample.scene.captured_cycle = 33;
         sample.scene.sighting[0] = Sighting {
             kind: 1,
             position: [-0.4, 0.5, 0.8],
@@ -389,5 +406,15 @@ mod tests {
         let part = &drawn[links * 7..][..9];
         assert_eq!(part, [1.0, -0.4, 0.5, 0.8, 0.0, 0.0, 0.0, 1.0, 0.0]);
         assert_eq!(drawn[links * 7 + 9], -1.0);
+        // Something is before it then.
+        let Surface { grid, level, height } = &mut sample.scene.surface;
+        let scene = &maker.task.scene;
+        (*grid, *level) =
+            (TableGrid { first: [-1.5, -0.5], spacing: 0.04, sites: [60, 60] }, scene.table_height);
+        height.fill(30);
+        (sample.scene.sightings, sample.scene.captured_cycle) = (0, 33 + COVERED + 1);
+        let seen = Seen { sample: Some(&sample), ..Seen::default() };
+        let drawn = numbers(&maker.glimpse(&seen).unwrap().picture);
+        assert_eq!(drawn[links * 7..][..9], [1.0, -0.4, 0.5, 0.8, 0.0, 0.0, 0.0, 1.0, 3.0]);
     }
 }

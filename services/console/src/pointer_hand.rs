@@ -314,11 +314,13 @@ mod tests {
     fn it_reaches_opens_closes_carries_and_lets_go() {
         let task = task();
         let mut hand = PointerHand::new(&task);
-        let wheel =
-            Thing { kind: 0, centre: DVec3::new(-0.98, 0.02, 0.8125), width: task.kinds[0].width, seen: 0 };
+        let wheel = Thing { kind: 0, centre: DVec3::new(-0.98, 0.02, 0.8125), width: task.kinds[0].width };
         let socket = DVec3::from(task.subgoals[0].socket) + 0.0125 * DVec3::from(task.subgoals[0].axis);
-        let around =
-            Surroundings { things: vec![wheel], sockets: vec![crate::Socket { kind: 0, centre: socket }] };
+        let around = Surroundings {
+            things: vec![wheel],
+            sockets: vec![crate::Socket { kind: 0, centre: socket }],
+            ..Surroundings::none()
+        };
         let free = second(&mut hand, &pointer(DVec3::new(-0.9, 0.5, 0.0), false), &around);
         assert!((middle(&free).z - task.scene.table_height - HOVERS).abs() < 0.005);
         assert!((aperture(&free) - RELAXED).abs() < 0.002);
@@ -352,13 +354,13 @@ mod tests {
     fn fingers_close_when_the_hand_has_come_and_on_nothing_they_close_alone() {
         let task = task();
         let mut hand = PointerHand::new(&task);
-        let around = Surroundings::default();
+        let around = Surroundings::none();
         let far = DVec3::new(-0.7, 0.5, 0.0);
         assert!((aperture(&second(&mut hand, &pointer(far, true), &around)) - CLOSED).abs() < 0.001);
         assert_eq!(hand.held, None);
         second(&mut hand, &pointer(DVec3::new(-0.9, 0.2, 0.0), false), &around);
-        let thing = Thing { kind: 0, centre: far.with_z(0.8125), width: task.kinds[0].width, seen: 0 };
-        let around = Surroundings { things: vec![thing], sockets: Vec::new() };
+        let thing = Thing { kind: 0, centre: far.with_z(0.8125), width: task.kinds[0].width };
+        let around = Surroundings { things: vec![thing], ..Surroundings::none() };
         let on_the_way = hand.step(&pointer(far, true), &around, FRAME);
         assert!(hand.held.is_some() && aperture(&on_the_way) > RELAXED - 0.01);
         let there = second(&mut hand, &pointer(far, true), &around);
@@ -371,8 +373,8 @@ mod tests {
         let mut hand = PointerHand::new(&task);
         let nut = DVec3::new(-0.36, 0.52, 0.81);
         let around = Surroundings {
-            things: vec![Thing { kind: 1, centre: nut, width: task.kinds[1].width, seen: 0 }],
-            ..Surroundings::default()
+            things: vec![Thing { kind: 1, centre: nut, width: task.kinds[1].width }],
+            ..Surroundings::none()
         };
         let points = second(&mut hand, &Pointer { pointing: true, ..pointer(nut, false) }, &around);
         let at = |name: KeypointName| points[name as usize];
@@ -381,8 +383,7 @@ mod tests {
         let reach = |name: KeypointName| at(name).distance(at(KeypointName::Wrist));
         assert!(reach(KeypointName::IndexTip) > reach(KeypointName::MiddleTip) + 0.05);
         assert!(at(KeypointName::IndexTip).distance(nut) > 0.3, "it stays on the person's side");
-        let relaxed =
-            second(&mut hand, &pointer(DVec3::new(-0.9, 0.2, 0.0), false), &Surroundings::default());
+        let relaxed = second(&mut hand, &pointer(DVec3::new(-0.9, 0.2, 0.0), false), &Surroundings::none());
         assert!((aperture(&relaxed) - RELAXED).abs() < 0.002);
     }
 
@@ -392,10 +393,10 @@ mod tests {
         let mut hand = PointerHand::new(&task);
         let handover = DVec3::from(task.scene.handover);
         let shown = Pointer { gesture: Some(0), ..pointer(handover, false) };
-        let points = second(&mut hand, &shown, &Surroundings::default());
+        let points = second(&mut hand, &shown, &Surroundings::none());
         assert!(aperture(&points) > 0.09 && middle(&points).distance(handover) < 0.01);
         let rest = hand.model.centre(&hand.model.rest());
-        let points = second(&mut hand, &pointer(rest, false), &Surroundings::default());
+        let points = second(&mut hand, &pointer(rest, false), &Surroundings::none());
         assert!(middle(&points).distance(rest) < 0.01 && aperture(&points) < 0.04);
     }
 }

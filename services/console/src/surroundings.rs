@@ -1,19 +1,22 @@
 use crate::Seen;
 use coact_joint_task::Task;
-use coact_messages::SensorSample;
+use coact_messages::Sighting;
+use coact_seen_parts::SeenParts;
 use glam::{DQuat, DVec3};
 
-/// What the person at the pointer sees: the parts, and the places that are free for what she holds. A part that a hand covers is
+/// What the person at the pointer sees: the parts, and the places that are free for what she holds. A part that something covers is
 /// remembered where it was seen last.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Surroundings {
-    /// Parts that are seen, or were a moment ago.
+    /// What the camera has shown of them.
+    pub(crate) parts: SeenParts,
+    /// Parts that are seen, or were and may still be there.
     pub things: Vec<Thing>,
     /// Sockets that nothing is in yet.
     pub sockets: Vec<Socket>,
 }
 
-/// A part that is seen, or was a moment ago.
+/// A part that is seen, or was and may still be there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thing {
     /// Kind of part.
@@ -22,8 +25,6 @@ pub struct Thing {
     pub centre: DVec3,
     /// How far the fingers close on it, m.
     pub width: f64,
-    /// Cycle in which it was seen last.
-    pub seen: u64,
 }
 
 /// A place that is free for a part.
@@ -37,14 +38,19 @@ pub struct Socket {
 
 /// Above this, a subgoal counts as achieved.
 const ACHIEVED: f64 = 0.5;
-/// For how long a part that is not seen is taken to be where it was, cycles. Chosen by hand: longer than a hand covers it.
-const REMEMBERED: u64 = 3_000;
 
 impl Surroundings {
+    /// None: nothing has been seen yet.
+    pub fn none() -> Self {
+        Self { parts: SeenParts::none(), things: Vec::new(), sockets: Vec::new() }
+    }
+
     /// Takes in what the newest messages show.
     pub fn look(&mut self, task: &Task, seen: &Seen) {
         if let Some(sample) = seen.sample {
-            self.look_at_parts(task, sample);
+            self.parts.see(&sample.scene, task);
+            self.things.clear();
+            self.things.extend(self.parts.all().iter().filter_map(|part| thing(task, part)));
         }
         let open = |subgoal: &usize| {
             let achieved = |percept: &coact_messages::Percept| percept.achieved.get(*subgoal).copied();
@@ -59,43 +65,30 @@ impl Surroundings {
         self.sockets.clear();
         self.sockets.extend(sockets);
     }
+}
 
-    fn look_at_parts(&mut self, task: &Task, sample: &SensorSample) {
-        let now = sample.header.cycle;
-        let mut missing = std::mem::take(&mut self.things);
-        for part in sample.scene.sightings() {
-            let Some(kind) = task.kinds.get(part.kind as usize) else { continue };
-            let half = DQuat::from_array(part.orientation) * DVec3::Z * (0.5 * kind.shape.height());
-            let centre = DVec3::from(part.position) + half;
-            let thing = Thing { kind: part.kind as usize, centre, width: kind.width, seen: now };
-            let same = missing.iter().enumerate().filter(|(_, then)| then.kind == thing.kind);
-            let away = |then: &Thing| then.centre.distance(centre);
-            let nearest = same.min_by(|one, other| away(one.1).total_cmp(&away(other.1)));
-            if let Some((index, _)) = nearest {
-                missing.swap_remove(index);
-            }
-            self.things.push(thing);
-        }
-        missing.retain(|then| now.saturating_sub(then.seen) < REMEMBERED);
-        self.things.append(&mut missing);
-    }
+/// `None` where its kind is none of the task's.
+fn thing(task: &Task, part: &Sighting) -> Option<Thing> {
+    let kind = task.kinds.get(part.kind as usize)?;
+    let half = DQuat::from_array(part.orientation) * DVec3::Z * (0.5 * kind.shape.height());
+    Some(Thing { kind: part.kind as usize, centre: DVec3::from(part.position) + half, width: kind.width })
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use coact_messages::Sighting;
+    use coact_messages::SensorSample;
     use std::path::Path;
 
     #[test]
-    fn a_part_that_is_covered_is_remembered_for_a_while_and_one_that_moves_is_the_same() {
+    fn a_part_that_is_covered_is_remembered_and_places_are_free_until_something_is_in_them() {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/toy-vehicle.toml");
         let task = Task::load(&file).unwrap();
         let mut sample: Box<SensorSample> = bytemuck::zeroed_box();
-        let mut around = Surroundings::default();
+        let mut around = Surroundings::none();
         let mut look = |cycle: u64, places: &[[f64; 3]]| {
-            sample.header.cycle = cycle;
+            sample.scene.captured_cycle = cycle;
             sample.scene.sightings = places.len() as u32;
             for (sighting, place) in sample.scene.sighting.iter_mut().zip(places) {
                 let orientation = [0.0, 0.0, 0.0, 1.0];
@@ -105,8 +98,7 @@ mod tests {
             around.things.iter().map(|thing| (thing.centre.x * 100.0).round()).collect::<Vec<_>>()
         };
         assert_eq!(look(1, &[[-0.9, 0.0, 0.8], [-0.5, 0.0, 0.8]]), [-90.0, -50.0]);
-        assert_eq!(look(20, &[[-0.7, 0.0, 0.9]]), [-70.0, -90.0]);
-        assert_eq!(look(3_100, &[[-0.7, 0.0, 0.9]]), [-70.0]);
+        assert_eq!(look(34, &[[-0.5, 0.05, 0.8]]), [-50.0, -90.0]);
         assert_eq!(around.sockets.len(), task.subgoals.len());
     }
 }

@@ -9,7 +9,7 @@ use crate::robot::{CollisionModels, RobotModel};
 use crate::servo::{ArmStep, Servo};
 use crate::state::{ControlState, SkillPhase};
 use crate::{ControlError, reachability};
-use coact_joint_task::{Action, Task};
+use coact_joint_task::Task;
 use coact_messages::{
     ARM_JOINTS, Command, DriveReport, FieldFrame, JOINTS, MotionPhase, NONE, Percept, SensorSample,
 };
@@ -31,7 +31,7 @@ const SLOWEST: f64 = 0.01;
 pub struct Control {
     pub(crate) model: RobotModel,
     pub(crate) goals: HandGoals,
-    pub(crate) actions: Vec<Action>,
+    pub(crate) task: Task,
     pub(crate) limits: SafetyLimits,
     pub(crate) servo: Servo,
     pub(crate) guard: Guard,
@@ -102,7 +102,7 @@ impl Control {
             state: ControlState::at_rest(park),
             guard,
             planner,
-            actions: task.actions.clone(),
+            task: task.clone(),
             model,
             goals,
             limits: *limits,
@@ -160,7 +160,7 @@ impl Control {
         let halted = drive.is_some_and(holds);
         let before = self.servo.position();
         let inputs = Inputs::new(&self.limits.stale, tick, sample, percept, frame);
-        inputs.scene().into_iter().for_each(|scene| self.state.seen.see(scene));
+        inputs.scene().into_iter().for_each(|scene| self.state.seen.see(scene, &self.task));
         if !inputs.blind() && !halted {
             self.pursue(&inputs);
             self.decide(&inputs);
@@ -199,7 +199,7 @@ impl Control {
     /// Takes over state and setpoints of a command; `false`, and nothing changed, when they are not sound.
     fn take_over(&mut self, command: &Command) -> bool {
         let (actions, kinds, grips) =
-            (self.actions.len(), self.model.part_capsules.len(), self.model.grips.all().len());
+            (self.task.actions.len(), self.model.part_capsules.len(), self.model.grips.all().len());
         let state = ControlState::load(&command.state).ok();
         let state = state.filter(|state| state.is_of_task(actions, kinds, grips));
         let sound =

@@ -22,13 +22,13 @@ const IN_HAND: f64 = 0.15;
 impl Control {
     /// Begins another skill when the decision asks for one, as soon as the present phase allows it.
     pub(crate) fn decide(&mut self, inputs: &Inputs) {
-        skill_choice::age(&mut self.state.decisions, &self.state.hand, inputs, &self.actions);
+        skill_choice::age(&mut self.state.decisions, &self.state.hand, inputs, &self.task.actions);
         self.notice_part(inputs);
         let serves = |decision: &_| skill_choice::decided_action(decision) == self.state.skill.action;
         if let Some(decision) = inputs.decision().filter(serves) {
             self.state.skill.since = decision.since;
         }
-        let choice = SkillChoice::of(&self.state, inputs, &self.actions);
+        let choice = SkillChoice::of(&self.state, inputs, &self.task.actions);
         let phase = self.state.skill.phase();
         let is_done = phase == SkillPhase::Idle && !self.state.skill.is_parking();
         let is_silent = (1..SILENCE).contains(&self.state.decisions.silent);
@@ -95,7 +95,7 @@ impl Control {
             Skill::Park => None,
             Skill::Pick => inputs.part(ROBOT, kind?).map(|seen| self.goals.above_table(seen)),
             Skill::Insert | Skill::Steady => {
-                Some(self.goals.socket(self.actions.get(skill.action.get()?)?.subgoal?))
+                Some(self.goals.socket(self.task.actions.get(skill.action.get()?)?.subgoal?))
             }
             Skill::PutBack => {
                 let hand = &self.state.hand;

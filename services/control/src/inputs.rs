@@ -1,11 +1,10 @@
 use crate::person::PersonCapsules;
-use crate::sighting_frame::{SHORTEST, frame_of};
-use crate::state::SeenParts;
 use coact_messages::{ARM_JOINTS, Decision, FieldFrame, Percept, PersonArm, ROBOT, SceneView, SensorSample};
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
 use coact_robot::HAND_JOINTS;
 use coact_safety::{SafetyLimits, StaleLimits};
+use coact_seen_parts::{SHORTEST, SeenParts, frame_of};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
 /// Touch below this is nothing, N. Chosen by hand: above a sensor's noise, and fingers that are closed on a part press far harder.

@@ -52,7 +52,6 @@ mod reachability;
 mod resynchronise;
 mod robot;
 mod servo;
-mod sighting_frame;
 mod skill_choice;
 mod state;
 mod verify;

@@ -206,7 +206,7 @@ impl Control {
     fn next_use(&self) -> (NextUse, Option<Isometry3<f64>>) {
         let skill = &self.state.skill;
         let index = skill.action.get().filter(|_| skill.skill == Skill::Pick);
-        let action = index.and_then(|index| self.actions.get(index));
+        let action = index.and_then(|index| self.task.actions.get(index));
         match action.map(|action| (action.action_type, action.subgoal)) {
             Some((ActionType::Insert, Some(subgoal))) => {
                 (NextUse::Insert { depth: INSERTION_DEPTH }, Some(self.goals.socket(subgoal)))

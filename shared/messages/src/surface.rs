@@ -21,6 +21,9 @@ pub struct Surface {
 /// The height of a site of which the camera has told nothing.
 pub const UNMEASURED: u8 = u8::MAX;
 
+/// How much higher than something what is seen in its direction must be to hide it, m: a depth camera's scatter, and its steps.
+const SCATTER: f64 = 0.02;
+
 impl Surface {
     /// How high what the eye sees in the direction of `place` reaches above it, m: the highest of the sites around that direction;
     /// `None` where the picture does not tell.
@@ -34,6 +37,12 @@ impl Surface {
             (height != UNMEASURED).then_some(highest.max(height))
         });
         Some(0.01 * f64::from(highest?) - (place[2] - self.level))
+    }
+
+    /// Whether the eye may not see what stands at `place` and is so high, m: something higher is seen in its direction, or the picture does not
+    /// tell.
+    pub fn hides(&self, eye: [f64; 3], place: [f64; 3], height: f64) -> bool {
+        self.above(eye, place).is_none_or(|above| above > height + SCATTER)
     }
 
     /// Where the line of sight through `place` meets the plane, m; `None` for a place that is not below the eye.

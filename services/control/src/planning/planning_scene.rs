@@ -1,10 +1,10 @@
 use super::{HandGoals, PlanningQuery};
 use crate::robot::{CollisionModels, GripGoal, RobotModel};
-use crate::sighting_frame::frame_of;
 use crate::state::Skill;
 use coact_joint_task::{Fixture, Shape, Task};
 use coact_motion::{Capsule, CollisionModel, Mechanism, Obstacle, Scene, Solid};
 use coact_safety::SafetyLimits;
+use coact_seen_parts::frame_of;
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// What the arm keeps clear of on its way, and what the hand may touch.

@@ -1,4 +1,4 @@
-use crate::state::SeenParts;
+use coact_seen_parts::SeenParts;
 
 /// What the camera has shown beside the person: of fixed size.
 #[derive(Debug, Clone, Copy)]

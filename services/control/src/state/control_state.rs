@@ -1,10 +1,11 @@
 use super::{
-    ArmState, DecisionState, FINGER_JOINTS, FingerState, HandState, MovementQuery, PlanningState, SeenParts,
-    Skill, SkillPhase, SkillState,
+    ArmState, DecisionState, FINGER_JOINTS, FingerState, HandState, MovementQuery, PlanningState, Skill,
+    SkillPhase, SkillState,
 };
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_messages::{ARM_JOINTS, JOINTS};
 use coact_robot::Posture;
+use coact_seen_parts::SeenParts;
 use coact_stage_state::{Flag, Implausible, StageState};
 
 /// All that control keeps from cycle to cycle, besides the setpoints.
@@ -22,7 +23,7 @@ pub(crate) struct ControlState {
 
 impl StageState for ControlState {
     const STAGE: &'static str = "control";
-    const LAYOUT: u32 = 7;
+    const LAYOUT: u32 = 8;
 
     fn check(&self) -> Result<(), Implausible> {
         let Self { arm, fingers, skill, hand, planning, decisions: _, seen } = self;

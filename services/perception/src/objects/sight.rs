@@ -1,8 +1,6 @@
 use coact_messages::SceneView;
 
-/// How much higher than something what is seen in its direction must be to hide it, m: a depth camera's scatter, and its steps.
-const SCATTER: f64 = 0.02;
-/// The same for a hand, m: its own back is as high above its middle.
+/// How much higher than a hand what is seen in its direction must be to hide it, m: its own back is as high above its middle.
 const BACK: f64 = 0.05;
 
 /// What the robot's eye sees of the table, in the recogniser's newest frame.
@@ -18,15 +16,11 @@ impl Sight<'_> {
     /// Whether the eye may not see what stands at `place` and is so high, m: something higher is seen in its direction, or the picture does not
     /// tell.
     pub fn hides(&self, place: [f64; 3], height: f64) -> bool {
-        self.above(place).is_none_or(|above| above > height + SCATTER)
+        self.view.surface.hides(self.eye, place, height)
     }
 
     /// Whether something is seen before a hand at `place`.
     pub fn hides_hand(&self, place: [f64; 3]) -> bool {
-        self.above(place).is_some_and(|above| above > BACK)
-    }
-
-    fn above(&self, place: [f64; 3]) -> Option<f64> {
-        self.view.surface.above(self.eye, place)
+        self.view.surface.above(self.eye, place).is_some_and(|above| above > BACK)
     }
 }

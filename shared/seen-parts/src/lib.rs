@@ -1,45 +1,65 @@
-use crate::sighting_frame::frame_of;
+//! Where parts are, by the newest camera frames of the recogniser.
+//!
+//! It misses some in each frame, and others are hidden: by a board, by the person's arm, by the robot's own. What is not seen is taken to be
+//! where it was, until its place is seen bare.
+
+mod sighting_frame;
+
+pub use sighting_frame::{SHORTEST, frame_of};
+
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
+use coact_joint_task::Task;
 use coact_messages::{MAX_PARTS, SceneView, Sighting};
 use coact_period::cycles;
 use coact_stage_state::{Implausible, ensure};
 use std::time::Duration;
 
-/// Where parts are, by the newest camera frames: the recogniser misses some in each frame, and what it misses is still there.
+/// All parts that are seen, or were and may still be there. Words of a stage's state.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, CheckedBitPattern, NoUninit, Zeroable)]
-pub(crate) struct SeenParts {
+pub struct SeenParts {
     /// Those of the newest frame, in its order; then those that are missing in it.
     parts: [Sighting; MAX_PARTS],
     /// Cycle of the frame in which each was seen last.
     seen: [u64; MAX_PARTS],
+    /// Cycle of the frame before its place was seen bare, or of the newest one.
+    covered: [u64; MAX_PARTS],
     count: u64,
     /// Cycle of the newest frame.
     newest: u64,
 }
 
-/// What is not seen for so long is elsewhere, or hidden. Chosen by hand: 15 frames, all of which a recogniser that misses one
-/// part in four misses once in 10⁹ times.
+/// A part whose place is seen bare for so long is elsewhere. Chosen by hand: 15 frames, all of which a recogniser that misses one part
+/// in four misses once in 10⁹ times.
 const FORGOTTEN: u64 = cycles(Duration::from_millis(500));
 /// A part moves no farther than this from one frame to the next, m: as a hand carries it. One that seems to is another one of its kind.
 const MOVES: f64 = 0.06;
 
 impl SeenParts {
-    /// Takes in a frame, once.
-    pub fn see(&mut self, scene: &SceneView) {
+    /// None: no frame has come yet.
+    pub fn none() -> Self {
+        Self::zeroed()
+    }
+
+    /// Takes in a frame of this task's parts, once. One that is older than the newest begins anew: time has gone back.
+    pub fn see(&mut self, scene: &SceneView, task: &Task) {
         if scene.captured_cycle == self.newest {
             return;
+        }
+        if scene.captured_cycle < self.newest {
+            *self = Self::none();
         }
         let (before, mut missing) = (*self, [true; MAX_PARTS]);
         self.newest = scene.captured_cycle;
         self.count = 0;
         for part in scene.sightings() {
             before.nearest(part).into_iter().for_each(|old| missing[old] = false);
-            self.remember(*part, self.newest);
+            self.remember(*part, self.newest, self.newest);
         }
         for (index, part) in before.all().iter().enumerate().filter(|(index, _)| missing[*index]) {
-            if self.newest.saturating_sub(before.seen[index]) < FORGOTTEN {
-                self.remember(*part, before.seen[index]);
+            let covered = if hides(scene, task, part) { self.newest } else { before.covered[index] };
+            if self.newest.saturating_sub(covered) < FORGOTTEN {
+                self.remember(*part, before.seen[index], covered);
             }
         }
     }
@@ -54,6 +74,15 @@ impl SeenParts {
         self.all().iter().zip(self.seen)
     }
 
+    /// Cycle of the newest frame; 0 before the first.
+    pub fn newest(&self) -> u64 {
+        self.newest
+    }
+
+    /// Refuses what is none.
+    ///
+    /// # Errors
+    /// What is implausible of it.
     pub fn check(&self) -> Result<(), Implausible> {
         ensure(self.count <= MAX_PARTS as u64, "seen.count", "a number of parts")
     }
@@ -68,18 +97,32 @@ impl SeenParts {
         nearest.filter(|(_, distance)| *distance < MOVES).map(|(index, _)| index)
     }
 
-    fn remember(&mut self, part: Sighting, seen: u64) {
+    fn remember(&mut self, part: Sighting, seen: u64, covered: u64) {
         let index = self.count as usize;
         if index < MAX_PARTS {
-            (self.parts[index], self.seen[index]) = (part, seen);
+            (self.parts[index], self.seen[index], self.covered[index]) = (part, seen, covered);
             self.count += 1;
         }
     }
 }
 
+/// Whether the eye may not see such a part where it was. Where there is no depth camera, nothing tells: it is forgotten in time.
+fn hides(scene: &SceneView, task: &Task, part: &Sighting) -> bool {
+    let height = task.kinds.get(part.kind as usize).map_or(0.0, |kind| kind.shape.height());
+    scene.surface.grid.used() > 0 && scene.surface.hides(task.scene.eye(), part.position, height)
+}
+
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 mod tests {
     use super::*;
+    use coact_messages::{TableGrid, UNMEASURED};
+    use std::path::Path;
+
+    fn task() -> Task {
+        Task::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/toy-vehicle.toml"))
+            .unwrap()
+    }
 
     fn sighting(kind: u32, x: f64) -> Sighting {
         Sighting { kind, position: [x, 0.0, 0.0], orientation: [0.0, 0.0, 0.0, 1.0], ..Sighting::default() }
@@ -93,7 +136,8 @@ mod tests {
 
     fn after(frames: &[(u64, &[Sighting])]) -> Vec<(u32, f64)> {
         let mut seen = SeenParts::zeroed();
-        frames.iter().for_each(|(at, parts)| seen.see(&frame(*at, parts)));
+        let task = task();
+        frames.iter().for_each(|(at, parts)| seen.see(&frame(*at, parts), &task));
         seen.all().iter().map(|part| (part.kind, part.position[0])).collect()
     }
 
@@ -110,8 +154,8 @@ mod tests {
     fn each_has_the_cycle_of_the_frame_that_showed_it_last() {
         let [one, other] = [sighting(0, 0.0), sighting(1, 0.1)];
         let mut seen = SeenParts::zeroed();
-        seen.see(&frame(33, &[one, other]));
-        seen.see(&frame(66, &[other]));
+        seen.see(&frame(33, &[one, other]), &task());
+        seen.see(&frame(66, &[other]), &task());
         let cycles: Vec<_> = seen.with_cycles().map(|(part, cycle)| (part.kind, cycle)).collect();
         assert_eq!(cycles, [(1, 66), (0, 33)]);
     }
@@ -129,6 +173,36 @@ mod tests {
         let frames: Vec<(u64, &[Sighting])> =
             carried.iter().zip(1..).map(|(parts, at)| (33 * at, &parts[..])).collect();
         assert_eq!(after(&frames), [(0, 0.05 * 19.0)]);
+    }
+
+    #[test]
+    fn what_something_hides_stays_where_it_was_until_its_place_is_seen_bare() {
+        let task = task();
+        let [x, y] = task.scene.table_centre;
+        let part = Sighting { position: [x, y, task.scene.table_height], ..sighting(0, 0.0) };
+        let (mut seen, mut view) = (SeenParts::none(), frame(33, &[part]));
+        view.surface.grid = TableGrid { first: [x - 0.5, y - 0.5], spacing: 0.02, sites: [51, 51] };
+        view.surface.level = task.scene.table_height;
+        seen.see(&view, &task);
+        let mut look = |frames: u64, height: u8| {
+            view.sightings = 0;
+            view.surface.height.fill(height);
+            for _ in 0..frames {
+                view.captured_cycle += 33;
+                seen.see(&view, &task);
+            }
+            seen.all().len()
+        };
+        assert_eq!(look(1_000, 40), 1, "an arm is before it");
+        assert_eq!(look(1_000, UNMEASURED), 1, "the picture does not tell");
+        assert_eq!(look(14, 0), 1, "a recogniser misses one now and then");
+        assert_eq!(look(2, 0), 0, "it is elsewhere");
+    }
+
+    #[test]
+    fn when_time_goes_back_all_begins_anew() {
+        let (one, other): (&[Sighting], &[Sighting]) = (&[sighting(0, 0.0)], &[sighting(1, 0.0)]);
+        assert_eq!(after(&[(66, one), (33, other)]), [(1, 0.0)]);
     }
 
     #[test]
