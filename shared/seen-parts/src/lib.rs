@@ -12,6 +12,7 @@ use coact_joint_task::Task;
 use coact_messages::{MAX_PARTS, SceneView, Sighting};
 use coact_period::cycles;
 use coact_stage_state::{Implausible, ensure};
+use nalgebra::Vector3;
 use std::time::Duration;
 
 /// All parts that are seen, or were and may still be there. Words of a stage's state.
@@ -34,6 +35,9 @@ pub struct SeenParts {
 const FORGOTTEN: u64 = cycles(Duration::from_millis(500));
 /// A part moves no farther than this from one frame to the next, m: as a hand carries it. One that seems to is another one of its kind.
 const MOVES: f64 = 0.06;
+/// How high above the table top a part may be and still lie on it, and how near to its place it is in it, m: a few centimetres. Chosen by hand.
+const ON_TABLE: f64 = 0.05;
+const IN_PLACE: f64 = 0.03;
 
 impl SeenParts {
     /// None: no frame has come yet.
@@ -57,7 +61,8 @@ impl SeenParts {
             self.remember(*part, self.newest, self.newest);
         }
         for (index, part) in before.all().iter().enumerate().filter(|(index, _)| missing[*index]) {
-            let covered = if hides(scene, task, part) { self.newest } else { before.covered[index] };
+            let is_there = lies(task, part) && hides(scene, task, part);
+            let covered = if is_there { self.newest } else { before.covered[index] };
             if self.newest.saturating_sub(covered) < FORGOTTEN {
                 self.remember(*part, before.seen[index], covered);
             }
@@ -104,6 +109,13 @@ impl SeenParts {
             self.count += 1;
         }
     }
+}
+
+/// Whether a part lies on the table or is in its place: one in the air is in a hand, and goes with it.
+fn lies(task: &Task, part: &Sighting) -> bool {
+    let at = Vector3::from(part.position);
+    let in_place = task.subgoals.iter().any(|goal| (Vector3::from(goal.socket) - at).norm() < IN_PLACE);
+    in_place || at.z < task.scene.table_height + ON_TABLE
 }
 
 /// Whether the eye may not see such a part where it was. Where there is no depth camera, nothing tells: it is forgotten in time.
@@ -197,6 +209,20 @@ mod tests {
         assert_eq!(look(1_000, UNMEASURED), 1, "the picture does not tell");
         assert_eq!(look(14, 0), 1, "a recogniser misses one now and then");
         assert_eq!(look(2, 0), 0, "it is elsewhere");
+    }
+
+    #[test]
+    fn what_a_hand_carries_behind_something_does_not_stay_in_the_air() {
+        let task = task();
+        let [x, y] = task.scene.table_centre;
+        let part = Sighting { position: [x, y, task.scene.table_height + 0.2], ..sighting(0, 0.0) };
+        let (mut seen, mut view) = (SeenParts::none(), frame(33, &[part]));
+        view.surface.grid = TableGrid { first: [x - 0.5, y - 0.5], spacing: 0.02, sites: [51, 51] };
+        view.surface.height.fill(UNMEASURED);
+        seen.see(&view, &task);
+        (view.sightings, view.captured_cycle) = (0, 33 + FORGOTTEN);
+        seen.see(&view, &task);
+        assert!(seen.all().is_empty());
     }
 
     #[test]

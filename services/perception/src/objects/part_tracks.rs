@@ -199,11 +199,13 @@ impl PartTracks {
         self.palm = palm.map_or([0.0; 7], pose_words);
     }
 
-    /// Gives up parts whose place has been in view and empty for long enough; those that were not believed in yet, at once.
+    /// Gives up parts whose place has been in view and empty for long enough; those that were not believed in yet, at once. What the robot's
+    /// fingers feel needs no eye.
     fn miss(&mut self, sight: &Sight, cycles: u64, places: &TaskPlaces) {
         for track in &mut self.tracks {
             let Some(kind) = track.kind().filter(|_| track.seen < self.captured) else { continue };
-            if !sight.hides(track.position, places.size(kind).height) {
+            let felt = track.is_with_the_robot();
+            if !felt && !sight.hides(track.position, places.size(kind).height) {
                 track.absent = track.absent.saturating_add(cycles as u32);
             }
             if track.absent > ABSENT || !track.is_believed() {

@@ -32,8 +32,8 @@ const IMAGINED: f64 = 0.01;
 /// Confidence of those that it reports. Not sensitive: it only has to be high.
 const CONFIDENCE: std::ops::Range<f64> = 0.85..0.99;
 
-/// Takes a frame when one is due: a picture of depth, and all parts; parts in hands and mounted parts are seen where they are, those that
-/// something hides are not. Now and then a part is missed or taken for one of another kind, or one is seen where there is none.
+/// Takes a frame when one is due: a picture of depth, and all parts; parts in hands and mounted parts are seen where they are, those whose
+/// upper face something hides are not. Now and then a part is missed or taken for one of another kind, or one is seen where there is none.
 pub(crate) fn recognise(
     tick: u64,
     last: Option<u64>,
@@ -57,7 +57,8 @@ pub(crate) fn recognise(
         let missed = rng.random_bool(MISSED);
         let taken_for = taken_for(part, tick, random, task).unwrap_or(parts.kind(part));
         let sighting = Sighting { kind: taken_for as u32, ..sighting(part, parts, &mut rng) };
-        if !missed && !sight.hide(parts.position(part).into()) {
+        let top = parts.position(part) + parts.orientation(part) * DVec3::Z * height(task, parts.kind(part));
+        if !missed && !sight.hide(top.into()) {
             view.sighting[view.sightings as usize] = sighting;
             view.sightings += 1;
         }
@@ -67,6 +68,10 @@ pub(crate) fn recognise(
         view.sightings += 1;
     }
     picture(sight, &task.scene, &mut random.at(Stream::Depth, tick), &mut view.surface);
+}
+
+fn height(task: &Task, kind: usize) -> f64 {
+    task.kinds[kind].shape.height()
 }
 
 /// The kind that a part is mistaken for at `tick`, if it is.
