@@ -11,7 +11,7 @@ const GAP: f64 = 0.01;
 const THICKNESS: f64 = 0.02;
 /// How much wider and higher it is than what it hides, m: five times the scatter of the tracker.
 const OVERLAP: f64 = 0.01;
-/// Last part of a reach that is hidden as well, as a fractivity of its time: the hand has all but arrived.
+/// Last part of a reach that is hidden as well, as a fraction of its time: the hand has all but arrived.
 const ARRIVAL: f64 = 0.2;
 /// Poses of the hand on it that are hidden. More change nothing: the hand moves slowly there.
 const STEPS: u32 = 4;

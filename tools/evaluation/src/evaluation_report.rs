@@ -36,6 +36,8 @@ pub struct EvaluationReport {
     pub wrong_of_hidden: Proportion,
     /// ... for which none stood.
     pub absent_of_hidden: Proportion,
+    /// Valid actions of hidden hands to which plan and memory left one goal, and it stood rightly in IL at grasp completion.
+    pub right_of_hidden_one_goal: Proportion,
     /// Wrong actions whose goal stood rightly in IL at grasp completion.
     pub right_of_errors: Proportion,
     /// Valid actions in full view whose complementary action was decided before grasp completion.
@@ -152,6 +154,8 @@ impl EvaluationReport {
         let grasped = || actions.iter().copied().filter(|action| action.grasp_ms.is_some());
         let (hidden, valid): (Vec<_>, Vec<_>) =
             grasped().filter(|action| action.error.is_none()).partition(|action| action.hidden);
+        let with_one_goal: Vec<_> =
+            hidden.iter().copied().filter(|action| action.hidden_goals == Some(1)).collect();
         let wrong: Vec<_> = grasped().filter(|action| action.error.is_some()).collect();
         let inferred = |among: &[&PartnerAction], what: Inference| {
             Proportion::new(among.iter().filter(|action| action.inference == Some(what)).count(), among.len())
@@ -191,6 +195,7 @@ impl EvaluationReport {
             right_of_hidden: inferred(&hidden, Inference::Right),
             wrong_of_hidden: inferred(&hidden, Inference::Wrong),
             absent_of_hidden: inferred(&hidden, Inference::Absent),
+            right_of_hidden_one_goal: inferred(&with_one_goal, Inference::Right),
             right_of_errors: inferred(&wrong, Inference::Right),
             anticipated: Proportion::new(in_time, valid.len()),
             predicted: Proportion::new(predicted.len(), valid.len()),

@@ -16,6 +16,7 @@ mod first_goal;
 mod fluency;
 mod hesitant_reach;
 mod hesitations;
+mod hidden_goals;
 mod nearest_angle;
 mod network_variant;
 mod open_action;

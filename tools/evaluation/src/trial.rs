@@ -57,6 +57,8 @@ pub struct PartnerAction {
     pub error: Option<ErrorKind>,
     /// Whether it led behind something that hid the part, and the hand at it.
     pub hidden: bool,
+    /// Of a hidden one: how many goals plan and memory left at grasp completion, by what the robot could know of them.
+    pub hidden_goals: Option<usize>,
     /// Reach onset.
     pub onset_ms: u64,
     /// Grasp completion, or when the gesture was fully shown; none when it was broken off before.

@@ -1,4 +1,5 @@
 use crate::fluency::FluencyCounter;
+use crate::hidden_goals::hidden_goals;
 use crate::nearest_angle::nearest_angle;
 use crate::open_action::{Meant, OpenAction, meant};
 use crate::trial::{Alarm, Detection, DoublePeak, Inference, PartnerAction, Trial};
@@ -8,6 +9,7 @@ use coact_lockstep::Lockstep;
 use coact_messages::{FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
 use coact_monitor::{ActiveAgents, Anticipation, Intentions};
 use coact_run_records::{Event, SeparationReport};
+use coact_seen_parts::SeenParts;
 use coact_separation::SeparationMeter;
 
 /// Layers in which at most one peak may stand.
@@ -31,6 +33,8 @@ pub(crate) struct TrialRecorder<'a> {
     anticipation: Anticipation,
     fluency: FluencyCounter,
     separation: SeparationMeter,
+    /// What the camera has shown of the parts.
+    parts: SeenParts,
     trial: Trial,
     open: Option<OpenAction>,
     /// Populations of EML whose peaks stand.
@@ -43,6 +47,7 @@ impl<'a> TrialRecorder<'a> {
             anticipation: Anticipation::new(task, Intentions::from(plan)),
             fluency: FluencyCounter::default(),
             separation,
+            parts: SeenParts::none(),
             trial: Trial {
                 task: task.name.clone(),
                 seed,
@@ -70,6 +75,7 @@ impl<'a> TrialRecorder<'a> {
         let (truth, frame) = (&*stages.truth, &*stages.frame);
         self.fluency.tick(ActiveAgents::now(self.task, truth, &stages.command));
         self.separation.tick(truth, &stages.command);
+        self.parts.see(&stages.sample.scene, self.task);
         let mut events = Vec::new();
         self.anticipation.observe(truth, frame, &mut events);
         self.add_answers(&events);
@@ -144,6 +150,10 @@ impl<'a> TrialRecorder<'a> {
         let Some(action) = self.trial.actions.last_mut() else { return };
         action.detected_ms = action.detected_ms.or(rose.map(|since| since.max(action.onset_ms)));
         if grasped {
+            if action.hidden {
+                let scene = &stages.sample.scene;
+                action.hidden_goals = Some(hidden_goals(self.task, self.plan, truth, &self.parts, scene));
+            }
             // A step whose turn came during the reach is no error any more.
             action.error = action.error.filter(|_| truth.error != PartnerError::None as u32);
             action.grasp_ms = Some(truth.grasp_cycle);
@@ -205,6 +215,7 @@ impl<'a> TrialRecorder<'a> {
             subgoal,
             error,
             hidden: truth.hidden != 0,
+            hidden_goals: None,
             onset_ms: truth.onset_cycle,
             grasp_ms: None,
             inferred: None,

@@ -93,6 +93,7 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
         row("goal inferred rightly at grasp, hidden hands", proportion(&report.right_of_hidden)),
         row("  wrongly, hidden hands", proportion(&report.wrong_of_hidden)),
         row("  not, hidden hands", proportion(&report.absent_of_hidden)),
+        row("  rightly, where one goal is left", proportion(&report.right_of_hidden_one_goal)),
         row("answer decided before grasp", proportion(&report.anticipated)),
         row("  before the hand set out: predicted", proportion(&report.predicted)),
         row("lead of the others p5 p50 p95, ms", spread(report.lead_ms)),

@@ -95,7 +95,9 @@ fn parts_behind_the_person_s_arm_are_not_seen() {
         let [shoulder, elbow, wrist, _] = out.truth.arm;
         for part in 0..world.parts.all().len() {
             let (kind, at) = (world.parts.kind(part) as u32, world.parts.position(part));
-            let by = |limb| limb_before(limb, 0.03, world.task.scene.eye(), at.into()).is_some();
+            let height = world.task.kinds[world.parts.kind(part)].shape.height();
+            let top = at + world.parts.orientation(part) * DVec3::Z * height;
+            let by = |limb| limb_before(limb, 0.03, world.task.scene.eye(), top.into()).is_some();
             if by([shoulder, elbow]) || by([elbow, wrist]) {
                 behind += 1;
                 let shows =
