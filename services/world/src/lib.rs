@@ -42,7 +42,6 @@ mod replay;
 mod resume_error;
 mod robot_hand;
 mod robot_hand_state;
-mod robot_shape;
 mod scenario;
 mod sensors;
 mod settings;

@@ -36,13 +36,13 @@ pub struct Fit {
     pub angle: f64,
 }
 
-/// Where the robot's eye is: so far before the world's origin, where the robot stands, to the left of the middle of the table, and above
-/// the table top, m. Chosen by hand, of six places: there its own arm, which comes from the right, hides least of what the two do.
-const EYE: [f64; 3] = [-0.62, 0.60, 1.20];
+/// Where the robot's eye is: so far behind the world's origin, where the robot stands, and so high above the table top, m.
+/// Chosen by hand: it sees both workspaces over the robot's own arm.
+const EYE: (f64, f64) = (0.10, 1.05);
 
 impl Scene {
-    /// Place of the camera that sees parts and depth: on a stand beside the table, across from the robot's arm.
+    /// Place of the camera that follows hand and parts: above and behind the robot's head, over the middle of the table.
     pub fn eye(&self) -> [f64; 3] {
-        [EYE[0], self.table_centre[1] + EYE[1], self.table_height + EYE[2]]
+        [EYE.0, self.table_centre[1], self.table_height + EYE.1]
     }
 }

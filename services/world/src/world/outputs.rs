@@ -5,14 +5,9 @@ use crate::scenario::Sense;
 use crate::sensors::{Capture, LinesOfSight, is_captured, read_joints, recognise, track};
 use crate::simulation_state::SimulationState;
 use coact_messages::{KeypointName, NONE, PartnerPhase, SensorSample, Truth};
-use coact_motion::Capsule;
 use coact_person::{Activity, Holder};
 use coact_stage_state::Slot;
 use glam::DVec3;
-use nalgebra::Point3;
-
-/// Half the width of a person's arm, m. Chosen by hand: about that of a forearm below the elbow.
-const ARM: f64 = 0.043;
 
 impl World {
     /// Reads all sensors.
@@ -30,8 +25,10 @@ impl World {
     /// Takes the frames of the cameras that are due.
     fn look(&mut self, tick: u64, last: Option<u64>) {
         let blind = tick < self.blind_until;
-        let arm = self.person_limbs(tick);
-        let Self { task, random, person, joints, parts, simulation, staging, shape, .. } = self;
+        let [shoulder, elbow, wrist, _] = self.person_arm();
+        let arm = [[shoulder, elbow], [elbow, wrist]];
+        let limbs: &[_] = if self.person.is_unknown(&self.simulation.person, tick) { &[] } else { &arm };
+        let Self { task, random, person, parts, simulation, staging, .. } = self;
         let (boxes, count) = staging.occluders(tick, simulation.person.occluder());
         let (eye, boxes) = (task.scene.eye(), &boxes[..count]);
         let SimulationState { person: moved, tracker, .. } = simulation;
@@ -41,25 +38,12 @@ impl World {
             None if person.is_lost(moved, tick) => Capture::Nothing,
             None => Capture::Simulated(person.keypoints(moved, tick)),
         };
-        // The tracker has a camera of its own, which sees the hand past both arms.
-        let boards = LinesOfSight { eye, boxes, robot: &[], person: &[] };
-        track(tick, last, random, tracker, capture, |place| boards.hide(place));
+        let past_boxes = LinesOfSight { eye, boxes, limbs: &[] };
+        track(tick, last, random, tracker, capture, |place| past_boxes.hide(place));
         if !blind && !staging.is_blind(Sense::Objects, tick) {
-            let robot = shape.links(&joints.position);
-            let person = arm.as_ref().map_or(&[][..], |arm| arm);
-            let sight = LinesOfSight { robot, person, ..boards };
+            let sight = LinesOfSight { limbs, ..past_boxes };
             recognise(tick, last, random, (task, parts), &sight, &mut simulation.scene);
         }
-    }
-
-    /// Upper arm and forearm of a person whose arm is known.
-    fn person_limbs(&self, tick: u64) -> Option<[Capsule; 2]> {
-        if self.person.is_unknown(&self.simulation.person, tick) {
-            return None;
-        }
-        let [shoulder, elbow, wrist, _] = self.person_arm().map(Point3::from);
-        let limb = |start, end| Capsule { start, end, radius: ARM };
-        Some([limb(shoulder, elbow), limb(elbow, wrist)])
     }
 
     /// What the fingers hold a part with, and what the outside exerts on the wrist, N.

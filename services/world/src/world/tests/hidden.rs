@@ -4,11 +4,9 @@ use super::mistakes::run;
 use crate::parts::Parts;
 use crate::sensors::{LinesOfSight, limb_before, recognise};
 use coact_messages::{KeypointName, NONE, SceneView, SensorSample, Sighting};
-use coact_motion::Capsule;
 use coact_person::ActivityPhase;
 use coact_random::RandomStreams;
 use glam::DVec3;
-use nalgebra::{Point3, Vector3};
 
 const ALWAYS: &str = "idle=0,goal=0,request=0,means=0,hidden=1,words=0,dropouts=0";
 
@@ -110,14 +108,13 @@ fn parts_behind_the_person_s_arm_are_not_seen() {
 }
 
 #[test]
-fn what_is_behind_a_link_of_the_robot_is_not_seen_and_the_picture_shows_that_something_is_before_it() {
+fn what_is_behind_a_limb_is_not_seen_and_the_picture_shows_that_something_is_before_it() {
     let (task, random) = (super::task(), RandomStreams::new(5));
     let parts = Parts::new(&task, Vec::new(), task.scene.fit);
     let (eye, at) = (task.scene.eye(), |part| parts.position(part));
-    let before = |part: usize| Point3::from(at(part).lerp(eye.into(), 0.2).to_array());
-    let aside = Vector3::new(0.05, 0.02, 0.0);
-    let link = Capsule { start: before(0) - aside, end: before(0) + aside, radius: 0.04 };
-    let sight = LinesOfSight { eye, boxes: &[], robot: &[link], person: &[] };
+    let (before, aside) = (at(0).lerp(eye.into(), 0.2), DVec3::new(0.05, 0.02, 0.0));
+    let limb = [before - aside, before + aside].map(Into::into);
+    let sight = LinesOfSight { eye, boxes: &[], limbs: &[limb] };
     let mut view: Box<SceneView> = bytemuck::zeroed_box();
     let hidden: Vec<bool> = (0..task.parts.len()).map(|part| sight.hide(at(part).into())).collect();
     assert!(hidden[0] && hidden.iter().filter(|hidden| **hidden).count() < 4, "{hidden:?}");
