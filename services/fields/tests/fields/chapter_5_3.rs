@@ -98,6 +98,29 @@ fn what_lies_at_the_person_s_hand_is_pointed_to_instead_of_handed_over() {
     assert_eq!(robot.decision().as_deref(), Some("point to: nut"));
 }
 
+#[test]
+fn a_part_that_is_taken_for_what_is_done_is_an_error_that_is_told_and_the_robot_asks_for_nothing_meanwhile() {
+    let mut robot = Harness::of("table-setting");
+    robot.lay_out();
+    for subgoal in
+        ["saucer at the person's place", "cup on the person's saucer", "spoon at the person's place"]
+    {
+        robot.achieve(subgoal);
+    }
+    robot.act("rest", 1.0);
+    robot.run(500);
+    robot.act("idle", 1.0);
+    robot.run(1500);
+    assert_eq!(robot.decision().as_deref(), Some("request: saucer at the guest's place"));
+    robot.act("reach", 1.0);
+    show(&mut robot, "top grip: spoon", 400);
+    assert_eq!(robot.error().as_deref(), Some("done: spoon at the person's place"));
+    assert_eq!(robot.decision().as_deref(), Some("correct: spoon at the person's place"));
+    robot.act("reach", 0.0);
+    rest(&mut robot, "top grip: spoon", 800);
+    assert_eq!(robot.error(), None, "the error is over");
+}
+
 /// The robot has a nut in its hand, on its way to its own side of the axle.
 fn carrying_a_nut(another: bool, person_has_one: bool) -> Harness {
     let mut robot = after(&["wheel on the robot's side"]);
