@@ -406,13 +406,17 @@ mod tests {
         let part = &drawn[links * 7..][..9];
         assert_eq!(part, [1.0, -0.4, 0.5, 0.8, 0.0, 0.0, 0.0, 1.0, 0.0]);
         assert_eq!(drawn[links * 7 + 9], -1.0);
-        // Something is before it then.
+        // It stays for some frames, and something is before it then.
+        for cycle in [66, 99] {
+            sample.scene.captured_cycle = cycle;
+            maker.glimpse(&Seen { sample: Some(&sample), ..Seen::default() }).unwrap();
+        }
         let Surface { grid, level, height } = &mut sample.scene.surface;
         let scene = &maker.task.scene;
         (*grid, *level) =
             (TableGrid { first: [-1.5, -0.5], spacing: 0.04, sites: [60, 60] }, scene.table_height);
         height.fill(30);
-        (sample.scene.sightings, sample.scene.captured_cycle) = (0, 33 + COVERED + 1);
+        (sample.scene.sightings, sample.scene.captured_cycle) = (0, 99 + COVERED + 1);
         let seen = Seen { sample: Some(&sample), ..Seen::default() };
         let drawn = numbers(&maker.glimpse(&seen).unwrap().picture);
         assert_eq!(drawn[links * 7..][..9], [1.0, -0.4, 0.5, 0.8, 0.0, 0.0, 0.0, 1.0, 3.0]);

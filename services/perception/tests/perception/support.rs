@@ -231,18 +231,23 @@ impl Stage {
 pub fn bare_table(task: &Task, surface: &mut Surface) {
     let Scene { table_centre: [x, y], table_size: [length, width], table_height, .. } = task.scene;
     let spacing = 0.022;
-    let sites = [length, width].map(|size| (size / spacing) as u32 + 1);
-    surface.grid = TableGrid { first: [x - 0.5 * length, y - 0.5 * width], spacing, sites };
+    let beyond = 0.1;
+    let sites = [length, width].map(|size| ((size + 2.0 * beyond) / spacing) as u32 + 1);
+    let first = [x - 0.5 * length - beyond, y - 0.5 * width - beyond];
+    surface.grid = TableGrid { first, spacing, sites };
     surface.level = table_height;
     surface.height.fill(0);
 }
 
-/// Something this high, m, stands on the line of sight to `place`, and around it.
+/// Something this high, m, stands on the lines of sight to `place`, to 10 cm above it, and around them.
 pub fn stands_before(task: &Task, surface: &mut Surface, place: [f64; 3], height: f64) {
-    let shadow = surface.shadow(task.scene.eye(), place).unwrap();
+    let shadows = [0.0, 0.05, 0.1].map(|up| {
+        let [x, y, z] = place;
+        surface.shadow(task.scene.eye(), [x, y, z + up]).unwrap()
+    });
     for site in 0..surface.grid.used() {
         let [x, y] = surface.grid.place(site);
-        if (x - shadow[0]).hypot(y - shadow[1]) < 0.08 {
+        if shadows.iter().any(|shadow| (x - shadow[0]).hypot(y - shadow[1]) < 0.08) {
             surface.height[site] = (100.0 * height) as u8;
         }
     }
