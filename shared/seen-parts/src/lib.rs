@@ -2,6 +2,26 @@
 //!
 //! It misses some in each frame, and others are hidden: by a board, by the person's arm, by the robot's own. What is not seen is taken to be
 //! where it was, until its place is seen bare.
+//!
+//! ```
+//! use coact_joint_task::Task;
+//! use coact_messages::{SceneView, Sighting};
+//! use coact_seen_parts::SeenParts;
+//!
+//! let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rt-config/tasks/toy-vehicle.toml");
+//! let task = Task::load(file.as_ref())?;
+//! let mut view: Box<SceneView> = bytemuck::zeroed_box();
+//! (view.captured_cycle, view.sightings) = (33, 1);
+//! view.sighting[0] = Sighting { position: [-0.9, 0.3, 0.8], ..Sighting::default() };
+//! let mut parts = SeenParts::none();
+//! parts.see(&view, &task);
+//!
+//! // The next frame misses it.
+//! (view.captured_cycle, view.sightings) = (66, 0);
+//! parts.see(&view, &task);
+//! assert_eq!(parts.all().len(), 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod sighting_frame;
 
