@@ -52,8 +52,6 @@ struct ShapedHand {
 const FINGERS_MOVED: f64 = 0.01;
 /// A part that is held is not farther than this from the hand that holds it, m.
 const HELD_WITHIN: f64 = 0.12;
-/// A part that was not seen for so long is covered, cycles. Chosen by hand: a recogniser misses one in a frame or two.
-const COVERED: u64 = 500;
 /// Above this, somebody holds a part, or a goal is inferred: the middle between not at all and surely.
 const SURE: f64 = 0.5;
 /// Deviations beyond which hardly anything is, for the eye.
@@ -153,7 +151,7 @@ impl PictureMaker {
         for (part, cycle) in self.parts.with_cycles().take(count) {
             numbers.push(f64::from(part.kind));
             numbers.extend(part.position.iter().chain(&part.orientation));
-            let covered = self.parts.newest().saturating_sub(cycle) > COVERED;
+            let covered = self.parts.is_covered_since(cycle);
             numbers.push(if covered { 3.0 } else { self.holder(part, seen) });
         }
         for _ in count..self.task.parts.len() {
@@ -416,7 +414,7 @@ mod tests {
         (*grid, *level) =
             (TableGrid { first: [-1.5, -0.5], spacing: 0.04, sites: [60, 60] }, scene.table_height);
         height.fill(30);
-        (sample.scene.sightings, sample.scene.captured_cycle) = (0, 99 + COVERED + 1);
+        (sample.scene.sightings, sample.scene.captured_cycle) = (0, 99 + 501);
         let seen = Seen { sample: Some(&sample), ..Seen::default() };
         let drawn = numbers(&maker.glimpse(&seen).unwrap().picture);
         assert_eq!(drawn[links * 7..][..9], [1.0, -0.4, 0.5, 0.8, 0.0, 0.0, 0.0, 1.0, 3.0]);

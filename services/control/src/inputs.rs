@@ -152,7 +152,10 @@ impl<'a> Inputs<'a> {
         limits: &SafetyLimits,
     ) -> Option<PersonCapsules> {
         let held = parts.with_cycles().enumerate();
-        let held = held.filter(|(_, (part, _))| self.in_person_hand(part.kind as usize));
+        // Where a hand has carried it since is not known of one that was not seen for long: it lies somewhere.
+        let held = held.filter(|(_, (part, seen))| {
+            self.in_person_hand(part.kind as usize) && !parts.is_covered_since(*seen)
+        });
         let capsules = held.filter_map(|(index, (part, seen))| {
             let capsule = part_capsules.get(part.kind as usize)?.within(&frame_of(part)?);
             Some((index, capsule, seconds(self.tick.saturating_sub(seen))))

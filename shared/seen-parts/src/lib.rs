@@ -106,9 +106,9 @@ impl SeenParts {
         self.all().iter().zip(self.seen)
     }
 
-    /// Cycle of the newest frame; 0 before the first.
-    pub fn newest(&self) -> u64 {
-        self.newest
+    /// Whether a part that was `seen` last in that cycle has been out of sight for longer than a recogniser misses one.
+    pub fn is_covered_since(&self, seen: u64) -> bool {
+        self.newest.saturating_sub(seen) >= FORGOTTEN
     }
 
     /// Refuses what is none.
@@ -147,7 +147,7 @@ fn lies(task: &Task, part: &Sighting) -> bool {
 }
 
 /// Whether the eye may not see such a part where it was. Where there is no depth camera, nothing tells: it is forgotten in time.
-fn hides(scene: &SceneView, task: &Task, part: &Sighting) -> bool {
+pub fn hides(scene: &SceneView, task: &Task, part: &Sighting) -> bool {
     let height = task.kinds.get(part.kind as usize).map_or(0.0, |kind| kind.shape.height());
     scene.surface.grid.used() > 0 && scene.surface.hides(task.scene.eye(), part.position, height)
 }

@@ -1,6 +1,6 @@
 use coact_joint_task::{Act, Agent, NetworkPlan, Task};
 use coact_messages::{SceneView, Truth};
-use coact_seen_parts::SeenParts;
+use coact_seen_parts::{SeenParts, hides};
 
 /// How many goals plan and memory leave to a hand that is out of sight: of each chain that takes a part of the person's, those subgoals whose
 /// turn has come, where such a part was seen last in the person's workspace and may not be seen now.
@@ -14,11 +14,9 @@ pub(crate) fn hidden_goals(
     let [low, high] = task.scene.workspace[Agent::Person.index()];
     let lies_there = |at: [f64; 3]| (0..2).all(|axis| (low[axis]..=high[axis]).contains(&at[axis]));
     let is_hidden = |kind: usize| {
-        let height = task.kinds[kind].shape.height();
-        parts.all().iter().any(|part| {
-            let hides = || scene.surface.hides(task.scene.eye(), part.position, height);
-            part.kind as usize == kind && lies_there(part.position) && hides()
-        })
+        let mut own =
+            parts.all().iter().filter(|part| part.kind as usize == kind && lies_there(part.position));
+        own.any(|part| hides(scene, task, part))
     };
     let takes = |chain: &usize| {
         let chain = &task.chains[*chain];
