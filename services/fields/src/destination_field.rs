@@ -85,7 +85,7 @@ impl Alternatives {
     }
 }
 
-/// Adds a Gaussian of this strength around `place`.
+/// Adds a Gaussian around `place` that has this strength at the site nearest to it: wherever between sites a part lies, it drives as much.
 fn add_gaussian(table: &TableGrid, place: [f64; 2], sigma: f64, strength: f64, input: &mut [f64]) {
     let range = |axis: usize| {
         let end = f64::from(table.sites[axis]);
@@ -97,6 +97,8 @@ fn add_gaussian(table: &TableGrid, place: [f64; 2], sigma: f64, strength: f64, i
         (-0.5 * deviation * deviation).exp()
     };
     let width = table.sites[1] as usize;
+    let most = |axis: usize| range(axis).map(|site| share(axis, site)).fold(f64::MIN_POSITIVE, f64::max);
+    let strength = strength / (most(0) * most(1));
     for along_x in range(0) {
         let strength = strength * share(0, along_x);
         for along_y in range(1) {
@@ -231,6 +233,17 @@ mod tests {
         for fits in [[1.0, 1.0, 0.0, 0.0], [1.0, 0.0, 1.0, 0.0]] {
             let signals = Bench::new().run_expecting(100, &fitting(fits), first_is_due());
             assert!(signals[0] > 0.5 && signals[1..] == [0.0; 2], "{fits:?}: {signals:?}");
+        }
+    }
+
+    #[test]
+    fn wherever_between_sites_they_lie_the_plan_decides_between_places_that_fit_alike() {
+        let spacing = Bench::new().plan.table.spacing;
+        for quarters in 0..4 {
+            let aside = 0.25 * f64::from(quarters) * spacing;
+            let places = PLACES[..2].iter().map(|(kind, [x, y])| (*kind, [x + aside, y + aside], 1.0));
+            let signals = Bench::new().run_expecting(200, &told(places), first_is_due());
+            assert!(signals[0] > 0.5 && signals[1] == 0.0, "{quarters}: {signals:?}");
         }
     }
 

@@ -119,9 +119,11 @@ impl Grasps {
         let hidden = |kind: usize, part: &PartTrack| sight.hides(part.position, places.size(kind).height);
         (out.told, out.count) = (1.0, 0);
         out.grip.fill(0.0);
+        // Of a hand that went out of sight as it set out no way is known.
+        let fit = |index| if state.hand.movement.is_moving() { state.likelihoods.of(index) } else { 1.0 };
         for (index, kind, part) in takable.filter(|(_, kind, part)| hidden(*kind, part)) {
             let centre = part.centre(places.size(kind));
-            out.push(Some(kind), centre.xy().into(), state.likelihoods.of(index));
+            out.push(Some(kind), centre.xy().into(), fit(index));
         }
         against_the_best(&mut out.fit[..out.count as usize]);
     }

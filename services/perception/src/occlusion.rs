@@ -1,7 +1,6 @@
 use crate::hand::{TrackedHand, USABLE};
 use crate::objects::TaskPlaces;
 use crate::plausible_cycle::cycle;
-use crate::preshape::ReachRecord;
 use bytemuck::{Pod, Zeroable};
 use coact_messages::SceneView;
 use coact_period::cycles;
@@ -41,13 +40,13 @@ impl Occlusion {
         cycle("occlusion.since", self.since)
     }
 
-    /// One cycle: a reach that is not seen any more, and that led behind an occluder, is hidden until it is seen again.
+    /// One cycle: a hand that `may_reach`, that is not seen any more, and that was led behind an occluder, is hidden until it is seen again.
     pub fn watch(
         &mut self,
         tick: u64,
         view: &SceneView,
         hand: &TrackedHand,
-        reach: &ReachRecord,
+        may_reach: bool,
         places: &TaskPlaces,
     ) {
         let age = hand.age(tick);
@@ -56,8 +55,7 @@ impl Occlusion {
             self.since = if over { 0 } else { self.since };
             return;
         }
-        let reaches = hand.movement.is_moving() && reach.is_of(&hand.movement);
-        let vanished = reaches && (OUT_OF_SIGHT..LATE).contains(&age) && hand.captured != self.last_seen;
+        let vanished = may_reach && (OUT_OF_SIGHT..LATE).contains(&age) && hand.captured != self.last_seen;
         if vanished && leads_behind(view, hand, places) {
             (self.since, self.last_seen) = (tick.max(1), hand.captured);
         }

@@ -129,7 +129,8 @@ impl Perception {
             state.loss.look(&state.parts, &around, &self.places);
         }
         state.loss.feel(tick, &sample.joints, &state.parts, &self.places);
-        state.occlusion.watch(tick, &sample.scene, &state.hand, &state.preshape.reach, &self.places);
+        let may_reach = may_reach(&self.acts, state);
+        state.occlusion.watch(tick, &sample.scene, &state.hand, may_reach, &self.places);
         self.words.listen(&sample.heard);
     }
 
@@ -144,6 +145,16 @@ impl Perception {
             reserved: 0,
             since_onset: if reaching { tick.saturating_sub(reach.onset) } else { 0 },
         };
+    }
+}
+
+/// Whether the hand was on a reach when it was seen last, or lay where reaches begin: of one that goes out of sight as it sets out, no
+/// movement is seen.
+fn may_reach(acts: &Acts, state: &PerceptionState) -> bool {
+    let movement = &state.hand.movement;
+    match movement.is_moving() {
+        true => state.preshape.reach.is_of(movement),
+        false => acts.is_from_rest(movement.place_of_stillness()),
     }
 }
 

@@ -147,7 +147,8 @@ mod tests {
             let wrist = |tick| person.moving_pose(&state, tick).0.wrist();
             prop_assert!(wrist(movement.start).distance(from) < 1e-12);
             prop_assert_eq!(person.moving_pose(&state, movement.end), (movement.to, 1.0));
-            prop_assert!((300..6000).contains(&(movement.end - movement.start)), "{:?}", movement);
+            let shortest = (from.distance(to) / FASTEST * CYCLES_PER_SECOND as f64) as u64;
+            prop_assert!((shortest..6000).contains(&(movement.end - movement.start)), "{:?}", movement);
             let mut last = [from, from];
             for tick in movement.start..=movement.end + 1 {
                 let (pose, covered) = person.moving_pose(&state, tick);

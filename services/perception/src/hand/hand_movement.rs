@@ -86,6 +86,11 @@ impl HandMovement {
         finite("hand.movement.speed", &[self.peak, self.speed])
     }
 
+    /// Where the hand lay still last, m.
+    pub fn place_of_stillness(&self) -> [f64; 3] {
+        self.anchor
+    }
+
     /// Distance of `wrist` from where the movement began, m.
     pub fn displacement(&self, wrist: Vector3<f64>) -> f64 {
         (wrist - Vector3::from(self.anchor)).norm()

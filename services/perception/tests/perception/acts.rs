@@ -1,7 +1,7 @@
 //! What the hand does is seen while it does it, in proportion, and nothing else is seen in it.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::support::{self, Hand, Stage, resting};
+use crate::support::{self, Hand, Stage, resting, stands_before};
 use coact_joint_task::Act;
 use coact_messages::{Keypoint, KeypointName};
 
@@ -59,6 +59,31 @@ fn idling_grows_with_the_seconds_and_ends_with_the_first_movement() {
     });
     assert!(reaching);
     assert!(stage.act(Act::Idle) < 0.05 && stage.act(Act::Rest) < 0.05);
+}
+
+#[test]
+fn a_hand_that_goes_out_of_sight_as_it_sets_out_is_on_a_hidden_reach() {
+    // Something stands beside the resting hand, or does not; the hand comes from rest, or has been elsewhere.
+    for (stands, from_rest) in [(true, true), (false, true), (true, false)] {
+        let mut stage = Stage::new();
+        if !from_rest {
+            let mut elsewhere = stage.hand;
+            elsewhere.centre[1] += 0.3;
+            stage.move_to(elsewhere, 600, |_| {});
+            stage.run(1000, |_, _| {});
+        }
+        let mut ahead = stage.hand.centre;
+        ahead[0] += 0.02;
+        if stands {
+            stands_before(&stage.task, &mut stage.sample.scene.surface, ahead, 0.4);
+        }
+        stage.run(100, |_, _| {});
+        assert!(stage.act(Act::Hidden) < 0.05, "it is seen");
+        stage.run(200, |stage, _| stage.tracking = false);
+        let hidden = stage.act(Act::Hidden);
+        assert_eq!(hidden > 0.9, stands && from_rest, "{stands}, {from_rest}: {hidden:.2}");
+        assert!(hidden > 0.9 || hidden < 0.05);
+    }
 }
 
 #[test]

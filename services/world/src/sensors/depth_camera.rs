@@ -73,7 +73,10 @@ fn shadow(eye: [f64; 3], out: &Surface, [low, high]: [[f64; 3]; 2]) -> [Range<us
     })
 }
 
-/// Of a height, m.
+/// Of a height, m, rounded up.
 fn centimetres(height: f64) -> u8 {
-    (100.0 * height).ceil().clamp(0.0, 254.0) as u8
+    // Not by `ceil`, which is a call where the processor may be any: each of some thousand sites is rounded twice.
+    let height = (100.0 * height).clamp(0.0, 254.0);
+    let whole = height as u8;
+    whole + u8::from(f64::from(whole) < height)
 }
