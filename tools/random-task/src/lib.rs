@@ -2,8 +2,8 @@
 //!
 //! A [`TaskShape`] and a seed make a [`RandomTask`]: kinds of parts, where they lie, and a partial order of subgoals. The parts are
 //! put onto the table side by side and on top of each other, in *towers*; the words, grips and actions, and the table, are the
-//! same in all of them. Solvable by construction: each step comes only after earlier ones, each kind has as many parts as there
-//! are steps with it, and every way from one side to the other has an act.
+//! same in all of them. Solvable by construction: each step comes only after earlier ones, or after a choice between such, each kind has as many
+//! parts as there are steps with it, and every way from one side to the other has an act.
 //!
 //! ```
 //! use coact_random_task::{RandomTask, TaskShape};
@@ -14,6 +14,7 @@
 //! # Ok::<(), coact_random_task::ShapeError>(())
 //! ```
 
+mod choice;
 mod places;
 mod random_task;
 mod shape_error;

@@ -1,4 +1,5 @@
 use crate::TaskShape;
+use crate::choice::{self, Choice};
 use crate::places::{part_places, tower_places};
 use coact_joint_task::Agent;
 use rand::seq::{IndexedMutRandom, SliceRandom, index};
@@ -14,6 +15,8 @@ pub struct RandomTask {
     kind: Vec<Kind>,
     part: Vec<Part>,
     subgoal: Vec<Subgoal>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    choice: Vec<Choice>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -38,17 +41,17 @@ struct Part {
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct Subgoal {
-    name: String,
+pub(crate) struct Subgoal {
+    pub(crate) name: String,
     kind: String,
     side: &'static str,
-    socket: Socket,
-    after: Vec<String>,
+    pub(crate) socket: Socket,
+    pub(crate) after: Vec<String>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-struct Socket {
-    at: [f64; 3],
+pub(crate) struct Socket {
+    pub(crate) at: [f64; 3],
 }
 
 /// A tower that grows: the parts in it, from below, by their steps.
@@ -81,10 +84,11 @@ impl RandomTask {
         let kind: Vec<Kind> = (0..shape.kinds()).map(|index| Kind::random(index, random)).collect();
         let mut kinds: Vec<usize> = (0..shape.subgoals()).map(|index| shape.kind(index)).collect();
         kinds.shuffle(random);
-        let subgoal = subgoals(shape, &kind, &kinds, random);
+        let mut subgoal = subgoals(shape, &kind, &kinds, random);
         kinds.shuffle(random);
         let part = parts(&kind, &kinds, random);
-        Self { name: format!("random task {seed}"), kind, part, subgoal }
+        let choice = choice::offer(shape.offered(), &mut subgoal, random);
+        Self { name: format!("random task {seed}"), kind, part, subgoal, choice }
     }
 
     /// The task as a file: of `rt-config/tasks`, where the network is that it names.

@@ -22,10 +22,12 @@ pub enum ShapeError {
         most: usize,
     },
     /// No fraction.
-    #[error("a share of {found} with identical parts; expected 0 to 1")]
+    #[error("a share of {found} {of}; expected 0 to 1")]
     Share {
         /// What was asked for.
         found: f64,
+        /// Which steps it is the share of.
+        of: &'static str,
     },
     /// More kinds than a task can have.
     #[error(

@@ -8,6 +8,7 @@ pub struct TaskShape {
     subgoals: usize,
     predecessors: usize,
     identical: f64,
+    offered: f64,
 }
 
 /// With fewer subgoals there is no order to speak of.
@@ -32,13 +33,30 @@ impl TaskShape {
             return Err(ShapeError::Predecessors { found: predecessors, most });
         }
         if !(0.0..=1.0).contains(&identical) {
-            return Err(ShapeError::Share { found: identical });
+            return Err(ShapeError::Share { found: identical, of: "with identical parts" });
         }
-        let shape = Self { subgoals, predecessors, identical };
+        let shape = Self { subgoals, predecessors, identical, offered: 0.0 };
         match shape.kinds() {
             found if found > MAX_KINDS => Err(ShapeError::Kinds { found }),
             _ => Ok(shape),
         }
+    }
+
+    /// The same, with choices that offer the share `offered` of all steps, as far as there are steps that can be alternatives to each other. A
+    /// step that comes after several alternatives comes after the choice, and so after fewer others.
+    ///
+    /// # Errors
+    /// [`ShapeError::Share`], if it is no share.
+    pub fn with_choices(self, offered: f64) -> Result<Self, ShapeError> {
+        match (0.0..=1.0).contains(&offered) {
+            true => Ok(Self { offered, ..self }),
+            false => Err(ShapeError::Share { found: offered, of: "in choices" }),
+        }
+    }
+
+    /// Share of the steps that choices are to offer.
+    pub(crate) fn offered(&self) -> f64 {
+        self.offered
     }
 
     /// How many steps there are.

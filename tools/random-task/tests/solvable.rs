@@ -4,6 +4,9 @@
 use coact_joint_task::{Agent, FindingKind, NetworkPlan, Task, check};
 use coact_random_task::{RandomTask, ShapeError, TaskShape};
 use proptest::prelude::*;
+use rand::SeedableRng;
+use rand::seq::IndexedRandom;
+use rand_pcg::Pcg32;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -63,6 +66,45 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn whatever_alternatives_are_done_the_others_are_spared_and_the_task_is_completed(
+        (subgoals, most, share) in sizes(),
+        (offered, seed) in (0.0..=1.0, any::<u64>()),
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let shape = TaskShape::new(subgoals, most, share).unwrap().with_choices(offered).unwrap();
+        let (task, _) = NetworkPlan::load(&write(folder.path(), shape, seed)).unwrap();
+        let of_choices: Vec<usize> = task.choices.iter().flat_map(|choice| choice.of.clone()).collect();
+        prop_assert!(of_choices.len() <= (offered * subgoals as f64).round() as usize);
+        prop_assert_eq!(of_choices.len(), of_choices.iter().collect::<BTreeSet<_>>().len(), "each once");
+        let (mut achieved, mut random) = (0, Pcg32::seed_from_u64(seed));
+        while !task.is_complete(achieved) {
+            let due: Vec<usize> = (0..subgoals).filter(|step| task.is_available(*step, achieved)).collect();
+            let step = due.choose(&mut random);
+            prop_assert!(step.is_some(), "nothing can be done, with {achieved:b}");
+            achieved |= 1 << step.unwrap();
+        }
+        for choice in &task.choices {
+            prop_assert!(choice.is_made(achieved) && choice.of.iter().any(|step| achieved & (1 << step) == 0));
+        }
+    }
+}
+
+#[test]
+fn half_of_the_steps_are_offered_where_that_was_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let shape = TaskShape::new(30, 4, 0.2).unwrap().with_choices(0.5).unwrap();
+    let offered = (0..8).map(|seed| {
+        let task = Task::load(&write(folder.path(), shape, seed)).unwrap();
+        task.choices.iter().map(|choice| choice.of.len()).sum::<usize>()
+    });
+    let offered: Vec<usize> = offered.collect();
+    assert!(offered.iter().all(|count| (8..=15).contains(count)), "{offered:?}");
+}
+
 #[test]
 fn a_random_task_lacks_no_part_and_no_way_to_bring_it() {
     let folder = tempfile::tempdir().unwrap();
@@ -91,4 +133,6 @@ fn what_there_is_no_task_of_is_refused_with_what_is_possible() {
     assert!(refused(20, 17, 0.0).contains("1 to 16"));
     assert!(refused(20, 3, f64::NAN).contains("0 to 1"));
     assert!(matches!(TaskShape::new(20, 3, -0.1), Err(ShapeError::Share { .. })));
+    let shape = TaskShape::new(20, 3, 0.0).unwrap();
+    assert!(shape.with_choices(1.1).unwrap_err().to_string().contains("1.1 in choices; expected 0 to 1"));
 }

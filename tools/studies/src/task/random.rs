@@ -12,6 +12,7 @@ use std::process::ExitCode;
 #[command(after_help = "Examples:
   coact task random --seed 7 --out random.toml
   coact task random --seed 8 --subgoals 50 --predecessors 16 --identical 0.33 --out large.toml
+  coact task random --seed 9 --choices 0.5 --out alternatives.toml
   coact evaluate --task random.toml --trials 10
 
 The same seed and size give the same task.")]
@@ -28,6 +29,9 @@ pub struct Args {
     /// Share of the subgoals with a part like that of another: 0 to 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
     identical: f64,
+    /// Share of the subgoals that choices offer: of two to four of them, some are enough: 0 to 1
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    choices: f64,
     /// Where it goes; without it, to standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -38,7 +42,7 @@ pub struct Args {
 /// # Errors
 /// There is no task of that size, there is such a file already, or it cannot be written.
 pub fn run(args: Args) -> Result<ExitCode> {
-    let shape = TaskShape::new(args.subgoals, args.predecessors, args.identical)?;
+    let shape = TaskShape::new(args.subgoals, args.predecessors, args.identical)?.with_choices(args.choices)?;
     let text = RandomTask::new(shape, args.seed).to_toml();
     match args.out {
         None => print!("{text}"),
