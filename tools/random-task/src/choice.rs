@@ -28,10 +28,7 @@ pub(crate) fn offer(share: f64, subgoals: &mut [Subgoal], random: &mut Pcg32) ->
         let size = random.random_range(2..=offered.min(LARGEST));
         let mut group = vec![first];
         for &step in &open {
-            let before: Vec<Vec<bool>> = group.iter().map(|own| all_before(*own, subgoals, &choices)).collect();
-            let after = all_before(step, subgoals, &choices);
-            let is_apart = group.iter().zip(&before).all(|(own, before)| !before[step] && !after[*own]);
-            if group.len() < size && is_apart {
+            if group.len() < size && group.iter().all(|own| are_apart(*own, step, subgoals, &choices)) {
                 group.push(step);
             }
         }
@@ -51,6 +48,11 @@ pub(crate) fn offer(share: f64, subgoals: &mut [Subgoal], random: &mut Pcg32) ->
 fn carries(subgoals: &[Subgoal], step: usize) -> bool {
     let [x, y, z] = subgoals[step].socket.at;
     subgoals.iter().any(|other| other.socket.at[..2] == [x, y] && other.socket.at[2] > z)
+}
+
+/// Whether neither of two steps comes before the other.
+fn are_apart(one: usize, other: usize, subgoals: &[Subgoal], choices: &[Choice]) -> bool {
+    !all_before(one, subgoals, choices)[other] && !all_before(other, subgoals, choices)[one]
 }
 
 /// Which steps come before this one, itself included; those that a choice offers come before what comes after it.

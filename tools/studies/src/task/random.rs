@@ -42,7 +42,8 @@ pub struct Args {
 /// # Errors
 /// There is no task of that size, there is such a file already, or it cannot be written.
 pub fn run(args: Args) -> Result<ExitCode> {
-    let shape = TaskShape::new(args.subgoals, args.predecessors, args.identical)?.with_choices(args.choices)?;
+    let shape =
+        TaskShape::new(args.subgoals, args.predecessors, args.identical)?.with_choices(args.choices)?;
     let text = RandomTask::new(shape, args.seed).to_toml();
     match args.out {
         None => print!("{text}"),
