@@ -61,9 +61,10 @@ pub(crate) fn goes_on(core: Option<usize>, watched: &[Silence]) -> bool {
 /// others: then the machine may be late. Chosen by hand.
 pub(crate) const MACHINE_LATE: Duration = Duration::from_millis(500);
 
-/// Whether all are silent together: their core stands still, or one of them keeps it from the others.
+/// Whether all are silent together: their core stands still, or one of them keeps it from the others. That may begin between two of their pulses, so
+/// one reaches its limit before the others reach theirs; who goes on has sent a pulse some ms ago.
 pub(crate) fn all_silent(watched: &[Silence]) -> bool {
-    watched.len() > 1 && watched.iter().all(|silence| silence.for_time > silence.limit)
+    watched.len() > 1 && watched.iter().all(|silence| silence.for_time > silence.limit / 2)
 }
 
 impl Silence {
@@ -110,12 +111,18 @@ mod tests {
     #[test]
     fn one_that_is_silent_while_others_go_on_hangs() {
         assert_eq!(hung(&[silent(2), silent(11), silent(10)]), [None, Some(LIMIT), None]);
+        assert_eq!(hung(&[silent(5), silent(11)]), [None, Some(LIMIT)]);
         assert_eq!(hung(&[silent(11), silent(11), silent(1)]), [Some(LIMIT), Some(LIMIT), None]);
     }
 
     #[test]
     fn when_all_are_silent_together_the_machine_gets_its_time() {
         assert_eq!(hung(&[silent(11), silent(400)]), [None, None]);
+        assert_eq!(
+            hung(&[silent(9), silent(11), silent(10)]),
+            [None; 3],
+            "one began to be silent before the others"
+        );
         assert_eq!(hung(&[silent(501), silent(502)]), [Some(MACHINE_LATE), Some(MACHINE_LATE)]);
         assert_eq!(hung(&[silent(11)]), [Some(LIMIT)], "nobody to compare it with");
         assert_eq!(hung(&[]), []);

@@ -277,8 +277,10 @@ impl Process {
         self.report_ready()?;
         let Some(schedule) = self.wait_for_start()? else { return Ok(()) };
         let Self { entry, signals, bus, .. } = self;
-        Executor::new(&entry, schedule, waits, pulse, bus.refusals().clone()).run(&mut cycle, &signals)?;
-        Ok(())
+        let ended =
+            Executor::new(&entry, schedule, waits, pulse, bus.refusals().clone()).run(&mut cycle, &signals);
+        scheduling::give_back(entry.core);
+        ended
     }
 }
 
