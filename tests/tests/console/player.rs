@@ -133,9 +133,7 @@ impl Player {
     }
 
     fn let_go_and_rest(&mut self) {
-        self.pressed = false;
-        self.mouse("mouseReleased");
-        std::thread::sleep(Duration::from_millis(500));
+        self.opens();
         let rest = self.rest();
         self.go(rest);
         std::thread::sleep(Duration::from_millis(800));
@@ -174,22 +172,33 @@ impl Player {
             if self.sees(LOOKS, |player| player.in_hand(kind).is_some()) {
                 return;
             }
-            self.pressed = false;
-            self.mouse("mouseReleased");
-            std::thread::sleep(Duration::from_millis(500));
+            self.opens();
         }
         panic!("the {kind} is not taken: {}", self.state());
     }
 
-    /// Takes a part, brings it there, and sees that it has come there, or is in the robot's hand already.
+    /// Takes a part, brings it there, and sees that it has come there, or is in the robot's hand already; if not, tries again: on a busy machine the
+    /// hand leaves before its fingers have closed.
     fn brings(&mut self, kind: &str, grip: u32, to: DVec2) {
-        self.takes(kind, grip);
-        self.go(to);
-        let is_there = |at: DVec2| at.distance(to) < 0.03;
-        let came = |player: &mut Self| {
-            player.in_hand(kind).is_some_and(is_there) || player.part(kind, to, 1).is_some()
-        };
-        assert!(self.sees(LOOKS, came), "the {kind} is not where the hand is: {}", self.state());
+        for _ in 0..TRIES {
+            self.takes(kind, grip);
+            self.go(to);
+            let is_there = |at: DVec2| at.distance(to) < 0.03;
+            let came = |player: &mut Self| {
+                player.in_hand(kind).is_some_and(is_there) || player.part(kind, to, 1).is_some()
+            };
+            if self.sees(LOOKS, came) {
+                return;
+            }
+            self.opens();
+        }
+        panic!("the {kind} is not where the hand is: {}", self.state());
+    }
+
+    fn opens(&mut self) {
+        self.pressed = false;
+        self.mouse("mouseReleased");
+        std::thread::sleep(Duration::from_millis(500));
     }
 
     /// Whether somebody who looks for so long sees this.
