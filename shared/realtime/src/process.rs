@@ -276,10 +276,11 @@ impl Process {
         let pulse = self.bus.output(&topic::pulse(&self.entry.name))?;
         self.report_ready()?;
         let Some(schedule) = self.wait_for_start()? else { return Ok(()) };
-        let Self { entry, signals, bus, .. } = self;
+        let Self { pipeline, entry, signals, bus, .. } = self;
         let ended =
             Executor::new(&entry, schedule, waits, pulse, bus.refusals().clone()).run(&mut cycle, &signals);
-        scheduling::give_back(entry.core);
+        // To say why it ends, with a trace of its calls, takes up to a tenth of a second, and others have cycles to do meanwhile.
+        scheduling::become_ordinary(&pipeline);
         ended
     }
 }

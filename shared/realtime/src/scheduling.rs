@@ -11,23 +11,9 @@ use std::sync::OnceLock;
 pub(crate) fn prepare_start(core: Option<usize>) {
     // Refused, it starts as any program does; `apply` reports what is refused.
     let _ = SchedulingClass::STARTING.apply();
-    leave(core);
-}
-
-/// Makes the calling thread of a stage that ends an ordinary one, off the stage's core: to say why it ends, with a trace of its calls, and to give
-/// back what it had takes up to a tenth of a second, and others have cycles to do meanwhile.
-pub(crate) fn give_back(core: Option<usize>) {
-    // Always granted.
-    let _ = SchedulingClass::Other.apply();
-    leave(core);
-}
-
-/// Keeps the calling thread off this core, where there are others.
-fn leave(core: Option<usize>) {
     let mut others = granted();
     if let Some(core) = core.filter(|&core| core < CpuSet::MAX_CPU) {
         others.unset(core);
-        // Refused where no core is left: the thread then stays.
         let _ = sched_setaffinity(None, &others);
     }
 }
