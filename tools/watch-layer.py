@@ -35,7 +35,7 @@ import tempfile
 import time
 from pathlib import Path
 
-LAYOUT = 12
+LAYOUT = 13
 MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, MAX_PLACES = 16, 1216, 12160, 4096
 NONE = 0xFFFF_FFFF
 DESTINATION = "destination"

@@ -35,10 +35,11 @@ impl HandSpeed {
 
     /// The stage: one period, from the message of the period before into this one, which may hold anything.
     pub fn step(&mut self, percept: Option<&Percept>, previous: &Self) {
-        let Some(Percept { arm, hand, .. }) = percept.filter(|percept| percept.arm.is_tracked()) else {
+        let Some(percept) = percept.filter(|percept| percept.acting_arm().is_tracked()) else {
             // Nothing is seen of the hand: what is known of it stays.
             return *self = *previous;
         };
+        let (arm, hand) = (percept.acting_arm(), percept.hand);
         let measured = arm.wrist.velocity.iter().map(|velocity| velocity * velocity).sum::<f64>().sqrt();
         let begins = hand.reaching == 1 && previous.reaching == 0;
         self.now = previous.now + FOLLOWS * (measured - previous.now);

@@ -8,8 +8,8 @@
 //! use coact_messages::Percept;
 //!
 //! let mut percept: Box<Percept> = bytemuck::zeroed_box();
-//! percept.arm.tracked = 1;
-//! percept.arm.wrist.velocity = [0.3, 0.0, 0.4];
+//! percept.arms[0].tracked = 1;
+//! percept.arms[0].wrist.velocity = [0.3, 0.0, 0.4];
 //! let (mut previous, mut speed): (HandSpeed, HandSpeed) = Default::default();
 //! for _ in 0..500 {
 //!     speed.step(Some(&percept), &previous);

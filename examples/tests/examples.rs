@@ -146,8 +146,8 @@ fn stage_of_one_s_own_runs_as_a_process() {
     let (mut seen, mut beats) = (HandSpeed::default(), 0);
     let reach = |percept: &mut Percept, _| {
         *percept = bytemuck::Zeroable::zeroed();
-        (percept.arm.tracked, percept.hand.reaching) = (1, 1);
-        percept.arm.wrist.velocity = [0.5, 0.0, 0.0];
+        (percept.arms[0].tracked, percept.hand.reaching) = (1, 1);
+        percept.arms[0].wrist.velocity = [0.5, 0.0, 0.0];
     };
     // The shell sends a pulse with each cycle; a reader that is held up loses the oldest ones.
     publish(&run.0, "perception", topic::PERCEPT, reach, || {

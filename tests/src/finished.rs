@@ -37,6 +37,19 @@ impl Finished {
         self.supervisor.iter().filter(|event| event.event == kind && event.process == process).count()
     }
 
+    /// Nobody died. A machine that others share stands still at times, and a stage is then taken for hung: one may be.
+    ///
+    /// # Panics
+    /// Somebody did.
+    pub fn nobody_died(&self) {
+        let hung = |event: &&SupervisorEvent| {
+            event.reason.as_deref().is_some_and(|reason| reason.starts_with("hung"))
+        };
+        let died = self.supervisor.iter().filter(|event| event.event == SupervisorEventKind::Died);
+        let (hung, otherwise): (Vec<_>, Vec<_>) = died.partition(hung);
+        assert!(otherwise.is_empty() && hung.len() <= 1, "{otherwise:?} {hung:?}");
+    }
+
     /// Cycles of a process.
     pub fn cycles(&self, process: &str) -> u64 {
         self.summary().processes.get(process).map_or(0, |report| report.cycles)

@@ -56,9 +56,9 @@ fn watch(run: &Run, ends: Arc<AtomicBool>) -> JoinHandle<Seen> {
         let Seen { mut frames, mut pitches } = Seen::default();
         while !ends.load(Ordering::Relaxed) {
             let note = |sample: &SensorSample| {
-                let number = sample.hand.frame;
+                let number = sample.hands[0].frame;
                 if frames.last().is_none_or(|last: &Frame| last.number != number) {
-                    let captured_ns = at_ns(sample.hand.captured_cycle);
+                    let captured_ns = at_ns(sample.hands[0].captured_cycle);
                     frames.push(Frame { number, captured_ns, published_ns: sample.header.published_ns });
                 }
             };
@@ -72,7 +72,7 @@ fn watch(run: &Run, ends: Arc<AtomicBool>) -> JoinHandle<Seen> {
 
 /// How far the hand is turned, rad above the table.
 fn pitch(truth: &Truth) -> f64 {
-    let [.., wrist, tip] = truth.arm.map(DVec3::from);
+    let [.., wrist, tip] = truth.arms[0].map(DVec3::from);
     let along = tip - wrist;
     along.z.atan2(along.truncate().length())
 }

@@ -95,7 +95,7 @@ impl Player {
         let decided =
             stages.task().actions.get(stages.frame.decision.action as usize).map(|action| &action.name);
         let last = self.events.iter().rev().find_map(Event::as_action);
-        let hand = stages.percept.arm.fingertip.position;
+        let hand = stages.percept.arms[0].fingertip.position;
         format!(
             "achieved {:09b}, decided {decided:?}, phase {}, hand {hand:.2?}, last {last:?}",
             stages.truth.achieved, stages.command.phase

@@ -8,7 +8,6 @@ use coact_messages::{
 };
 use coact_pipeline::Run;
 use coact_realtime::{Schedule, now};
-use coact_run_records::SupervisorEventKind;
 use coact_tests::Launched;
 use iceoryx2::port::publisher::Publisher;
 use iceoryx2::prelude::*;
@@ -112,9 +111,7 @@ fn what_is_not_good_is_counted_and_the_assembly_goes_on() {
     let run = launched.when_started();
     spoof_all(&run);
     let finished = launched.finish();
-    let deaths: Vec<_> =
-        finished.supervisor.iter().filter(|event| event.event == SupervisorEventKind::Died).collect();
-    assert!(deaths.is_empty(), "{deaths:?}\n{}", finished.stderr);
+    finished.nobody_died();
     let summary = finished.summary();
     for process in ["world", "perception", "fields", "control", "monitor"] {
         let refused = summary.refused.get(process).unwrap_or_else(|| panic!("{process}: {summary:?}"));

@@ -66,11 +66,13 @@ const LOADING: u64 = 100;
 
 /// Until then the set has become steady: connections are made, every buffer was used. Chosen by hand.
 const WARM_UP: Duration = Duration::from_secs(5);
-/// How long page faults are counted, and how long each process is traced: some thousand and some hundred cycles.
+/// How long page faults are counted, and how long each process is traced at a time: some thousand and some hundred cycles.
 const COUNTED: Duration = Duration::from_secs(4);
 const TRACED: Duration = Duration::from_secs(2);
+/// A machine on which the debugger delays a process so much that it makes too few cycles traces it up to so many times.
+const TIMES: usize = 4;
 /// The set ends by itself after this, whatever becomes of the test, s.
-const LONGEST: &str = "45";
+const LONGEST: &str = "60";
 /// The set's start and end take no longer, or the test fails.
 const STARTS_WITHIN: Duration = Duration::from_secs(25);
 const ENDS_WITHIN: Duration = Duration::from_secs(15);
@@ -130,12 +132,15 @@ impl Chain {
     fn calls(&mut self, index: usize) -> Result<Seen, TraceError> {
         let mut tracer = Tracer::attach(self.pids[index])?;
         let before = sent(&mut self.pulses[index]);
-        let made = tracer.calls(TRACED)?;
-        let cycles = sent(&mut self.pulses[index]) - before;
-        drop(tracer);
-        let mut calls = BTreeMap::new();
-        made.iter().for_each(|call| *calls.entry(call.name()).or_default() += 1);
-        Ok(Seen { process: EXPECTED[index].process, cycles, calls })
+        let mut seen = Seen { process: EXPECTED[index].process, cycles: 0, calls: BTreeMap::new() };
+        for _ in 0..TIMES {
+            tracer.calls(TRACED)?.iter().for_each(|call| *seen.calls.entry(call.name()).or_default() += 1);
+            seen.cycles = sent(&mut self.pulses[index]) - before;
+            if seen.cycles >= FEWEST_CYCLES {
+                break;
+            }
+        }
+        Ok(seen)
     }
 }
 

@@ -7,9 +7,9 @@ function sections({ forms, parts, path, warmest, populations }) {
   return {
     robot: forms * 7,
     parts: parts * 9,
-    keypoints: 9 * 4,
-    arm: 4 * 5,
-    truth: 4 * 3,
+    keypoints: 2 * 9 * 4,
+    arms: 2 * 4 * 5,
+    truth: 2 * 4 * 3,
     path: path * 3,
     nearest: 7,
     expected: 4,
@@ -23,7 +23,7 @@ function sections({ forms, parts, path, warmest, populations }) {
  * @param {ArrayBuffer} bytes
  * @param {{forms: number, parts: number, path: number, warmest: number, populations: number}} sizes
  * @returns {null | {past: boolean, at: number, robot: Float32Array, parts: Float32Array, keypoints: Float32Array,
- *   arm: Float32Array, truth: Float32Array, path: Float32Array, nearest: Float32Array, expected: Float32Array, destinations: Float32Array,
+ *   arms: Float32Array, truth: Float32Array, path: Float32Array, nearest: Float32Array, expected: Float32Array, destinations: Float32Array,
  *   state: object, populations: Float32Array, sites: Float32Array}} null when it is none of this run
  */
 export function readPicture(bytes, sizes) {

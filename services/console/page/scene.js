@@ -134,10 +134,16 @@ export class Scene {
     }
   }
 
-  #putPerson({ arm, truth, keypoints, state }) {
+  #putPerson({ arms, truth, keypoints, state }) {
+    for (const side of [0, 1]) {
+      const own = (numbers) => numbers.subarray((numbers.length / 2) * side, (numbers.length / 2) * (side + 1));
+      this.#putArm(own(arms), own(truth), own(keypoints), !state.hidden);
+    }
+  }
+
+  #putArm(arm, truth, keypoints, seen) {
     const { forms, shows } = this;
     const points = [0, 1, 2, 3].map((index) => placeAt(arm, 5 * index));
-    const seen = !state.hidden;
     if (points[3]) this.#putShadow(points[3], 0.02);
     for (let limb = 0; limb < 3; limb += 1) {
       const [from, to] = [points[limb], points[limb + 1]];

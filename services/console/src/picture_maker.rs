@@ -2,7 +2,7 @@ use crate::numbers::Numbers;
 use crate::{Glimpse, Picture, Seen};
 use coact_joint_task::{Act, NetworkPlan, Task};
 use coact_messages::{
-    ARM_JOINTS, Command, DriveReport, FieldFrame, HoldReason, LayerKind, NONE, Percept, PersonArm,
+    ARM_JOINTS, ArmSide, Command, DriveReport, FieldFrame, HoldReason, LayerKind, NONE, Percept,
     SensorSample, Sighting,
 };
 use coact_motion::{Capsule, CollisionModel, Mechanism, Solid};
@@ -17,9 +17,9 @@ use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 /// 1. each form of the robot, as [`forms`](PictureMaker::forms) has them: place, quaternion x y z w;
 /// 2. each part that is seen, or was and may still be there: kind, place, quaternion x y z w, who holds it (0 nobody, 1 the robot, 2 the person,
 ///    3 who knows: something is before it); -1 for none;
-/// 3. the nine keypoints as measured: place, confidence;
-/// 4. shoulder, elbow, wrist and finger tip as perceived: place, radius within which it may be, age;
-/// 5. the same four as they truly are;
+/// 3. the nine keypoints of the right arm, then of the left one, as measured: place, confidence;
+/// 4. shoulder, elbow, wrist and finger tip of both as perceived: place, radius within which it may be, age;
+/// 5. the same four of both as they truly are;
 /// 6. the hand's planned way from here on: [`PictureMaker::WAY`] places;
 /// 7. where robot and person are nearest to each other: a place on each, and the distance;
 /// 8. where the person's hand is expected, and the signal of the goal that is inferred;
@@ -106,7 +106,7 @@ impl PictureMaker {
     /// How many numbers of a picture come before those of the truth.
     #[cfg(test)]
     pub(crate) fn numbers_before_truth(&self) -> usize {
-        self.forms().len() * 7 + self.task.parts.len() * 9 + 9 * 4 + 4 * 5
+        self.forms().len() * 7 + self.task.parts.len() * 9 + 2 * (9 * 4 + 4 * 5)
     }
 
     /// What these messages show; none while there are none.
@@ -171,7 +171,7 @@ impl PictureMaker {
         let turn = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
         let centre = Point3::from(part.position) + turn * Vector3::z() * (0.5 * kind.shape.height());
         let robot = self.robot.grasp_point(&sample.joints.position);
-        let person = Point3::from(percept.arm.fingertip.position);
+        let person = Point3::from(percept.acting_arm().fingertip.position);
         let index = part.kind as usize;
         match () {
             () if percept.robot_holds[index] > SURE && (robot - centre).norm() < HELD_WITHIN => 1.0,
@@ -181,24 +181,28 @@ impl PictureMaker {
     }
 
     fn draw_person(&self, seen: &Seen, numbers: &mut Numbers) {
-        match seen.sample {
-            Some(sample) => sample.hand.keypoints.iter().for_each(|keypoint| {
-                numbers.extend(&keypoint.position);
-                numbers.push(keypoint.confidence);
-            }),
-            None => numbers.unknown(9 * 4),
+        for side in ArmSide::BOTH.map(|side| side as usize) {
+            match seen.sample {
+                Some(sample) => sample.hands[side].keypoints.iter().for_each(|keypoint| {
+                    numbers.extend(&keypoint.position);
+                    numbers.push(keypoint.confidence);
+                }),
+                None => numbers.unknown(9 * 4),
+            }
         }
-        match seen.percept.filter(|percept| percept.arm.age != u64::MAX) {
-            Some(percept) => percept.arm.points().iter().for_each(|point| {
-                numbers.extend(&point.position);
-                numbers.push(DEVIATIONS * point.deviation);
-                numbers.push(point.age as f64);
-            }),
-            None => numbers.unknown(4 * 5),
+        for side in ArmSide::BOTH.map(|side| side as usize) {
+            match seen.percept.map(|percept| &percept.arms[side]).filter(|arm| arm.age != u64::MAX) {
+                Some(arm) => arm.points().iter().for_each(|point| {
+                    numbers.extend(&point.position);
+                    numbers.push(DEVIATIONS * point.deviation);
+                    numbers.push(point.age as f64);
+                }),
+                None => numbers.unknown(4 * 5),
+            }
         }
         match seen.truth {
-            Some(truth) => numbers.extend(truth.arm.as_flattened()),
-            None => numbers.unknown(4 * 3),
+            Some(truth) => numbers.extend(truth.arms.as_flattened().as_flattened()),
+            None => numbers.unknown(2 * 4 * 3),
         }
     }
 
@@ -222,7 +226,7 @@ impl PictureMaker {
     }
 
     fn draw_nearest(&self, links: &[Capsule], percept: Option<&Percept>, numbers: &mut Numbers) {
-        let limbs = percept.map(|percept| self.limbs(&percept.arm)).unwrap_or_default();
+        let limbs = percept.map(|percept| self.limbs(percept)).unwrap_or_default();
         let pairs = links.iter().flat_map(|link| limbs.iter().map(move |limb| (link, limb)));
         let nearest = pairs.min_by(|one, other| one.0.distance(one.1).total_cmp(&other.0.distance(other.1)));
         numbers.extend_or_unknown(nearest.map(|(link, limb)| {
@@ -232,13 +236,12 @@ impl PictureMaker {
         }));
     }
 
-    fn limbs(&self, arm: &PersonArm) -> Vec<Capsule> {
-        if arm.age == u64::MAX {
-            return Vec::new();
-        }
-        let points = arm.points().map(|point| Point3::from(point.position));
+    /// Around both arms, as far as they were ever seen.
+    fn limbs(&self, percept: &Percept) -> Vec<Capsule> {
         let limb = |(ends, radius): (&[Point3<f64>], f64)| Capsule { start: ends[0], end: ends[1], radius };
-        points.windows(2).zip(self.radii).map(limb).collect()
+        let known = percept.arms.iter().filter(|arm| arm.age != u64::MAX);
+        let points = known.map(|arm| arm.points().map(|point| Point3::from(point.position)));
+        points.flat_map(|points| points.windows(2).zip(self.radii).map(limb).collect::<Vec<_>>()).collect()
     }
 
     /// Where the person is expected: at the part that the strongest inferred goal is about, or where parts change hands when she
@@ -271,7 +274,7 @@ impl PictureMaker {
         let stopped = |drive: &DriveReport| f64::from(u8::from(drive.hold == HoldReason::Stopped as u32));
         numbers.push(seen.sample.map_or(f64::NAN, |sample| stopped(&sample.drive)));
         numbers.push(seen.percept.map_or(f64::NAN, |percept| percept.hand.aperture));
-        let tip = |percept: &Percept| Vector3::from(percept.arm.fingertip.velocity).norm();
+        let tip = |percept: &Percept| Vector3::from(percept.acting_arm().fingertip.velocity).norm();
         numbers.push(seen.percept.map_or(f64::NAN, tip));
         let hand = seen.sample.map(|sample| self.robot.grasp_point(&sample.joints.position));
         numbers.push(self.speed_of_hand(cycle, hand));
@@ -280,7 +283,9 @@ impl PictureMaker {
             _ => f64::NAN,
         };
         numbers.push(seen.percept.map_or(f64::NAN, onset));
-        numbers.push(seen.percept.map_or(1.0, |percept| f64::from(u8::from(!percept.arm.is_tracked()))));
+        numbers.push(
+            seen.percept.map_or(1.0, |percept| f64::from(u8::from(!percept.acting_arm().is_tracked()))),
+        );
         numbers.unknown(2);
     }
 
@@ -357,7 +362,7 @@ mod tests {
         assert!(maker.glimpse(&Seen::default()).is_none());
         let (links, parts) = (maker.forms().len() * 7, maker.task.parts.len() * 9);
         let populations = maker.plan.populations.len();
-        let person = 9 * 4 + 4 * 5 + 4 * 3;
+        let person = 2 * (9 * 4 + 4 * 5 + 4 * 3);
         let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
         frame.header.cycle = 70;
         frame.signal[2] = 1.0;

@@ -173,7 +173,7 @@ mod tests {
     fn the_truth_is_shown_where_it_was_recorded_and_an_older_recording_opens_without_it() {
         let (mut sample, mut truth) = (zeroed_box::<SensorSample>(), zeroed_box::<Truth>());
         (sample.header.layout, truth.header.layout) = (LAYOUT, LAYOUT);
-        truth.arm[2] = [-0.75, 0.25, 1.0];
+        truth.arms[0][2] = [-0.75, 0.25, 1.0];
         let [sample, truth] = [Recorded::Sample(sample), Recorded::Truth(truth)];
         assert_eq!(true_wrist(&[truth, sample.clone()]), [-0.75, 0.25, 1.0]);
         assert!(true_wrist(&[sample]).iter().all(|number| number.is_nan()));

@@ -48,9 +48,10 @@ impl<'a> Inputs<'a> {
         }
     }
 
-    /// Whether a message is missing, or the person has not been seen yet and may be anywhere: the robot must not move on.
+    /// Whether a message is missing, or one of the person's arms has not been seen yet and may be anywhere: the robot must not move on.
     pub fn blind(&self) -> bool {
-        let knows_person = self.percept.is_some_and(|percept| percept.arm.age < u64::MAX);
+        let knows_person =
+            self.percept.is_some_and(|percept| percept.arms.iter().all(|arm| arm.age < u64::MAX));
         self.sample.is_none() || self.frame.is_none() || !knows_person
     }
 
@@ -121,9 +122,9 @@ impl<'a> Inputs<'a> {
         self.percept.is_some_and(|percept| !percept.person_holds.iter().enumerate().any(other))
     }
 
-    /// The person's arm, where perception tracks it and a camera frame has shown the hand recently enough.
+    /// The person's acting arm, where perception tracks it and a camera frame has shown the hand recently enough.
     fn arm(&self) -> Option<&'a PersonArm> {
-        let arm = self.percept.map(|percept| &percept.arm);
+        let arm = self.percept.map(Percept::acting_arm);
         arm.filter(|arm| arm.is_tracked() && arm.age.saturating_add(self.percept_age()) <= self.hand_after)
     }
 
@@ -132,7 +133,7 @@ impl<'a> Inputs<'a> {
         self.percept.map_or(0, |percept| self.tick.saturating_sub(percept.header.cycle))
     }
 
-    /// Whether the person's hand waits at `place`.
+    /// Whether the person's acting hand waits at `place`.
     pub fn person_waits_at(&self, place: &Point3<f64>) -> bool {
         self.arm().is_some_and(|arm| {
             let wrist = &arm.wrist;
@@ -160,8 +161,7 @@ impl<'a> Inputs<'a> {
             let capsule = part_capsules.get(part.kind as usize)?.within(&frame_of(part)?);
             Some((index, capsule, seconds(self.tick.saturating_sub(seen))))
         });
-        let person =
-            PersonCapsules::of(&self.percept?.arm, self.percept_age(), &limits.person, &limits.stale)?;
+        let person = PersonCapsules::of(self.percept?, self.percept_age(), &limits.person, &limits.stale)?;
         Some(person.holding(capsules, limits.person.carried_within))
     }
 

@@ -111,7 +111,9 @@ impl SnapshotLog {
             in_place: locations.names_in_place(task),
             joints: sample.joints.position,
             parts: self.parts.parts(task),
-            keypoints: sample.hand.keypoints.map(|point| (point.confidence > 0.0).then_some(point.position)),
+            keypoints: sample
+                .hands
+                .map(|hand| hand.keypoints.map(|point| (point.confidence > 0.0).then_some(point.position))),
         };
         self.log.append(vec![snapshot])
     }

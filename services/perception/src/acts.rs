@@ -8,7 +8,7 @@ use crate::present_movement::PresentMovement;
 use crate::preshape::Classifier;
 use crate::reaching::MovementReader;
 use coact_joint_task::{Act, Agent, Task};
-use coact_messages::{MAX_ACTS, Percept, SceneView};
+use coact_messages::{ArmSide, MAX_ACTS, Percept, SceneView};
 use coact_period::cycles;
 use nalgebra::Vector3;
 use std::time::Duration;
@@ -32,6 +32,8 @@ const WORD: (f64, f64) = ramp(60, 300);
 const UNSEEN: u64 = cycles(Duration::from_secs(1));
 /// Dwell at rest that makes full evidence of idling, cycles: then the robot takes the initiative. Chosen by hand.
 const LONG: f64 = cycles(Duration::from_secs(3)) as f64;
+/// Evidence above which a hand shows something: the middle.
+const SHOWN: f64 = 0.5;
 /// Distance of a resting hand from its place, m: full, and no evidence. Chosen by hand.
 const AT_REST: (f64, f64) = (0.06, 0.12);
 /// Speed of a resting hand, m/s: full, and no evidence. The lower one is what the tracker's scatter makes.
@@ -43,7 +45,8 @@ pub(crate) struct Acts {
     acts: Vec<Act>,
     /// Of each chain: its kind of part, and who has it.
     about: Vec<(usize, Agent)>,
-    rest: Vector3<f64>,
+    /// Where each hand rests, by [`ArmSide`], m.
+    rest: [Vector3<f64>; 2],
     grasps: Grasps,
     gestures: Gestures,
 }
@@ -53,15 +56,21 @@ impl Acts {
         Self {
             acts: task.acts.clone(),
             about: task.chains.iter().map(|chain| (chain.kind, chain.from)).collect(),
-            rest: task.scene.person_rest.into(),
+            rest: ArmSide::BOTH.map(|side| task.scene.rest(side).into()),
             grasps: Grasps::new(task),
             gestures: Gestures::new(task),
         }
     }
 
-    /// Whether the hand's movement begins where it rests.
-    pub fn is_from_rest(&self, departure: [f64; 3]) -> bool {
-        (Vector3::from(departure) - self.rest).norm() < AT_REST.1
+    /// Whether a movement of this hand begins where it rests.
+    pub fn is_from_rest(&self, side: ArmSide, departure: [f64; 3]) -> bool {
+        (Vector3::from(departure) - self.rest[side as usize]).norm() < AT_REST.1
+    }
+
+    /// Whether the hand shows something: a gesture, or a part that it points at.
+    pub fn are_shown(&self, percept: &Percept) -> bool {
+        let mut all = self.acts.iter().zip(&percept.act);
+        all.any(|(act, evidence)| matches!(act, Act::Gesture(_) | Act::Point(_)) && *evidence > SHOWN)
     }
 
     /// Moves the evidence for every act one cycle on.
@@ -124,14 +133,19 @@ impl Acts {
         }
     }
 
+    /// Learns from a part that the hand has taken.
+    pub fn learn(&self, state: &mut PerceptionState) {
+        self.grasps.learn(state);
+    }
+
     fn resting(&self, tick: u64, state: &PerceptionState) -> f64 {
-        let movement = &state.hand.movement;
+        let (movement, side) = (&state.hand.movement, state.acting());
         // A hand that has set out does not rest, however near to its place the part lies that it reaches for.
-        let sets_out = movement.is_moving() && self.is_from_rest(movement.departure);
+        let sets_out = movement.is_moving() && self.is_from_rest(side, movement.departure);
         if sets_out || !state.hand.is_tracked(tick) {
             return 0.0;
         }
-        let away = (state.hand.wrist_at(tick) - self.rest).norm();
+        let away = (state.hand.wrist_at(tick) - self.rest[side as usize]).norm();
         let slow = smooth_step(movement.speed, RESTING_SPEED.1, RESTING_SPEED.0);
         smooth_step(away, AT_REST.1, AT_REST.0) * slow
     }

@@ -1,12 +1,12 @@
 use crate::evidence::smooth_step;
-use crate::grip_resemblance::grip_resemblance;
+use crate::grip_resemblance::{UsualGrip, grip_resemblance};
 use crate::objects::{PartTrack, TaskPlaces};
 use crate::perception_state::PerceptionState;
 use crate::present_movement::PresentMovement;
 use crate::preshape::{Classifier, LAST_READ};
 use crate::reaching::{HANDOVER, MovementReader, PLACES};
 use coact_joint_task::{PersonGrip, Task};
-use coact_messages::{Destinations, MAX_KINDS, MAX_PARTS, PERSON, Percept, SceneView};
+use coact_messages::{ArmSide, Destinations, MAX_GRIPS, MAX_KINDS, MAX_PARTS, PERSON, Percept, SceneView};
 use nalgebra::{Vector2, Vector3};
 use std::cmp::Ordering;
 
@@ -45,7 +45,8 @@ pub(crate) const OFFERED: f64 = 0.25;
 pub(crate) struct Grasps {
     grips: Vec<PersonGrip>,
     handover: Vector3<f64>,
-    rest: Vector3<f64>,
+    /// Where each hand rests, by [`ArmSide`], m.
+    rest: [Vector3<f64>; 2],
 }
 
 impl Grasps {
@@ -53,7 +54,7 @@ impl Grasps {
         Self {
             grips: task.grips.clone(),
             handover: task.scene.handover.into(),
-            rest: task.scene.person_rest.into(),
+            rest: ArmSide::BOTH.map(|side| task.scene.rest(side).into()),
         }
     }
 
@@ -62,9 +63,21 @@ impl Grasps {
     pub fn evidence(&self, grip: usize, kind: usize, state: &PerceptionState, out: &Percept) -> f64 {
         let held = out.person_holds[kind];
         if held > 0.0 && !state.parts.is_taken_out(kind) {
-            held * grip_resemblance(&self.grips, grip, state.grip_pitch(), 1.0)
+            held * grip_resemblance(&self.usual(state)[..self.grips.len()], grip, state.grip_pitch(), 1.0)
         } else {
             0.0
+        }
+    }
+
+    /// How this person holds the hand in each grip.
+    fn usual(&self, state: &PerceptionState) -> [UsualGrip; MAX_GRIPS] {
+        state.grips.usual(&self.grips)
+    }
+
+    /// Learns how this person holds the hand, from a part that it has taken.
+    pub fn learn(&self, state: &mut PerceptionState) {
+        if let Some(pitch) = state.grip_pitch() {
+            state.grips.learn(&self.grips, pitch);
         }
     }
 
@@ -99,8 +112,9 @@ impl Grasps {
             out.push(None, place.into(), sharpness * usual + lead.logarithm(sharpness));
         }
         against_the_best(&mut out.fit[..out.count as usize]);
+        let usual = &self.usual(state)[..self.grips.len()];
         for (grip, likeness) in out.grip.iter_mut().enumerate().take(self.grips.len()) {
-            *likeness = grip_resemblance(&self.grips, grip, state.hand.pitch_ahead(), trust);
+            *likeness = grip_resemblance(usual, grip, state.hand.pitch_ahead(), trust);
         }
     }
 
@@ -130,9 +144,10 @@ impl Grasps {
 
     /// One cycle's part of finding out which places the movement leads to.
     pub fn look_ahead(&self, state: &mut PerceptionState, reader: &MovementReader, places: &TaskPlaces) {
+        let rest = self.rest[state.acting() as usize];
         let PerceptionState { likelihoods, path, person, parts, .. } = state;
         likelihoods.step(reader, path, person, |index| match index.checked_sub(HANDOVER) {
-            Some(nearer) => Some(self.shown(nearer)),
+            Some(nearer) => Some(self.shown(rest, nearer)),
             None => {
                 let part = parts.track(index)?;
                 let takable = |kind: usize| {
@@ -144,9 +159,9 @@ impl Grasps {
         });
     }
 
-    /// Where an empty hand may be shown, on the table plane: at the handover place, or nearer to the person.
-    fn shown(&self, nearer: usize) -> Vector2<f64> {
-        let back = (self.rest - self.handover).xy();
+    /// Where an empty hand that rests at `rest` may be shown, on the table plane: at the handover place, or nearer to the person.
+    fn shown(&self, rest: Vector3<f64>, nearer: usize) -> Vector2<f64> {
+        let back = (rest - self.handover).xy();
         self.handover.xy() + SHORT_OF_IT * nearer as f64 * back.normalize()
     }
 
@@ -179,8 +194,9 @@ impl Grasps {
         let is_from_rest = movement.phase.is_some();
         let likely = if is_from_rest { likelihoods.fold(f64::NEG_INFINITY, f64::max) } else { 0.0 };
         let shown = (self.handover.xy(), Lead { heads, likely });
-        let back = Lead { heads: movement.heading.leads_to(self.rest), likely: RETURNS };
-        let back = (!is_from_rest).then_some((self.rest.xy(), back));
+        let rest = self.rest[state.acting() as usize];
+        let back = Lead { heads: movement.heading.leads_to(rest), likely: RETURNS };
+        let back = (!is_from_rest).then_some((rest.xy(), back));
         std::iter::once(shown).chain(back)
     }
 

@@ -18,10 +18,12 @@
 //! All that lasts from cycle to cycle stands in the percept itself, so that a restarted perception resumes from it.
 
 mod acts;
+mod attention;
 mod evidence;
 mod gestures;
 mod grasps;
 mod grip_resemblance;
+mod habit;
 mod hand;
 mod heading;
 mod loss;
@@ -29,6 +31,7 @@ mod objects;
 mod occlusion;
 mod perception;
 mod perception_state;
+mod person_grips;
 mod plausible_cycle;
 mod pointing;
 mod present_movement;

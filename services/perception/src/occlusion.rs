@@ -1,10 +1,11 @@
-use crate::hand::{TrackedHand, USABLE};
+use crate::hand::{BELIEVED, TrackedHand, USABLE};
 use crate::objects::TaskPlaces;
 use crate::plausible_cycle::cycle;
 use bytemuck::{Pod, Zeroable};
-use coact_messages::SceneView;
+use coact_messages::{HandView, KeypointName, SceneView};
 use coact_period::cycles;
 use coact_stage_state::Implausible;
+use nalgebra::Vector3;
 use std::time::Duration;
 
 /// Age of the newest frame from which the hand is out of sight: three frames at 60 Hz, more than one that was dropped
@@ -16,6 +17,8 @@ const LATE: u64 = USABLE;
 const AHEAD: f64 = 0.3;
 /// In how many steps. Chosen by hand: at 1 m/s they are 5 cm long, and occluders are larger.
 const STEPS: usize = 6;
+/// How near to where it lay the wrist of a hand is that still lies there, m: the tracker's scatter, and a sway. Chosen by hand.
+const LIES: f64 = 0.03;
 /// How long a hand may stay hidden. Chosen by hand: longer than a grasp behind an occluder takes, not so long that a person
 /// who has gone keeps the robot waiting.
 const LONGEST: u64 = cycles(Duration::from_secs(4));
@@ -44,22 +47,30 @@ impl Occlusion {
     pub fn watch(
         &mut self,
         tick: u64,
-        view: &SceneView,
+        (view, seen): (&SceneView, &HandView),
         hand: &TrackedHand,
         may_reach: bool,
         places: &TaskPlaces,
     ) {
-        let age = hand.age(tick);
         if self.since > 0 {
             let over = hand.captured != self.last_seen || tick > self.since + LONGEST;
             self.since = if over { 0 } else { self.since };
             return;
         }
-        let vanished = may_reach && (OUT_OF_SIGHT..LATE).contains(&age) && hand.captured != self.last_seen;
+        let vanished = may_reach && has_vanished(tick, hand, seen) && hand.captured != self.last_seen;
         if vanished && leads_behind(view, hand, places) {
             (self.since, self.last_seen) = (tick.max(1), hand.captured);
         }
     }
+}
+
+/// Whether the hand has just gone out of sight. One whose wrist is `seen` where it lay still has not: only its fingers have, behind something.
+pub(crate) fn has_vanished(tick: u64, hand: &TrackedHand, seen: &HandView) -> bool {
+    let wrist = &seen.keypoints[KeypointName::Wrist as usize];
+    let moved = Vector3::from(wrist.position) - Vector3::from(hand.movement.place_of_stillness());
+    let is_new = tick.saturating_sub(seen.captured_cycle) < OUT_OF_SIGHT;
+    let lies = is_new && wrist.confidence > BELIEVED && moved.norm() < LIES;
+    !lies && (OUT_OF_SIGHT..LATE).contains(&hand.age(tick))
 }
 
 /// Whether the hand's way led out of the robot's sight.

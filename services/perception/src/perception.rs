@@ -1,7 +1,7 @@
 use crate::acts::Acts;
+use crate::attention::attend;
 use crate::hand::TrackedHand;
 use crate::objects::{Hands, PersonHand, TaskPlaces};
-use crate::occlusion::leads_behind;
 use crate::perception_state::{PerceptionState, ResumeError};
 use crate::preshape::{Classifier, PreshapeModel, ReachRecord};
 use crate::reaching::MovementReader;
@@ -104,11 +104,9 @@ impl Perception {
 
     fn sense(&mut self, tick: u64, sample: &SensorSample) {
         let state = &mut *self.state;
-        let hide = leads_behind(&sample.scene, &state.hand, &self.places);
-        if let Some(onset) = state.hand.observe(tick, &sample.hand, hide) {
-            let from_rest = onset && self.acts.is_from_rest(state.hand.movement.departure);
+        if let Some(onset) = attend(tick, sample, &self.acts, &self.places, &self.percept, state) {
+            let from_rest = onset && self.acts.is_from_rest(state.acting(), state.hand.movement.departure);
             self.classifier.observe(&state.hand, from_rest, &mut state.preshape);
-            state.path.observe(&state.hand, onset);
             if onset {
                 state.likelihoods.begin();
             }
@@ -126,11 +124,15 @@ impl Perception {
             if takes && state.preshape.reach.is_of(&state.hand.movement) {
                 self.movements.learn(&state.path, state.hand.centre().xy(), &mut state.person);
             }
+            if takes {
+                self.acts.learn(state);
+            }
             state.loss.look(&state.parts, &around, &self.places);
         }
         state.loss.feel(tick, &sample.joints, &state.parts, &self.places);
         let may_reach = may_reach(&self.acts, state);
-        state.occlusion.watch(tick, &sample.scene, &state.hand, may_reach, &self.places);
+        let seen = (&sample.scene, &sample.hands[state.acting() as usize]);
+        state.occlusion.watch(tick, seen, &state.hand, may_reach, &self.places);
         self.words.listen(&sample.heard);
     }
 
@@ -138,11 +140,13 @@ impl Perception {
         let (hand, reach) = (&self.state.hand, &self.state.preshape.reach);
         let tracked = hand.is_tracked(tick);
         let reaching = tracked && hand.movement.is_moving() && reach.is_of(&hand.movement);
-        self.percept.arm = hand.arm_at(tick);
+        let side = self.state.acting();
+        self.percept.arms[side as usize] = hand.arm_at(tick);
+        self.percept.arms[side.other() as usize] = self.state.other.arm_at(tick);
         self.percept.hand = HandPercept {
             aperture: hand.aperture(),
             reaching: u32::from(reaching),
-            reserved: 0,
+            side: side as u32,
             since_onset: if reaching { tick.saturating_sub(reach.onset) } else { 0 },
         };
     }
@@ -154,7 +158,7 @@ fn may_reach(acts: &Acts, state: &PerceptionState) -> bool {
     let movement = &state.hand.movement;
     match movement.is_moving() {
         true => state.preshape.reach.is_of(movement),
-        false => acts.is_from_rest(movement.place_of_stillness()),
+        false => acts.is_from_rest(state.acting(), movement.place_of_stillness()),
     }
 }
 
@@ -162,12 +166,19 @@ fn may_reach(acts: &Acts, state: &PerceptionState) -> bool {
 fn hands(tick: u64, hand: &TrackedHand, robot: Option<&Robot>, joints: &JointReading) -> Hands {
     let person = hand.is_tracked(tick).then(|| PersonHand {
         centre: hand.centre(),
-        aperture: hand.aperture(),
+        aperture: hand.shape().aperture(),
         speed: hand.movement.speed,
     });
     let palm = robot.map(|robot| robot.palm(&joints.position));
     let hand_axis = robot.zip(palm).map(|(Robot { hand, .. }, palm)| {
         [hand.palm_face, hand.grasp_distance].map(|along| (palm * Point3::new(0.0, 0.0, along)).coords)
     });
-    Hands { person, followed: hand.is_followed(tick), palm, hand_axis, touch: joints.touch }
+    Hands {
+        person,
+        unseen: hand.has_been_seen() && person.is_none(),
+        followed: hand.is_followed(tick),
+        palm,
+        hand_axis,
+        touch: joints.touch,
+    }
 }

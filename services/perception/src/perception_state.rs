@@ -2,11 +2,12 @@ use crate::hand::TrackedHand;
 use crate::loss::Loss;
 use crate::objects::PartTracks;
 use crate::occlusion::Occlusion;
+use crate::person_grips::PersonGrips;
 use crate::plausible_cycle::cycle;
 use crate::preshape::PreshapeState;
 use crate::reaching::{HandPath, Likelihoods, PersonMovement};
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
-use coact_messages::Percept;
+use coact_messages::{ArmSide, Percept};
 use coact_stage_state::{Flag, Implausible, StageState, StateError, ensure, finite};
 
 /// Everything that perception must remember and that no other field of the percept holds: the words of
@@ -14,14 +15,22 @@ use coact_stage_state::{Flag, Implausible, StageState, StateError, ensure, finit
 #[repr(C)]
 #[derive(Debug, Clone, Copy, CheckedBitPattern, NoUninit, Zeroable)]
 pub(crate) struct PerceptionState {
-    /// The tracked hand and its present movement.
+    /// The hand that acts, and its present movement.
     pub hand: TrackedHand,
+    /// The other hand.
+    pub other: TrackedHand,
+    /// Whether it is the left one that acts.
+    left_acts: Flag,
     /// The present reach's features, and what is known of this person's hand.
     pub preshape: PreshapeState,
-    /// The hand's way since it lay still.
+    /// The acting hand's way since it lay still.
     pub path: HandPath,
+    /// The other hand's.
+    pub other_path: HandPath,
     /// How this person's hand moves.
     pub person: PersonMovement,
+    /// How this person holds the hand in each grip.
+    pub grips: PersonGrips,
     /// How well it fits a reach to each place.
     pub likelihoods: Likelihoods,
     /// Every part that has been sighted.
@@ -53,13 +62,16 @@ pub enum ResumeError {
 
 impl StageState for PerceptionState {
     const STAGE: &'static str = "perception";
-    const LAYOUT: u32 = 6;
+    const LAYOUT: u32 = 8;
 
     fn check(&self) -> Result<(), Implausible> {
         self.hand.check()?;
+        self.other.check()?;
         self.preshape.check()?;
         self.path.check()?;
+        self.other_path.check()?;
         self.person.check()?;
+        self.grips.check()?;
         self.likelihoods.check()?;
         self.parts.check()?;
         self.occlusion.check()?;
@@ -78,6 +90,21 @@ impl PerceptionState {
         ensure(known, "parts", "kinds of this task").map_err(ResumeError::Field)?;
         evidence(last).map_err(ResumeError::Field)?;
         Ok(state)
+    }
+
+    /// Which hand acts.
+    pub fn acting(&self) -> ArmSide {
+        if self.left_acts.is_set() { ArmSide::Left } else { ArmSide::Right }
+    }
+
+    /// From now on the other hand is the one that acts.
+    pub fn change_hands(&mut self) {
+        self.left_acts = Flag::from(!self.left_acts.is_set());
+        std::mem::swap(&mut self.hand, &mut self.other);
+        std::mem::swap(&mut self.path, &mut self.other_path);
+        // Of the reach that was being recorded this hand knows nothing.
+        self.preshape.reach = Zeroable::zeroed();
+        self.dwell = 0;
     }
 
     /// Pitch of the hand when it took what it holds, rad; `None` if it could not be seen.

@@ -1,9 +1,12 @@
 use crate::WorldError;
-use coact_messages::{HandPoints, HandView, Plausible};
+use coact_messages::{ArmSide, HandPoints, HandView, Plausible};
 use coact_run_recording::{Recorded, Recording, RecordingError};
 use std::path::Path;
 
-/// Where a person's hand was in a run that was recorded: as its cameras saw it, frame by frame.
+/// What is shown again.
+const RIGHT: usize = ArmSide::Right as usize;
+
+/// Where a person's right hand was in a run that was recorded: as its cameras saw it, frame by frame.
 ///
 /// The tracker's scatter is in it; shown to a tracker again, it scatters twice.
 #[derive(Debug, Clone)]
@@ -26,8 +29,8 @@ impl HandRecording {
         let mut frames: Vec<(u64, [[f64; 3]; 9])> = Vec::new();
         while let Some(message) = recording.next_message().map_err(error)? {
             let Recorded::Sample(sample) = message else { continue };
-            let is_new = frames.last().is_none_or(|(last, _)| sample.hand.captured_cycle > *last);
-            let hand = Some(&sample.hand).filter(|_| is_new);
+            let is_new = frames.last().is_none_or(|(last, _)| sample.hands[RIGHT].captured_cycle > *last);
+            let hand = Some(&sample.hands[RIGHT]).filter(|_| is_new);
             frames.extend(hand.and_then(|hand| Some((hand.captured_cycle, whole_hand(hand)?))));
         }
         if frames.is_empty() {
@@ -71,13 +74,13 @@ mod tests {
         for cycle in 0..60 {
             let mut sample: Box<SensorSample> = bytemuck::zeroed_box();
             (sample.header.layout, sample.header.cycle) = (LAYOUT, cycle + 20);
-            sample.hand.captured_cycle = cycle / 17 * 17;
+            sample.hands[RIGHT].captured_cycle = cycle / 17 * 17;
             let points = model.reaching(DVec3::new(-0.9, 0.01 * (cycle / 17) as f64, 0.9), -1.0, 0.05);
-            for (keypoint, point) in sample.hand.keypoints.iter_mut().zip(points) {
+            for (keypoint, point) in sample.hands[RIGHT].keypoints.iter_mut().zip(points) {
                 (keypoint.position, keypoint.confidence) = (point.to_array(), 1.0);
             }
             // The wrist is lost in the third frame.
-            sample.hand.keypoints[2].confidence = if cycle / 17 == 2 { 0.0 } else { 1.0 };
+            sample.hands[RIGHT].keypoints[2].confidence = if cycle / 17 == 2 { 0.0 } else { 1.0 };
             writer.message(&Recorded::Sample(sample)).unwrap();
         }
         writer.finish(&Default::default()).unwrap();

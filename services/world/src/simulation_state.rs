@@ -25,7 +25,8 @@ pub(crate) struct SimulationState {
     pub person: PersonState,
     pub robot: RobotHandState,
     pub drive: DriveState,
-    pub tracker: TrackerState,
+    pub right_tracker: TrackerState,
+    pub left_tracker: TrackerState,
     /// The recogniser's newest frame.
     pub scene: SceneView,
     /// Bit i set: the scene's i-th slip has happened.
@@ -36,7 +37,7 @@ pub(crate) struct SimulationState {
 
 impl StageState for SimulationState {
     const STAGE: &'static str = "world";
-    const LAYOUT: u32 = 7;
+    const LAYOUT: u32 = 8;
 
     fn check(&self) -> Result<(), Implausible> {
         let counts = [self.assemblies, self.scene.frame, self.heard.sentences, self.tick >> 16];
@@ -44,11 +45,23 @@ impl StageState for SimulationState {
         ensure(counts, "tick or count", "one that can be reached in a run")?;
         let complete = self.complete_since <= self.tick.max(1);
         ensure(complete, "complete_since", "a tick that has been")?;
-        let frames = [self.scene.captured_cycle, self.tracker.delivered.captured_cycle];
+        let [right, left] = self.trackers();
+        let frames =
+            [self.scene.captured_cycle, right.delivered.captured_cycle, left.delivered.captured_cycle];
         ensure(frames.iter().all(|cycle| *cycle <= self.tick), "captured_cycle", "a tick that has been")?;
-        let views = self.scene.check().and_then(|()| self.tracker.check_views());
+        let views = self
+            .scene
+            .check()
+            .and_then(|()| self.trackers().into_iter().try_for_each(TrackerState::check_views));
         views.map_err(|Flaw { field, expected }| Implausible { field, expected })?;
         self.drive.check()?;
-        self.tracker.check()
+        self.trackers().into_iter().try_for_each(TrackerState::check)
+    }
+}
+
+impl SimulationState {
+    /// By [`ArmSide`](coact_messages::ArmSide).
+    pub fn trackers(&self) -> [&TrackerState; 2] {
+        [&self.right_tracker, &self.left_tracker]
     }
 }

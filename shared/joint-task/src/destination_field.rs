@@ -3,7 +3,7 @@
 use crate::network_file::{DestinationsEntry, LEAST_TAU};
 use crate::source_file::SourceFile;
 use crate::{DestinationPlan, Scene, TaskError};
-use coact_messages::{MAX_PLACES, TableGrid};
+use coact_messages::{ArmSide, MAX_PLACES, TableGrid};
 use coact_neural_field::{Axis, MetricConstants};
 use toml::Spanned;
 
@@ -76,7 +76,9 @@ fn out_of_range(entry: &DestinationsEntry) -> Option<(&'static str, String)> {
 /// There are more sites than a frame holds: how far apart the places are, m, along both axes.
 fn over_the_table(scene: &Scene, spacing: f64) -> Result<TableGrid, [f64; 2]> {
     let corners = scene.workspace.into_iter().flatten();
-    let places = corners.chain([scene.handover, scene.person_rest].map(|[x, y, _]| [x, y]));
+    let places = corners.chain(
+        [scene.handover, scene.rest(ArmSide::Right), scene.rest(ArmSide::Left)].map(|[x, y, _]| [x, y]),
+    );
     let places: Vec<[f64; 2]> = places.collect();
     let span = [0, 1].map(|axis| {
         let most = places.iter().map(|place| place[axis]).fold(f64::NEG_INFINITY, f64::max);

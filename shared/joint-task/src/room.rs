@@ -6,11 +6,12 @@ use crate::Task;
 const APART: f64 = 0.06;
 /// Least distance between the middles of two parts, m: the robot's fingers come down between them.
 const FINGERS: f64 = 0.10;
-/// How far the person's resting hand takes up the table from her wrist, m: who sat there would not lay it onto a part.
+/// How far the person's resting right hand takes up the table from her wrist, m: who sat there would not lay it onto a part. A hand that goes
+/// back to rest over one looks like one that goes for it.
 const RESTING_HAND: f64 = 0.20;
 
 impl Task {
-    /// Whether a part of this radius (m) can lie at `at` on the table, beside the base, the person's resting hand, and other parts that
+    /// Whether a part of this radius (m) can lie at `at` on the table, beside the base, the person's resting right hand, and other parts that
     /// lie there: middle and radius of each, m.
     pub fn has_room(
         &self,

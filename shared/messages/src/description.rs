@@ -140,7 +140,7 @@ numbers!(u8 u32 u64 f64);
 
 described! {
     Header { layout, generation, sequence, cycle, sensor_ns, published_ns, reserved }
-    SensorSample { header, joints, drive, hand, scene, heard }
+    SensorSample { header, joints, drive, hands, scene, heard }
     JointReading { position, velocity, touch, wrist_force }
     DriveReport {
         position, velocity, acceleration, elapsed, speed_override, override_rate, on_path, mode, hold, reserved,
@@ -153,11 +153,11 @@ described! {
     Sighting { kind, reserved, confidence, position, orientation }
     Heard { sentences, cycle, length, text }
     Percept {
-        header, arm, hand, act, destinations, workspace, achieved, open, robot_holds, person_holds, lost, state
+        header, arms, hand, act, destinations, workspace, achieved, open, robot_holds, person_holds, lost, state
     }
     PersonArm { shoulder, elbow, wrist, fingertip, age, tracked, reserved }
     TrackedPoint { position, velocity, deviation, age, still }
-    HandPercept { aperture, reaching, reserved, since_onset }
+    HandPercept { aperture, reaching, side, since_onset }
     Destinations { count, reserved, told, place, kind, fit, grip }
     WorkspacePercept { seen, gone, position, orientation }
     FieldFrame {
@@ -180,7 +180,7 @@ described! {
     Speech { header, length, text }
     Truth {
         header, actions, phase, chain, subgoal, onset_cycle, grasp_cycle, turn_cycle, heading_cycle, hesitation_cycle, achieved, assemblies, error,
-        waiting, hidden, handover,
-        joints, arm, held
+        waiting, hidden, handover, side, reserved,
+        joints, arms, held
     }
 }

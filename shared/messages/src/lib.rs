@@ -43,6 +43,7 @@
 //! ```
 
 mod arm_path;
+mod arm_side;
 mod command;
 mod description;
 mod destinations;
@@ -68,6 +69,7 @@ mod truth;
 mod world_state;
 
 pub use arm_path::{ArmPath, PathKnot};
+pub use arm_side::ArmSide;
 pub use command::{Command, MotionPhase};
 pub use description::{Described, Description};
 pub use destinations::Destinations;

@@ -1,6 +1,6 @@
 use crate::plausible::{ensure, fractions, index, orientations, places};
 use crate::{
-    Destinations, Flaw, Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, PersonArm, Plausible, WORKSPACES,
+    ArmSide, Destinations, Flaw, Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, PersonArm, Plausible, WORKSPACES,
 };
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
@@ -12,9 +12,9 @@ use iceoryx2::prelude::ZeroCopySend;
 pub struct Percept {
     /// Header.
     pub header: Header,
-    /// Where the person's arm is.
-    pub arm: PersonArm,
-    /// What the person's hand does.
+    /// Where each of the person's arms is, by [`ArmSide`](crate::ArmSide).
+    pub arms: [PersonArm; 2],
+    /// What the hand does with which the person acts.
     pub hand: HandPercept,
     /// Evidence for each observable act, in the order of `Task::acts`: what drives the action observation layer.
     pub act: [f64; MAX_ACTS],
@@ -34,10 +34,10 @@ pub struct Percept {
     pub lost: [f64; MAX_KINDS],
     /// Perception's state, as opaque words: what else it needs to go on. `services/perception` says what each holds; other
     /// readers ignore them.
-    pub state: [f64; 1536],
+    pub state: [f64; 1792],
 }
 
-/// What the person's hand does at this tick; [`PersonArm`] says where it is.
+/// What the person's acting hand does at this tick; the [`PersonArm`] of its side says where it is.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
 pub struct HandPercept {
@@ -45,8 +45,8 @@ pub struct HandPercept {
     pub aperture: f64,
     /// 1 while a reach is under way, else 0.
     pub reaching: u32,
-    /// Reserved, zero.
-    pub reserved: u32,
+    /// Which hand it is: [`ArmSide`](crate::ArmSide) as a number.
+    pub side: u32,
     /// Cycles since the onset of the present reach; 0 when none is under way.
     pub since_onset: u64,
 }
@@ -65,9 +65,25 @@ pub struct WorkspacePercept {
     pub orientation: [[f64; 4]; MAX_KINDS],
 }
 
+impl Percept {
+    /// The arm of the hand with which the person acts.
+    pub fn acting_arm(&self) -> &PersonArm {
+        &self.arms[self.acting() as usize]
+    }
+
+    /// The other one.
+    pub fn other_arm(&self) -> &PersonArm {
+        &self.arms[self.acting().other() as usize]
+    }
+
+    fn acting(&self) -> ArmSide {
+        if self.hand.side == ArmSide::Left as u32 { ArmSide::Left } else { ArmSide::Right }
+    }
+}
+
 impl Plausible for Percept {
     fn check(&self) -> Result<(), Flaw> {
-        self.arm.check()?;
+        self.arms.iter().try_for_each(PersonArm::check)?;
         self.hand.check()?;
         fractions("act", &self.act)?;
         self.destinations.check()?;
@@ -84,7 +100,8 @@ impl HandPercept {
     fn check(&self) -> Result<(), Flaw> {
         let is_distance = (0.0..=1.0).contains(&self.aperture);
         ensure(is_distance, "hand.aperture", "a distance of two fingertips")?;
-        index("hand.reaching", self.reaching, 2)
+        index("hand.reaching", self.reaching, 2)?;
+        index("hand.side", self.side, ArmSide::BOTH.len())
     }
 }
 

@@ -3,7 +3,7 @@ use crate::plausible::{ensure, index, places, velocities};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
-/// The person's right arm, estimated at this tick from the tracker's frames. The only estimate there is: whoever keeps a
+/// One of the person's arms, estimated at this tick from the tracker's frames. The only estimate there is: whoever keeps a
 /// distance from the person reads it, and reads no keypoint.
 ///
 /// A joint that the newest frame lacks stands where it was seen last, moved along with the wrist. Its deviation says how
@@ -60,11 +60,11 @@ impl PersonArm {
 
 impl PersonArm {
     pub(crate) fn check(&self) -> Result<(), Flaw> {
-        index("arm.tracked", self.tracked, 2)?;
+        index("arms.tracked", self.tracked, 2)?;
         self.points().into_iter().try_for_each(|point| {
-            places("arm.position", &point.position)?;
-            velocities("arm.velocity", &point.velocity)?;
-            ensure(point.deviation >= 0.0, "arm.deviation", "a number that is not negative")
+            places("arms.position", &point.position)?;
+            velocities("arms.velocity", &point.velocity)?;
+            ensure(point.deviation >= 0.0, "arms.deviation", "a number that is not negative")
         })
     }
 }

@@ -16,8 +16,8 @@ pub struct SensorSample {
     pub joints: JointReading,
     /// What the side that drives the joints does with the commands, every tick.
     pub drive: DriveReport,
-    /// The hand tracker's newest frame.
-    pub hand: HandView,
+    /// The hand tracker's newest frame of each arm, by [`ArmSide`](crate::ArmSide).
+    pub hands: [HandView; 2],
     /// The object recogniser's newest frame.
     pub scene: SceneView,
     /// What the person said last.
@@ -44,7 +44,7 @@ pub struct JointReading {
     pub wrist_force: [f64; 3],
 }
 
-/// One frame of the hand tracker.
+/// One frame of the hand tracker, of one arm.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
 pub struct HandView {
@@ -56,7 +56,7 @@ pub struct HandView {
     pub keypoints: [Keypoint; 9],
 }
 
-/// One joint of the person's right arm or hand.
+/// One joint of a person's arm or hand.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable, ZeroCopySend)]
 pub struct Keypoint {
@@ -136,8 +136,8 @@ const MOST: [f64; 3] = [1e2, 1e3, 1e6];
 impl Plausible for SensorSample {
     fn check(&self) -> Result<(), Flaw> {
         self.joints.check()?;
-        not_after("hand.captured_cycle", &self.header, &[self.hand.captured_cycle])?;
-        self.hand.check()?;
+        not_after("hands.captured_cycle", &self.header, &self.hands.map(|hand| hand.captured_cycle))?;
+        self.hands.iter().try_for_each(HandView::check)?;
         not_after("scene.captured_cycle", &self.header, &[self.scene.captured_cycle])?;
         self.scene.check()?;
         self.heard.check(&self.header)
@@ -167,9 +167,9 @@ impl HandView {
 
 impl Keypoint {
     fn check(&self) -> Result<(), Flaw> {
-        fractions("hand.keypoints.confidence", &[self.confidence])?;
+        fractions("hands.keypoints.confidence", &[self.confidence])?;
         // Where a joint that was lost would be means nothing.
-        if self.confidence == 0.0 { Ok(()) } else { places("hand.keypoints.position", &self.position) }
+        if self.confidence == 0.0 { Ok(()) } else { places("hands.keypoints.position", &self.position) }
     }
 }
 

@@ -1,5 +1,5 @@
 use crate::plausible::{index, not_after, optional, subgoal};
-use crate::{Flaw, Header, JOINTS, MAX_POPULATIONS, Plausible, WORKSPACES};
+use crate::{ArmSide, Flaw, Header, JOINTS, MAX_POPULATIONS, Plausible, WORKSPACES};
 use bytemuck::{CheckedBitPattern, NoUninit, Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -44,10 +44,14 @@ pub struct Truth {
     pub hidden: u32,
     /// 1 while the command that the joints follow declares a handover, in which the robot's hand may touch the person's. Else 0.
     pub handover: u32,
+    /// The hand with which the person acts, or acted last: [`ArmSide`](crate::ArmSide) as a number.
+    pub side: u32,
+    /// Reserved, zero.
+    pub reserved: u32,
     /// Where the joints are, rad.
     pub joints: [f64; JOINTS],
-    /// Where the person's shoulder, elbow, wrist and middle finger tip are, m; zeros: there is no person.
-    pub arm: [[f64; 3]; 4],
+    /// Where shoulder, elbow, wrist and middle finger tip of the person's arms are, m, by [`ArmSide`](crate::ArmSide); zeros: there is none.
+    pub arms: [[[f64; 3]; 4]; 2],
     /// Bit i set: part i of `Task::parts` is in the hand of [`ROBOT`](crate::ROBOT), of [`PERSON`](crate::PERSON).
     pub held: [u64; WORKSPACES],
 }
@@ -95,6 +99,7 @@ impl Plausible for Truth {
         index("error", self.error, PartnerError::AtHand as usize + 1)?;
         index("waiting", self.waiting, 2)?;
         index("hidden", self.hidden, 2)?;
-        index("handover", self.handover, 2)
+        index("handover", self.handover, 2)?;
+        index("side", self.side, ArmSide::BOTH.len())
     }
 }

@@ -30,7 +30,7 @@ impl Person {
         };
         let grown = GROWTH * PERIOD_S * around.tick.saturating_sub(state.contact_since) as f64;
         let force = grown.min(most.abs()).copysign(most);
-        let towards = self.model.towards_shoulder(self.model.centre(&state.hand));
+        let towards = self.arm(state).towards_shoulder(self.arm(state).centre(&state.hand));
         state.force = (if most == 0.0 { DVec3::ZERO } else { force * towards }).into();
     }
 }

@@ -2,12 +2,17 @@
 
 use crate::person::error;
 use crate::{
-    ActivityPhase, Hesitation, Intention, Person, PersonState, ReachTurn, Surroundings, Undertaking,
+    Activity, ActivityPhase, Hesitation, Intention, Person, PersonState, ReachTurn, Surroundings,
+    Undertaking, Variation,
 };
 use bytemuck::Zeroable;
+use coact_messages::ArmSide;
 use coact_random::Stream;
-use coact_stage_state::Slot;
+use coact_stage_state::{Flag, Slot};
 use rand::RngExt;
+
+/// What is nearer to the wrist of a resting hand lies under the hand, m. Chosen by hand: a hand's length.
+const UNDER_HAND: f64 = 0.20;
 
 impl Person {
     /// Thinks about what to do next.
@@ -25,8 +30,25 @@ impl Person {
         }
         match self.policy.next(around, state, &can_hide, &mut rng) {
             Undertaking::Rest(pause) => state.until = around.tick + pause.max(1),
-            Undertaking::Begin(intention) => self.take_up(intention, state, around),
+            Undertaking::Begin(intention) => {
+                self.take_up(self.with_either_hand(intention, around), state, around)
+            }
         }
+    }
+
+    /// The same intention with the hand that this person takes for it: at times the left one takes what lies nearer to it, but does not
+    /// lie under it.
+    fn with_either_hand(&self, intention: Intention, around: &Surroundings) -> Intention {
+        let own = matches!(intention.activity, Activity::Insert | Activity::Undo);
+        let share = self.policy.behaviour().map_or(0.0, |behaviour| behaviour.left);
+        let Some(part) = intention.part.filter(|_| own && share > 0.0) else { return intention };
+        let place = around.parts.centre(part, around.task);
+        let [right, left] = ArmSide::BOTH.map(|side| self.arms[side as usize].away_from_rest(place));
+        let suits = (UNDER_HAND..right).contains(&left);
+        if !suits || !self.random.at(Stream::Side, around.tick).random_bool(share) {
+            return intention;
+        }
+        Intention { variation: Variation { left: Flag::Set, ..intention.variation }, ..intention }
     }
 
     /// Makes an intention the present activity.
@@ -38,6 +60,11 @@ impl Person {
     /// What the activity will be like: how the hand will reach, and what stands in the way of the robot's sight.
     fn intend(&self, intention: Intention, state: &mut PersonState, around: &Surroundings) {
         self.mean(intention, state, around);
+        let side = if state.variation.left.is_set() { ArmSide::Left } else { ArmSide::Right };
+        if state.side != side {
+            state.side = side;
+            state.hand = self.arm(state).rest();
+        }
         state.turn = ReachTurn::zeroed();
         state.hesitation = Hesitation::default();
         state.movement = self.reach_movement(state, around);

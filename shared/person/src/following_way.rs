@@ -3,6 +3,7 @@
 use crate::reach_profile::minimum_jerk;
 use crate::recorded_way::RecordedWay;
 use crate::{HandMovement, HandPose, Person, PersonState};
+use coact_messages::ArmSide;
 use coact_period::CYCLES_PER_SECOND;
 use coact_random::Stream;
 use coact_recordings::WayKind;
@@ -32,7 +33,7 @@ impl Person {
         let turn = self.random.at(Stream::Way, movement.start).random_range(0..ways.count_of(kind).max(1));
         let Some(index) = ways.nth_of(kind, turn).filter(|_| distance >= SHORTEST) else { return };
         let way = &ways.ways[index];
-        let time = ways.duration(way, distance).max(self.shortest_time(way, &movement));
+        let time = ways.duration(way, distance).max(self.shortest_time(way, state.side, &movement));
         state.way = Slot::of(index);
         state.movement.end = movement.start + (time * CYCLES_PER_SECOND as f64).ceil() as u64;
     }
@@ -46,7 +47,7 @@ impl Person {
             None => (movement.pose(tick), minimum_jerk(time)),
             Some(_) if movement.is_over(tick) => (movement.to, 1.0),
             Some(way) => {
-                let (wrist, covered) = self.wrist_on(way, movement, time);
+                let (wrist, covered) = self.wrist_on(way, state.side, movement, time);
                 let pose = movement.from.towards(&movement.to, minimum_jerk(time));
                 (HandPose { wrist: wrist.into(), ..pose }, covered)
             }
@@ -55,15 +56,17 @@ impl Person {
 
     /// Where the wrist is at fraction `time` of a movement along `way`, and the fraction of the distance that it has covered.
     ///
-    /// The way is turned into the line from start to end, and scaled to it. It never leads lower than a straight movement that
+    /// The way is turned into the line from start to end, scaled to it, and mirrored for the left hand. It never leads lower than a straight movement that
     /// has covered as much would with its arch: recorded hands passed over nothing, this one passes over parts that lie.
-    fn wrist_on(&self, way: &RecordedWay, movement: &HandMovement, time: f64) -> (DVec3, f64) {
+    fn wrist_on(&self, way: &RecordedWay, side: ArmSide, movement: &HandMovement, time: f64) -> (DVec3, f64) {
         let (from, to) = (movement.from.wrist(), movement.to.wrist());
         let line = to - from;
         let (along, point) = (line.normalize_or(DVec3::X), way.at(time));
-        let upright = if along.z.abs() < STEEP { DVec3::Z } else { self.model.ahead() };
+        let arm = &self.arms[side as usize];
+        let upright = if along.z.abs() < STEEP { DVec3::Z } else { arm.ahead() };
         let up = upright.reject_from_normalized(along).normalize_or(DVec3::Z);
-        let mut wrist = from + point.x * line + line.length() * (point.y * along.cross(up) + point.z * up);
+        let aside = arm.mirror() * point.y;
+        let mut wrist = from + point.x * line + line.length() * (aside * along.cross(up) + point.z * up);
         let covered = point.x.clamp(0.0, 1.0);
         let within = 4.0 * covered * (1.0 - covered);
         let arched = from.z + covered * line.z + movement.arch * within * within;
@@ -72,8 +75,8 @@ impl Person {
     }
 
     /// The time that keeps a movement along `way` from being faster than a hand is, s.
-    fn shortest_time(&self, way: &RecordedWay, movement: &HandMovement) -> f64 {
-        let wrist = |look: u64| self.wrist_on(way, movement, look as f64 / LOOKS as f64).0;
+    fn shortest_time(&self, way: &RecordedWay, side: ArmSide, movement: &HandMovement) -> f64 {
+        let wrist = |look: u64| self.wrist_on(way, side, movement, look as f64 / LOOKS as f64).0;
         let farthest = (0..LOOKS).map(|look| wrist(look).distance(wrist(look + 1))).fold(0.0, f64::max);
         farthest * LOOKS as f64 / FASTEST
     }
@@ -115,7 +118,8 @@ mod tests {
     /// A person whose hand has just begun to move from one place to another.
     fn moving(seed: u64, from: DVec3, to: DVec3, arch: f64, kind: WayKind) -> (Person, PersonState) {
         let (person, mut state) = (person(seed), PersonState::zeroed());
-        let pose = |wrist: DVec3| HandPose { wrist: wrist.into(), ..person.model.rest() };
+        let rest = person.arm(&state).rest();
+        let pose = |wrist: DVec3| HandPose { wrist: wrist.into(), ..rest };
         let start = 1000 + seed % 1000;
         let end = start + 700;
         let (peak_aperture, peak_time) = (0.0, 0.0);

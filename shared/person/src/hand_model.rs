@@ -2,11 +2,11 @@ use crate::HandPose;
 use crate::fingers::Fingers;
 use crate::movement_planning::GRASPING;
 use coact_joint_task::Scene;
-use coact_messages::KeypointName;
+use coact_messages::{ArmSide, KeypointName};
 use glam::DVec3;
 
 /// Upper arm and forearm of an adult, m (Winter 2009, for 1.70 m of stature).
-const UPPER_ARM: f64 = 0.31;
+pub(crate) const UPPER_ARM: f64 = 0.31;
 /// Elbow to wrist of the same adult, m; recordings are scaled to this length.
 pub(crate) const FOREARM: f64 = 0.26;
 /// How far the index finger is beside the line from the wrist to the middle finger, and how long it is, m; and how far the tips of folded
@@ -17,23 +17,31 @@ const FOLDED: f64 = 0.07;
 /// Pitch of the hand that lies on the table, rad: 20 degrees down. Chosen by hand.
 const REST_PITCH: f64 = -0.35;
 
-/// The person's right arm and hand: from a pose to the nine keypoints that a tracker finds.
+/// One of the person's arms and its hand: from a pose to the nine keypoints that a tracker finds.
 ///
 /// Thumb and fingers oppose each other horizontally, whatever the hand's pitch.
 #[derive(Debug, Clone)]
 pub struct HandModel {
     shoulder: DVec3,
     rest: DVec3,
+    /// 1 for the right arm, -1 for the left one, which is its mirror image.
+    hand: f64,
     /// Direction on the table plane in which the person faces: from the shoulder to where parts change hands, rad.
     facing: f64,
 }
 
 impl HandModel {
-    /// The arm of the person who sits at this scene.
+    /// The right arm of the person who sits at this scene.
     pub fn new(scene: &Scene) -> Self {
-        let shoulder = DVec3::from(scene.person_shoulder);
+        Self::of(scene, ArmSide::Right)
+    }
+
+    /// One of the arms of the person who sits at this scene.
+    pub fn of(scene: &Scene, side: ArmSide) -> Self {
         let ahead = DVec3::from(scene.handover) - DVec3::from(scene.person_rest);
-        Self { shoulder, rest: scene.person_rest.into(), facing: ahead.y.atan2(ahead.x) }
+        let (shoulder, rest) = (scene.shoulder(side).into(), scene.rest(side).into());
+        let hand = if side == ArmSide::Right { 1.0 } else { -1.0 };
+        Self { shoulder, rest, hand, facing: ahead.y.atan2(ahead.x) }
     }
 
     /// The hand at rest: flat, the fingers half bent, thumb near index.
@@ -53,7 +61,7 @@ impl HandModel {
     /// The keypoints of an arm whose index finger points at a place (m), with the wrist there (m); the other fingers are folded.
     pub fn pointing(&self, wrist: DVec3, at: DVec3) -> [DVec3; 9] {
         let line = at - wrist;
-        let thumb = DVec3::new(-line.y, line.x, 0.0).normalize_or(DVec3::Y);
+        let thumb = self.hand * DVec3::new(-line.y, line.x, 0.0).normalize_or(DVec3::Y);
         let ahead = (line - INDEX_ASIDE * thumb).normalize_or(DVec3::X);
         let folded = HandPose { aperture: 0.03, extension: FOLDED, ..HandPose::default() };
         let mut points = hand_points(wrist, ahead, thumb, &folded);
@@ -107,7 +115,17 @@ impl HandModel {
     /// Horizontal unit vector towards the thumb's side: the left of a right hand.
     pub(crate) fn thumb_side(&self, pose: &HandPose) -> DVec3 {
         let yaw = self.facing + pose.heading;
-        DVec3::new(-yaw.sin(), yaw.cos(), 0.0)
+        self.hand * DVec3::new(-yaw.sin(), yaw.cos(), 0.0)
+    }
+
+    /// 1 for the right hand, -1 for the left one: what a recorded hand did aside is mirrored so.
+    pub(crate) fn mirror(&self) -> f64 {
+        self.hand
+    }
+
+    /// Distance of a place from where the hand rests, m.
+    pub(crate) fn away_from_rest(&self, place: DVec3) -> f64 {
+        place.distance(self.rest)
     }
 
     /// Unit vector from a place to the shoulder: the direction in which the person draws something nearer.

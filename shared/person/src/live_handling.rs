@@ -55,7 +55,7 @@ impl Person {
         }
         let points = state.live.at(around.tick);
         let fingers = Fingers::of(&points);
-        state.hand = self.model.pose_of(&points);
+        state.hand = self.arm(state).pose_of(&points);
         state.live.follow(around.tick, state.hand.wrist());
         match state.held.get() {
             None => self.reach_out(state, around, &fingers, &mut done),

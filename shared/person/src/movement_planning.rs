@@ -57,7 +57,7 @@ impl Person {
                 let centre = around.parts.centre(part, around.task);
                 (self.grasp_of(state, centre, pitch, width + FINGERS), peak_aperture(width, &mut rng))
             }
-            None => (self.shown(pitch, around.task), 0.0),
+            None => (self.shown(state, pitch, around.task), 0.0),
         };
         HandMovement {
             from: state.hand,
@@ -90,11 +90,11 @@ impl Person {
     }
 
     /// The open hand, shown in front of the handover place.
-    fn shown(&self, pitch: f64, task: &Task) -> HandPose {
+    fn shown(&self, state: &PersonState, pitch: f64, task: &Task) -> HandPose {
         let place = DVec3::from(task.scene.handover);
-        let flat = HandPose { heading: self.model.heading_to(place), ..HandPose::default() };
-        let tips = place - SHORT * self.model.direction(&flat);
-        self.model.grasping(tips, pitch, OPEN_APERTURE, (OPEN, 0.0))
+        let flat = HandPose { heading: self.arm(state).heading_to(place), ..HandPose::default() };
+        let tips = place - SHORT * self.arm(state).direction(&flat);
+        self.arm(state).grasping(tips, pitch, OPEN_APERTURE, (OPEN, 0.0))
     }
 
     /// Corrects the end of the reach for where the part is now.
@@ -106,7 +106,7 @@ impl Person {
     /// The hand that has grasped what is at `centre`; a recorded hand has it where its finger tips are.
     fn grasp_of(&self, state: &PersonState, centre: DVec3, pitch: f64, aperture: f64) -> HandPose {
         let tips = self.recording(state).map_or((GRASPING, 0.0), |reach| reach.centre.into());
-        self.model.grasping(centre, pitch, aperture, tips)
+        self.arm(state).grasping(centre, pitch, aperture, tips)
     }
 
     /// Plans the path of the held part to `place`, where its own z axis points along `axis`.
@@ -124,12 +124,12 @@ impl Person {
         let centre = place + to * self.half_height(part, around);
         state.turn_from = from.into();
         state.turn_to = to.into();
-        let lag = around.parts.centre(part, around.task) - self.model.centre(&hand);
+        let lag = around.parts.centre(part, around.task) - self.arm(state).centre(&hand);
         state.offset = lag.into();
-        let distance = centre.distance(self.model.centre(&hand));
+        let distance = centre.distance(self.arm(state).centre(&hand));
         state.movement = HandMovement {
             from: hand,
-            to: self.model.grasping(centre, hand.pitch, hand.aperture, (GRASPING, 0.0)),
+            to: self.arm(state).grasping(centre, hand.pitch, hand.aperture, (GRASPING, 0.0)),
             start: tick,
             onset: tick,
             end: tick + CARRY_TIME.0 + (CARRY_TIME.1 * distance) as u64,
@@ -151,7 +151,7 @@ impl Person {
         let part = state.held.get()?;
         let turn =
             DQuat::from_array(state.turn_from).slerp(DQuat::from_array(state.turn_to), along).normalize();
-        let centre = self.model.centre(&state.hand) + (1.0 - along) * DVec3::from(state.offset);
+        let centre = self.arm(state).centre(&state.hand) + (1.0 - along) * DVec3::from(state.offset);
         Some((part, centre - turn * self.half_height(part, around), turn))
     }
 
@@ -165,7 +165,7 @@ impl Person {
         let time = self.random.at(Stream::Movement, around.tick).random_range(WITHDRAW_TIME);
         state.movement = HandMovement {
             from: state.hand,
-            to: self.model.rest(),
+            to: self.arm(state).rest(),
             start: around.tick,
             onset: around.tick,
             end: around.tick + time,

@@ -26,7 +26,7 @@ impl Person {
             let before = ARRIVAL * f64::from(step) / f64::from(STEPS) * (end - start) as f64;
             state.movement.pose(end - before as u64)
         };
-        let hand = |pose| self.model.keypoints(&pose).into_iter().skip(KeypointName::Wrist as usize);
+        let hand = |pose| self.arm(state).keypoints(&pose).into_iter().skip(KeypointName::Wrist as usize);
         let hands = (0..=STEPS).map(arriving).flat_map(hand);
         let places = hands.chain(corners(part, around.parts, around.task));
         let (eye, table) = (around.task.scene.eye(), around.task.scene.table_height);

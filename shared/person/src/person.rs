@@ -4,7 +4,7 @@ use crate::{
     Surroundings, random_policy,
 };
 use coact_joint_task::{Scene, Task};
-use coact_messages::PartnerError;
+use coact_messages::{ArmSide, PartnerError};
 use coact_random::{RandomStreams, Stream};
 use coact_recordings::WayKind;
 use coact_stage_state::{Implausible, Slot};
@@ -13,7 +13,8 @@ use glam::DVec3;
 /// The human partner: carries out one intention after the other, phase by phase.
 #[derive(Debug, Clone)]
 pub struct Person {
-    pub(crate) model: HandModel,
+    /// By [`ArmSide`].
+    pub(crate) arms: [HandModel; 2],
     pub(crate) policy: Policy,
     pub(crate) random: RandomStreams,
     pub(crate) habits: OwnHabits,
@@ -33,7 +34,8 @@ impl Person {
         recorded: Option<RecordedReaches>,
     ) -> Self {
         let habits = habits.draw(&random);
-        Self { model: HandModel::new(scene), habits, policy, random, recorded, ways: None }
+        let arms = ArmSide::BOTH.map(|side| HandModel::of(scene, side));
+        Self { arms, habits, policy, random, recorded, ways: None }
     }
 
     /// The same person, who carries, gives and withdraws along `ways`, if there are any.
@@ -41,9 +43,13 @@ impl Person {
         Self { ways, ..self }
     }
 
-    /// The person at the start of a run: hand at rest.
+    /// The person at the start of a run: both hands at rest.
     pub fn start(&self, tick: u64, state: &mut PersonState) {
-        state.hand = self.model.rest();
+        state.side = match &self.policy {
+            Policy::Arm(arm) => arm.side(),
+            _ => ArmSide::Right,
+        };
+        state.hand = self.arm(state).rest();
         state.enter(ActivityPhase::Rest, tick + self.policy.pause(&self.random, tick));
         state.ended = tick;
     }
@@ -103,18 +109,32 @@ impl Person {
         }
     }
 
-    /// The keypoints of arm and hand at `tick`, in the order of [`KeypointName`](coact_messages::KeypointName), m.
+    /// The keypoints of the acting arm and hand at `tick`, in the order of [`KeypointName`](coact_messages::KeypointName), m.
     pub fn keypoints(&self, state: &PersonState, tick: u64) -> [DVec3; 9] {
         match &self.policy {
             Policy::Arm(arm) => arm.keypoints(tick),
             Policy::Live => state.live.at(tick),
-            _ => self.model.keypoints(&state.hand),
+            _ => self.arm(state).keypoints(&state.hand),
         }
+    }
+
+    /// Those of the other arm, whose hand rests. Beside a recorded arm it hangs down: that person stands.
+    pub fn resting_keypoints(&self, state: &PersonState, tick: u64) -> [DVec3; 9] {
+        let other = &self.arms[state.side.other() as usize];
+        match &self.policy {
+            Policy::Arm(arm) => arm.other_arm(tick),
+            _ => other.keypoints(&other.rest()),
+        }
+    }
+
+    /// The arm that acts.
+    pub(crate) fn arm(&self, state: &PersonState) -> &HandModel {
+        &self.arms[state.side as usize]
     }
 
     /// The middle between the finger tips, m.
     pub fn hand_centre(&self, state: &PersonState) -> DVec3 {
-        self.model.centre(&state.hand)
+        self.arm(state).centre(&state.hand)
     }
 
     /// Whether the tracker has lost the hand at `tick`, for longer than a frame.

@@ -2,7 +2,7 @@ use crate::live_hand::LiveHand;
 use crate::{Activity, ActivityPhase, HandMovement, HandPose, Hesitation, Intention, ReachTurn, Variation};
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_joint_task::Task;
-use coact_messages::PartnerError;
+use coact_messages::{ArmSide, PartnerError};
 use coact_stage_state::{Implausible, Slot, ensure, finite};
 use glam::DQuat;
 
@@ -41,7 +41,8 @@ pub struct PersonState {
     /// What is wrong with the present activity, as things were at its onset; nothing once its turn has come before the
     /// grasp is complete.
     pub error: PartnerError,
-    reserved: u32,
+    /// Which hand acts; the other one rests.
+    pub side: ArmSide,
     /// Tick at which the person gives the present activity up, as soon as that is possible; 0: never.
     pub gives_up: u64,
     /// Tick at which the robot was first felt to pull, or to let go; 0: not yet.

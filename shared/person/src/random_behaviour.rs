@@ -20,6 +20,7 @@ use std::ops::RangeInclusive;
 /// | `changes` | fraction | of valid, plain reaches to a part, the hand turns to another one at 25 to 90 % of its way; 0 unless given |
 /// | `returns` | fraction | of valid takings of an own part, the grasped part is put back to where it lay; 0 unless given |
 /// | `hesitates` | fraction | of valid, plain reaches to a part, the hand stops at 25 to 75 % of its way for 0.3 to 1.0 s, and goes on; 0 unless given |
+/// | `left` | fraction | of takings of an own part that lies nearer to the left hand, with that one; 0 unless given |
 /// | `movement` | range in ms | movement time of a reach, 300 to 3000 |
 ///
 /// A fraction is from 0 to 1; the seven fractions of all choices add up to at most 1. To receive what the robot gives is
@@ -41,11 +42,12 @@ pub struct RandomBehaviour {
     pub(crate) changes: f64,
     pub(crate) returns: f64,
     pub(crate) hesitates: f64,
+    pub(crate) left: f64,
     pub(crate) movement: RangeInclusive<f64>,
 }
 
 impl Default for RandomBehaviour {
-    /// One choice in ten goes wrong; all fractions are chosen by hand. Nobody undoes a step, changes the mind in mid-reach, hesitates, or puts a part back. Movement time goes from the 5th percentile of
+    /// One choice in ten goes wrong; all fractions are chosen by hand. Nobody undoes a step, changes the mind in mid-reach, hesitates, or puts a part back, and all act with the right hand. Movement time goes from the 5th percentile of
     /// recorded reaches to the longest one.
     fn default() -> Self {
         Self {
@@ -64,13 +66,14 @@ impl Default for RandomBehaviour {
             changes: 0.0,
             returns: 0.0,
             hesitates: 0.0,
+            left: 0.0,
             movement: 429.0..=895.0,
         }
     }
 }
 
 /// What an error names.
-const KEYS: &str = "idle, goal, request, means, hidden, words, aloud, undoes, clarity, dropouts, withdraws, late, changes, returns, hesitates, movement";
+const KEYS: &str = "idle, goal, request, means, hidden, words, aloud, undoes, clarity, dropouts, withdraws, late, changes, returns, hesitates, left, movement";
 
 impl RandomBehaviour {
     /// Reads `KEY=VALUE,...`; an empty text leaves all defaults.
@@ -109,6 +112,7 @@ impl RandomBehaviour {
             "changes" => self.changes = fraction(value)?,
             "returns" => self.returns = fraction(value)?,
             "hesitates" => self.hesitates = fraction(value)?,
+            "left" => self.left = fraction(value)?,
             "dropouts" => self.dropouts = number(value, 2.0, "bursts per second, from 0 to 2")?,
             "clarity" => self.clarity = range(value, 0.0..=1.0, "LOW..HIGH within 0..1")?,
             "movement" => self.movement = range(value, 300.0..=3000.0, "LOW..HIGH within 300..3000 ms")?,

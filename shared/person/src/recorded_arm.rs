@@ -1,6 +1,6 @@
 use crate::PersonError;
 use crate::arm_course::ArmCourse;
-use crate::hand_model::{HandModel, hand_points};
+use crate::hand_model::{FOREARM, HandModel, UPPER_ARM, hand_points};
 use crate::hand_pose::HandPose;
 use coact_joint_task::{Agent, Scene};
 use coact_messages::KeypointName;
@@ -38,6 +38,8 @@ const LOOK: f64 = 0.05;
 /// How the fingers are bent: wrist to their tips, and thumb to index, m: as those of a hand at rest.
 const HAND: HandPose =
     HandPose { wrist: [0.0; 3], heading: 0.0, pitch: 0.0, aperture: 0.03, extension: 0.14, aside: 0.0 };
+/// Distance of an adult's shoulders, m. Chosen by hand.
+const SHOULDERS: f64 = 0.36;
 /// How much of a fixed sideways direction is in that of the thumb, so that a forearm that hangs down has one. Chosen by hand.
 const HANGING: f64 = 0.3;
 
@@ -70,10 +72,29 @@ impl RecordedArm {
     pub fn keypoints(&self, tick: u64) -> [DVec3; 9] {
         let [shoulder, elbow, wrist] =
             self.course.at(seconds(tick)).map(|joint| self.turn * joint + self.shift);
+        self.with_hand(self.side, [shoulder, elbow, wrist])
+    }
+
+    /// Those of the other arm, which was not read: it hangs down beside the body.
+    pub(crate) fn other_arm(&self, tick: u64) -> [DVec3; 9] {
+        let [shoulder, ..] = self.course.at(seconds(tick)).map(|joint| self.turn * joint + self.shift);
+        let to_the_left = if self.side == ArmSide::Right { SHOULDERS } else { -SHOULDERS };
+        let shoulder = shoulder + self.turn * DVec3::NEG_X * to_the_left;
+        let elbow = shoulder + UPPER_ARM * DVec3::NEG_Z;
+        self.with_hand(self.side.other(), [shoulder, elbow, elbow + FOREARM * DVec3::NEG_Z])
+    }
+
+    /// Which arm was recorded.
+    pub(crate) fn side(&self) -> ArmSide {
+        self.side
+    }
+
+    /// All keypoints of an arm whose hand goes on along the forearm.
+    fn with_hand(&self, side: ArmSide, [shoulder, elbow, wrist]: [DVec3; 3]) -> [DVec3; 9] {
         let ahead = (wrist - elbow).normalize_or(DVec3::NEG_Z);
         let left = (DVec3::Z.cross(ahead) + HANGING * (self.turn * DVec3::NEG_X)).reject_from(ahead);
         let left = left.normalize_or(self.turn * DVec3::NEG_X);
-        let thumb = match self.side {
+        let thumb = match side {
             ArmSide::Left => -left,
             ArmSide::Right => left,
         };

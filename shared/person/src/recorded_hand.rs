@@ -2,7 +2,7 @@
 
 use crate::reach_profile::minimum_jerk;
 use crate::recorded_reach::{LEAD, RecordedFrame, RecordedReach};
-use crate::{ActivityPhase, HandMovement, HandPose, Person, PersonState};
+use crate::{ActivityPhase, HandModel, HandMovement, HandPose, Person, PersonState};
 use coact_messages::{Keypoint, KeypointName};
 use coact_period::{PERIOD_S, cycles, seconds};
 use coact_stage_state::Slot;
@@ -28,6 +28,7 @@ impl Person {
     pub(crate) fn recorded_pose(
         &self,
         reach: &RecordedReach,
+        arm: &HandModel,
         movement: &HandMovement,
         now: f64,
     ) -> Option<HandPose> {
@@ -36,7 +37,7 @@ impl Person {
         let (from, to) = (movement.from.wrist(), movement.to.wrist());
         let along = frame.progress.clamp(0.0, 1.0);
         let arch = movement.arch * 16.0 * along * along * (1.0 - along) * (1.0 - along);
-        let detour = frame.detour * self.model.thumb_side(&pose);
+        let detour = frame.detour * arm.thumb_side(&pose);
         pose.wrist = (from + frame.progress * (to - from) + detour + arch * DVec3::Z).into();
         Some(pose)
     }
@@ -60,7 +61,7 @@ impl Person {
             ActivityPhase::Reach if turned => self.turning_frame(state, tick),
             _ => reach.at((state.hesitation.time(tick) - onset as f64) * PERIOD_S),
         };
-        Some(frame.map_or(lost, |frame| self.shaped(&state.hand, &frame, fraction)))
+        Some(frame.map_or(lost, |frame| self.shaped(state, &frame, fraction)))
     }
 
     /// What the recordings of both movements of a reach that has turned show at `tick`. The fingers go over from the first one's shape to the
@@ -85,10 +86,11 @@ impl Person {
         }
     }
 
-    /// The recorded shape of the hand in the plane of `pose`, mixed with the model's: this `fraction` is recorded.
-    fn shaped(&self, pose: &HandPose, frame: &RecordedFrame, fraction: f64) -> [Keypoint; 9] {
-        let modelled = self.model.keypoints(pose);
-        let (ahead, aside, wrist) = (self.model.direction(pose), self.model.thumb_side(pose), pose.wrist());
+    /// The recorded shape of the hand in the plane of its pose, mixed with the model's: this `fraction` is recorded.
+    fn shaped(&self, state: &PersonState, frame: &RecordedFrame, fraction: f64) -> [Keypoint; 9] {
+        let (arm, pose) = (self.arm(state), &state.hand);
+        let modelled = arm.keypoints(pose);
+        let (ahead, aside, wrist) = (arm.direction(pose), arm.thumb_side(pose), pose.wrist());
         std::array::from_fn(|joint| {
             if frame.confidence[joint] <= 0.0 {
                 return Keypoint::default();

@@ -9,7 +9,7 @@ use crate::{
 use coact_messages::PartnerError;
 use coact_period::cycles;
 use coact_random::Stream;
-use coact_stage_state::Slot;
+use coact_stage_state::{Flag, Slot};
 use rand::{Rng, RngExt};
 use std::ops::RangeInclusive;
 use std::time::Duration;
@@ -79,7 +79,7 @@ impl Person {
         let now = state.hesitation.time(tick);
         let recorded = |recording: Slot, movement: &HandMovement| match self.recording_at(recording) {
             None => Some(movement.pose_at(now)),
-            Some(reach) => self.recorded_pose(reach, movement, now),
+            Some(reach) => self.recorded_pose(reach, self.arm(state), movement, now),
         };
         match state.turn.first() {
             None => recorded(state.recording, &state.movement),
@@ -97,8 +97,9 @@ impl Person {
     pub(crate) fn see_heading(&self, state: &mut PersonState, before: &HandPose, tick: u64) {
         let headed = state.turn.headed;
         let Some(first) = state.turn.first().filter(|_| headed == 0 || tick < headed + LASTS) else { return };
-        let (from, now) = (self.model.centre(before), self.model.centre(&state.hand));
-        let towards = |end: &HandPose| (self.model.centre(end) - from).normalize_or_zero().dot(now - from);
+        let (from, now) = (self.arm(state).centre(before), self.arm(state).centre(&state.hand));
+        let towards =
+            |end: &HandPose| (self.arm(state).centre(end) - from).normalize_or_zero().dot(now - from);
         state.turn.headed = match towards(&state.movement.to) > towards(&first.to) {
             true if headed == 0 => tick,
             true => headed,
@@ -111,7 +112,8 @@ impl Person {
 /// that lies there, and has neither turned nor stood yet.
 pub(crate) fn is_plain(state: &PersonState) -> bool {
     let own = matches!(state.activity(), Activity::Insert | Activity::Give) && state.part.get().is_some();
-    let plain = state.variation == Variation::default() && state.error == PartnerError::None;
+    let plain = Variation { left: Flag::Unset, ..state.variation } == Variation::default()
+        && state.error == PartnerError::None;
     own && plain && state.turn.begun == 0 && state.hesitation.begun == 0
 }
 

@@ -2,7 +2,7 @@ use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_stage_state::{Flag, Slot};
 
 /// How the person's activity differs from the plain one. All zero: carried out to its end, with a clear grip, in full
-/// view and in silence.
+/// view, in silence and with the right hand.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, CheckedBitPattern, NoUninit, Zeroable)]
 pub struct Variation {
@@ -14,4 +14,6 @@ pub struct Variation {
     pub hidden: Flag,
     /// The phrase that is said at reach onset: index into [`says`](coact_joint_task::Chain::says) of the chain.
     pub phrase: Slot,
+    /// Whether it is the left hand that acts.
+    pub left: Flag,
 }

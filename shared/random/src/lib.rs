@@ -57,6 +57,10 @@ pub enum Stream {
     Way = 17,
     /// Noise of the depth camera.
     Depth = 18,
+    /// Noise and gaps of the hand tracker at the left arm.
+    LeftTracker = 19,
+    /// With which hand a random partner acts.
+    Side = 20,
 }
 
 /// The random generators of one run.

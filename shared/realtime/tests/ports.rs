@@ -207,7 +207,7 @@ fn what_the_writer_itself_garbles_is_ignored_and_the_message_before_it_stays() {
     let garble: [fn(&mut Percept); 5] = [
         |percept| percept.act[100] = f64::NAN,
         |percept| percept.achieved[63] = 1.5,
-        |percept| percept.arm.elbow.position[2] = f64::INFINITY,
+        |percept| percept.arms[0].elbow.position[2] = f64::INFINITY,
         |percept| percept.workspace[1].orientation[31] = [9.0; 4],
         |percept| bytemuck::bytes_of_mut(&mut percept.hand).fill(0xff),
     ];

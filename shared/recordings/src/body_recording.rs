@@ -61,8 +61,8 @@ struct Columns {
 impl Columns {
     fn find(path: &Path, header: &StringRecord) -> Result<Self, RecordingError> {
         let body = |name: &str| PlaceColumns::find(path, header, name);
-        let [left, right] = ArmSide::BOTH.map(ArmSide::name);
-        let both = |joint: &str| Ok([body(&format!("{left}_{joint}"))?, body(&format!("{right}_{joint}"))?]);
+        let [right, left] = ArmSide::BOTH.map(ArmSide::name);
+        let both = |joint: &str| Ok([body(&format!("{right}_{joint}"))?, body(&format!("{left}_{joint}"))?]);
         Ok(Self {
             time: time_column(path, header)?,
             hands: both("hand")?,

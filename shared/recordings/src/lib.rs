@@ -28,7 +28,6 @@
 
 mod arm_files;
 mod arm_recording;
-mod arm_side;
 mod body_recording;
 mod error;
 mod order;
@@ -41,8 +40,8 @@ mod ways_file;
 
 pub use arm_files::arm_files;
 pub use arm_recording::{ArmRecording, ArmSample};
-pub use arm_side::ArmSide;
 pub use body_recording::{BodyFrame, BodyRecording};
+pub use coact_messages::ArmSide;
 pub use error::RecordingError;
 pub use order::Order;
 pub use reach::{Frame, ImagePoint, Reach, Size};

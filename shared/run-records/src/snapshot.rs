@@ -31,9 +31,9 @@ pub struct Snapshot {
     pub joints: [f64; JOINTS],
     /// The parts that were recognised.
     pub parts: Vec<SeenPart>,
-    /// Keypoints of the person's arm and hand, in the order of `coact_messages::KeypointName`; none for one that was
-    /// not seen.
-    pub keypoints: [Option<[f64; 3]>; KEYPOINTS],
+    /// Keypoints of the person's right arm and hand, then of the left ones, in the order of `coact_messages::KeypointName`; none for
+    /// one that was not seen.
+    pub keypoints: [[Option<[f64; 3]>; KEYPOINTS]; 2],
 }
 
 impl Record for Snapshot {

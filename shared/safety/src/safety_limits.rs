@@ -24,6 +24,8 @@ pub struct PersonLimits {
     pub radii: [f64; 3],
     /// Length of a hand of which only the wrist is known, m.
     pub hand_length: f64,
+    /// Length of the hand from the wrist to the finger tips, m.
+    pub hand_reach: f64,
     /// Length of the arm from the shoulder to the finger tips, m.
     pub reach: f64,
     /// Radius of a capsule around the head, m, and how far it goes up from the shoulder, m.

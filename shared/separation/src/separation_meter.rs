@@ -24,8 +24,8 @@ pub struct SeparationMeter {
     report: SeparationReport,
 }
 
-/// Upper arm, forearm, hand and head.
-type Person = [Capsule; 4];
+/// Upper arm, forearm, hand and head, of one arm after the other.
+type Person = [Capsule; 8];
 
 /// Who comes nearer by less than this in a tick stands, m: 15 mm/s. A simulated arm that has braked yields by up to half a millimetre,
 /// at up to 13 mm/s, while its servos take up what the other joints leave.
@@ -56,7 +56,7 @@ impl SeparationMeter {
     /// Adds one tick. Truth without a person's arm counts for nothing. Whether a motion is part of a handover the truth tells: `command`,
     /// the newest one known, may be older or younger than the motion, and only its speed counts.
     pub fn tick(&mut self, truth: &Truth, command: &Command) {
-        if truth.arm.as_flattened().iter().all(|number| *number == 0.0) {
+        if truth.arms.iter().all(is_none) {
             self.before = None;
             return;
         }
@@ -71,10 +71,18 @@ impl SeparationMeter {
         self.before = Some((cycle, person));
     }
 
-    /// The arm as it is, and the head, which stands above its shoulder.
+    /// The arms as they are, and the head, which may stand above either shoulder. One that there is not is taken to be where the other is.
     fn person_of(&self, truth: &Truth) -> Person {
+        let [right, left] = truth.arms;
+        let (right, left) =
+            (if is_none(&right) { left } else { right }, if is_none(&left) { right } else { left });
+        let (right, left) = (self.side_of(right), self.side_of(left));
+        std::array::from_fn(|index| if index < 4 { right[index] } else { left[index - 4] })
+    }
+
+    fn side_of(&self, arm: [[f64; 3]; 4]) -> [Capsule; 4] {
         let PersonLimits { radii: [upper_arm, forearm, hand], head_radius, head_height, .. } = self.person;
-        let [shoulder, elbow, wrist, fingertip] = truth.arm.map(Point3::from);
+        let [shoulder, elbow, wrist, fingertip] = arm.map(Point3::from);
         let crown = shoulder + head_height * Vector3::z();
         let line = |start, end, radius| Capsule { start, end, radius };
         [
@@ -168,6 +176,11 @@ impl SeparationMeter {
         capsules.close(&std::array::from_fn(|joint| joints[ARM_JOINTS + joint]), fingers);
         capsules.place(mechanism, &std::array::from_fn(|joint| joints[joint]), fingers, links);
     }
+}
+
+/// Whether there is no such arm.
+fn is_none(arm: &[[f64; 3]; 4]) -> bool {
+    arm.as_flattened().iter().all(|number| *number == 0.0)
 }
 
 /// Distance of arm and hand from the person, m.

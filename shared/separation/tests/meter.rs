@@ -67,7 +67,7 @@ impl Scene {
         let outwards = self.away.normalize();
         let tip = palm(&self.robot, 0.0) + self.away - outwards * nearer;
         for (joint, length) in [0.8, 0.5, 0.2, 0.0].into_iter().enumerate() {
-            truth.arm[joint] = (tip + outwards * length).into();
+            truth.arms[0][joint] = (tip + outwards * length).into();
         }
         truth
     }

@@ -1,6 +1,6 @@
 use crate::hand_phase::HandPhase;
 use crate::keyframes::Keyframes;
-use coact_recordings::{ArmSide, WayKind};
+use coact_recordings::WayKind;
 use std::ops::Range;
 use std::path::Path;
 
@@ -38,7 +38,7 @@ impl RecordedTask {
         let phase = |hand, kind, frames: Range<usize>| HandPhase { hand, kind, frames };
         match (self, keyframes.frames.as_slice()) {
             (Self::CollaborativeStacking, &[_, first, second, third, _]) => {
-                let other = ArmSide::BOTH[usize::from(hand == ArmSide::Left)];
+                let other = hand.other();
                 Ok(vec![
                     phase(hand, WayKind::Carry, 0..first),
                     phase(hand, WayKind::Withdraw, first..second),

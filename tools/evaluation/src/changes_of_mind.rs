@@ -108,6 +108,7 @@ mod tests {
             subgoal: "wheel".into(),
             error: None,
             hidden: false,
+            left_hand: false,
             hidden_goals: None,
             onset_ms: 800,
             grasp_ms: Some(1600),

@@ -22,6 +22,10 @@ pub struct EvaluationReport {
     pub wrong: Proportion,
     /// ... for which none stood.
     pub absent: Proportion,
+    /// Of those, the ones with the left hand, rightly.
+    pub right_of_left: Proportion,
+    /// ... for which another goal stood.
+    pub wrong_of_left: Proportion,
     /// The same of the first goal that stood for 50 ms on the way, which nothing corrects: rightly.
     pub first_right: Proportion,
     /// ... another one.
@@ -156,6 +160,7 @@ impl EvaluationReport {
             grasped().filter(|action| action.error.is_none()).partition(|action| action.hidden);
         let with_one_goal: Vec<_> =
             hidden.iter().copied().filter(|action| action.hidden_goals == Some(1)).collect();
+        let left: Vec<_> = valid.iter().copied().filter(|action| action.left_hand).collect();
         let wrong: Vec<_> = grasped().filter(|action| action.error.is_some()).collect();
         let inferred = |among: &[&PartnerAction], what: Inference| {
             Proportion::new(among.iter().filter(|action| action.inference == Some(what)).count(), among.len())
@@ -188,6 +193,8 @@ impl EvaluationReport {
             right: inferred(&valid, Inference::Right),
             wrong: inferred(&valid, Inference::Wrong),
             absent: inferred(&valid, Inference::Absent),
+            right_of_left: inferred(&left, Inference::Right),
+            wrong_of_left: inferred(&left, Inference::Wrong),
             first_right: first(Inference::Right),
             first_wrong: first(Inference::Wrong),
             first_absent: first(Inference::Absent),

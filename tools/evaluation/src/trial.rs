@@ -57,6 +57,8 @@ pub struct PartnerAction {
     pub error: Option<ErrorKind>,
     /// Whether it led behind something that hid the part, and the hand at it.
     pub hidden: bool,
+    /// Whether it was made with the left hand.
+    pub left_hand: bool,
     /// Of a hidden one: how many goals plan and memory left at grasp completion, by what the robot could know of them.
     pub hidden_goals: Option<usize>,
     /// Reach onset.

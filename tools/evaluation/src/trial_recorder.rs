@@ -6,7 +6,7 @@ use crate::trial::{Alarm, Detection, DoublePeak, Inference, PartnerAction, Trial
 use crate::{HesitantReach, TurnedReach};
 use coact_joint_task::{Act, Agent, NetworkPlan, Role, Task};
 use coact_lockstep::Lockstep;
-use coact_messages::{FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
+use coact_messages::{ArmSide, FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
 use coact_monitor::{ActiveAgents, Anticipation, Intentions};
 use coact_run_records::{Event, SeparationReport};
 use coact_seen_parts::SeenParts;
@@ -215,6 +215,7 @@ impl<'a> TrialRecorder<'a> {
             subgoal,
             error,
             hidden: truth.hidden != 0,
+            left_hand: truth.side == ArmSide::Left as u32,
             hidden_goals: None,
             onset_ms: truth.onset_cycle,
             grasp_ms: None,
@@ -238,7 +239,7 @@ impl<'a> TrialRecorder<'a> {
     fn nearest_deg(&self, stages: &Lockstep) -> Option<f64> {
         let chain = &self.task.chains[stages.truth.chain as usize];
         let grasps = matches!(chain.act, Act::Grasp { .. }) && chain.from == Agent::Person;
-        let [_, _, wrist, _] = stages.truth.arm;
+        let [_, _, wrist, _] = stages.truth.arms[stages.truth.side as usize];
         nearest_angle(self.task, &stages.sample, chain.kind, wrist).filter(|_| grasps)
     }
 

@@ -117,7 +117,8 @@ impl ContactSheet<'_> {
             let ([depth, width], [x, y]) = (scene.table_size, scene.table_centre);
             point([x + across * depth, y + along * width, scene.table_height])
         });
-        let people = pictures.iter().flat_map(|picture| limb_capsules(&picture.snapshot.keypoints));
+        let people =
+            pictures.iter().flat_map(|picture| picture.snapshot.keypoints.iter().flat_map(limb_capsules));
         let capsules = pictures.iter().flat_map(|picture| picture.capsules.iter().copied());
         let all: Vec<Capsule> = corners.into_iter().chain(capsules).chain(people).collect();
         View::of(&all, TOWARDS, PICTURE)
@@ -133,8 +134,9 @@ impl ContactSheet<'_> {
         let links = picture.collision_model.links().iter().zip(&picture.capsules);
         let mut silhouettes: Vec<Silhouette> =
             links.map(|(link, capsule)| view.capsule(capsule, if link.hand { HAND } else { ARM })).collect();
-        silhouettes
-            .extend(limb_capsules(&picture.snapshot.keypoints).map(|limb| view.capsule(&limb, PERSON)));
+        silhouettes.extend(
+            picture.snapshot.keypoints.iter().flat_map(limb_capsules).map(|limb| view.capsule(&limb, PERSON)),
+        );
         for part in &picture.snapshot.parts {
             let (index, kind) = self.kind(part)?;
             let thing = coact_workplace::upright(&kind.name, kind.shape, &frame(part));

@@ -25,8 +25,8 @@ fn snapshot(at_ms: u64, what: &str) -> Snapshot {
         in_place: Vec::new(),
         joints: [0.0; JOINTS],
         parts: vec![wheel],
-        keypoints: std::array::from_fn(|point| {
-            (point != 3).then_some([-1.2 + 0.03 * point as f64, 0.1, 0.9])
+        keypoints: [0.1, 0.4].map(|y| {
+            std::array::from_fn(|point| (point != 3).then_some([-1.2 + 0.03 * point as f64, y, 0.9]))
         }),
     }
 }

@@ -40,7 +40,7 @@ pub(crate) fn extract(
         for tick in span.begin..span.end {
             replay.step(tick, &mut sample, &mut truth);
             sample.header.cycle = tick;
-            believe_all(&mut sample.hand);
+            sample.hands.iter_mut().for_each(believe_all);
             perception.step(tick, Some(&sample), &mut percept);
         }
         let record = *perception.reach();

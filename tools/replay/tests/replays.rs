@@ -189,7 +189,7 @@ fn the_first_message_that_differs_is_named_by_its_cycle_and_field() {
     for message in &mut recorded {
         match message {
             Recorded::Percept(percept) if percept.header.cycle == 1200 => {
-                percept.arm.wrist.velocity[1] += 1e-9
+                percept.arms[0].wrist.velocity[1] += 1e-9
             }
             Recorded::Frame(frame) if frame.header.cycle == 2000 => frame.decision.since ^= 1,
             _ => {}
@@ -198,7 +198,7 @@ fn the_first_message_that_differs_is_named_by_its_cycle_and_field() {
     let report = replayed(&recorded).unwrap();
     assert_eq!((report.equal, report.percepts.differing, report.frames.differing), (false, 1, 1));
     let found = [&report.percepts, &report.frames].map(|stage| stage.first_difference.clone().unwrap());
-    assert_eq!((found[0].cycle, found[0].field.as_str()), (1200, "arm.wrist.velocity[1]"));
+    assert_eq!((found[0].cycle, found[0].field.as_str()), (1200, "arms[0].wrist.velocity[1]"));
     assert_eq!((found[1].cycle, found[1].field.as_str()), (2000, "decision.since"));
 }
 

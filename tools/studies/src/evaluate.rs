@@ -47,6 +47,8 @@ Keys of random, after a colon, separated by commas:
                               the person comes 2 to 6 s late for the part
   changes                     fraction of valid reaches to a part in which the person changes the mind
                               in mid-reach: the hand turns to another part
+  left                        fraction of takings of an own part that lies nearer to the left hand, with
+                              that one
   movement=LOW..HIGH          movement time of a reach, ms
 
 Exit status: 0, or 2 for bad usage or configuration.")]

@@ -63,10 +63,11 @@ impl BodyPart {
         }
     }
 
-    /// Something that moves along with where it begins, and was there `ago` s before now.
-    pub(super) fn carrying(&self, there: Capsule, ago: f64) -> Self {
+    /// Something not farther than `within` m from it that moves along with where it begins, and was there `ago` s before now.
+    pub(super) fn carrying(&self, there: Capsule, ago: f64, within: f64) -> Self {
         let [begin, _] = self.velocities;
-        let then = Self { now: there, velocities: [begin; 2], ..*self };
+        let bound = self.bound.map(|bound| bound.and(&there, within));
+        let then = Self { now: there, velocities: [begin; 2], bound, ..*self };
         Self { now: then.after(ago), ..then }
     }
 

@@ -33,7 +33,7 @@ pub(crate) struct PlanningQuery {
     pub held: Option<(usize, Isometry3<f64>)>,
     pub held_in: Option<usize>,
     pub surroundings: Surroundings,
-    /// The person's arm, when it is tracked.
+    /// The person, where she was seen last.
     pub person: Option<PersonCapsules>,
 }
 

@@ -60,16 +60,17 @@ impl PlanningScene {
         Scene { obstacles, allowed_leaving, allowed_at_goal }
     }
 
-    /// The person's arm now, a moment from now and where it will bring a part; only the upper arm when the robot receives
-    /// something from the hand.
+    /// The person's arms now, a moment from now and where a part will be brought; of the acting one only the upper arm when the robot
+    /// receives something from its hand.
     pub fn person(&self, query: &PlanningQuery, goals: &HandGoals) -> Vec<Capsule> {
-        let Some(arm) = query.person else { return Vec::new() };
+        let Some(person) = query.person else { return Vec::new() };
         let count = if query.receives() { 1 } else { usize::MAX };
         let awaited = query.kind.filter(|_| query.awaits_person());
         let part = awaited.and_then(|kind| self.part_capsules.get(kind));
         let coming = part.map(|part| goals.coming(part, &self.limits.person)).into_iter().flatten();
         let ahead = self.limits.planner.person_ahead.as_secs_f64();
-        [0.0, ahead].into_iter().flat_map(|ahead| arm.after(ahead).take(count)).chain(coming).collect()
+        let arms = |ahead| person.acting_after(ahead).take(count).chain(person.other_after(ahead));
+        [0.0, ahead].into_iter().flat_map(arms).chain(coming).collect()
     }
 
     /// Distance of arm, hand and held part from the person, m, and the direction away from there.
@@ -112,7 +113,7 @@ impl PlanningScene {
         let held = query.held.map(|(kind, in_palm)| (kind, palm * in_palm));
         let meant = query.kind.filter(|_| query.skill == Skill::Pick).map(|kind| (kind, query.place));
         let received = query.kind.filter(|_| query.receives()).map(|kind| (kind, query.place));
-        let in_person_hand = query.person.and_then(|arm| arm.held());
+        let in_person_hand = query.person.and_then(|person| person.held());
         let mut parts = Vec::new();
         for (index, sighting) in query.surroundings.parts.all().iter().enumerate() {
             let kind = sighting.kind as usize;

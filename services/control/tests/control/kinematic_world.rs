@@ -4,7 +4,8 @@
 use coact_control::Control;
 use coact_joint_task::{ActionType, Task};
 use coact_messages::{
-    Command, FieldFrame, JOINTS, MotionPhase, NONE, PERSON, Percept, ROBOT, SensorSample, TrackedPoint,
+    ArmSide, Command, FieldFrame, JOINTS, MotionPhase, NONE, PERSON, Percept, ROBOT, SensorSample,
+    TrackedPoint,
 };
 use coact_motion::Capsule;
 use coact_period::{CYCLES_PER_SECOND, PERIOD_S, seconds};
@@ -99,8 +100,10 @@ impl KinematicWorld {
             control,
         };
         world.decide(None);
-        world.hand_at(world.task.scene.person_rest);
-        world.percept.arm.tracked = 1;
+        for side in ArmSide::BOTH {
+            world.arm_at(side, world.task.scene.rest(side), [0.0; 3]);
+            world.percept.arms[side as usize].tracked = 1;
+        }
         let park = world.robot.hand.posture(world.robot.hand.base_for_width(0.10));
         world.command.position[..7].copy_from_slice(&world.robot.park);
         world.command.position[7..14].copy_from_slice(&park);
@@ -129,9 +132,14 @@ impl KinematicWorld {
         self.hand_moves(place, [0.0; 3]);
     }
 
-    /// The person's wrist is there, and moves so fast, m/s; the arm is stretched out to it, and the hand beyond.
+    /// The person's right wrist is there, and moves so fast, m/s.
     pub fn hand_moves(&mut self, place: [f64; 3], velocity: [f64; 3]) {
-        let shoulder = Vector3::from(self.task.scene.person_shoulder);
+        self.arm_at(ArmSide::Right, place, velocity);
+    }
+
+    /// One of the person's wrists is there, and moves so fast, m/s; the arm is stretched out to it, and the hand beyond.
+    pub fn arm_at(&mut self, side: ArmSide, place: [f64; 3], velocity: [f64; 3]) {
+        let shoulder = Vector3::from(self.task.scene.shoulder(side));
         let arm = Vector3::from(place) - shoulder;
         let hand = 1.0 + HAND / arm.norm().max(HAND);
         let point = |follows: f64| TrackedPoint {
@@ -141,7 +149,7 @@ impl KinematicWorld {
             age: 0,
             still: if velocity == [0.0; 3] { 1000 } else { 0 },
         };
-        let person = &mut self.percept.arm;
+        let person = &mut self.percept.arms[side as usize];
         (person.shoulder, person.elbow) = (point(0.0), point(0.5));
         (person.wrist, person.fingertip) = (point(1.0), point(hand));
     }
@@ -149,6 +157,13 @@ impl KinematicWorld {
     /// Puts the person's finger tips somewhere, still.
     pub fn fingers_at(&mut self, place: [f64; 3]) {
         self.fingers_move(place, [0.0; 3]);
+    }
+
+    /// Puts the finger tips of the person's left hand somewhere, still.
+    pub fn left_fingers_at(&mut self, place: [f64; 3]) {
+        let arm = Vector3::from(place) - Vector3::from(self.task.scene.shoulder(ArmSide::Left));
+        let wrist = Vector3::from(place) - HAND * arm.normalize();
+        self.arm_at(ArmSide::Left, wrist.into(), [0.0; 3]);
     }
 
     /// The person's finger tips are there, and the hand moves so fast, m/s.
@@ -310,7 +325,7 @@ impl KinematicWorld {
             let upright = (frame.rotation * Vector3::z()).dot(&Vector3::from(subgoal.axis));
             subgoal.kind == kind && (place - Vector3::from(subgoal.socket)).norm() < NEAR && upright > 0.99
         };
-        let wrist = Point3::from(self.percept.arm.wrist.position);
+        let wrist = Point3::from(self.percept.arms[0].wrist.position);
         let part = &mut self.parts[index];
         if let Some(goal) = (0..self.task.subgoals.len()).find(matching) {
             let subgoal = &self.task.subgoals[goal];

@@ -3,7 +3,7 @@
 
 use crate::kinematic_world::{Holder, KinematicWorld};
 use coact_joint_task::ActionType;
-use coact_messages::{ARM_JOINTS, Command, JOINTS, MotionPhase, ROBOT};
+use coact_messages::{ARM_JOINTS, ArmSide, Command, JOINTS, MotionPhase, ROBOT};
 use coact_motion::{Capsule, Mechanism, MovingCapsules};
 use coact_period::{CYCLES_PER_SECOND, PERIOD_S};
 use coact_robot::Limiter;
@@ -56,13 +56,16 @@ impl Body {
 
 /// Distance of arm and hand from the person's hand, m, in a posture of all joints.
 fn distance(world: &KinematicWorld, body: &Body, position: &[f64; JOINTS]) -> f64 {
-    let hand = person_hand(world);
-    body.links(position).iter().map(|link| link.distance(&hand)).fold(f64::INFINITY, f64::min)
+    distance_to(&person_hand(world, ArmSide::Right), body, position)
 }
 
-fn person_hand(world: &KinematicWorld) -> Capsule {
-    let [start, end] =
-        [world.percept.arm.wrist, world.percept.arm.fingertip].map(|point| Point3::from(point.position));
+fn distance_to(hand: &Capsule, body: &Body, position: &[f64; JOINTS]) -> f64 {
+    body.links(position).iter().map(|link| link.distance(hand)).fold(f64::INFINITY, f64::min)
+}
+
+fn person_hand(world: &KinematicWorld, side: ArmSide) -> Capsule {
+    let arm = &world.percept.arms[side as usize];
+    let [start, end] = [arm.wrist, arm.fingertip].map(|point| Point3::from(point.position));
     Capsule { start, end, radius: 0.045 }
 }
 
@@ -140,6 +143,24 @@ fn fingers_that_something_holds_open_keep_clear_where_they_are_not_where_they_ar
         }
         assert!(nearest > 0.04, "{nearest} m from the person's hand");
     }
+}
+
+#[test]
+fn the_hand_that_does_not_act_is_kept_clear_of_as_well() {
+    let mut world = reaching();
+    world.held_open = 0.6;
+    let body = Body::of(&world);
+    let [x, y, z]: [f64; 3] = world.parts[nut(&world)].frame.translation.vector.into();
+    world.left_fingers_at([x - 0.12, y, z + 0.06]);
+    let hand = person_hand(&world, ArmSide::Left);
+    let mut nearest = f64::INFINITY;
+    for _ in 0..400 {
+        world.run(0.01);
+        nearest = nearest.min(distance_to(&hand, &body, &world.sample.joints.position));
+    }
+    assert!(nearest > 0.04, "{nearest} m from the person's left hand");
+    world.left_fingers_at([x - 0.6, y, z + 0.06]);
+    world.until(8.0, "taken", |world| world.held().is_some());
 }
 
 #[test]
@@ -271,14 +292,16 @@ fn without_perception_the_arm_stands_within_little_more_than_its_joints_need_and
 
 #[test]
 fn a_person_who_was_never_seen_may_be_anywhere_and_the_arm_stands() {
-    let mut world = KinematicWorld::new();
-    world.percept.arm.age = u64::MAX;
-    let before = world.command.position;
-    world.decide(Some(world.action(ActionType::Insert, NUT)));
-    world.run(2.0);
-    assert_eq!(world.command.position, before);
-    world.percept.arm.age = 0;
-    world.until(8.0, "taken", |world| world.held().is_some());
+    for side in [0, 1] {
+        let mut world = KinematicWorld::new();
+        world.percept.arms[side].age = u64::MAX;
+        let before = world.command.position;
+        world.decide(Some(world.action(ActionType::Insert, NUT)));
+        world.run(2.0);
+        assert_eq!(world.command.position, before, "one arm is as much as both");
+        world.percept.arms[side].age = 0;
+        world.until(8.0, "taken", |world| world.held().is_some());
+    }
 }
 
 #[test]
@@ -288,7 +311,7 @@ fn somebody_who_is_not_seen_any_more_is_where_she_can_have_gone() {
     let goal = world.parts[nut(&world)].frame.translation.vector;
     world.fingers_at([goal.x - 0.35, goal.y, goal.z + 0.15]);
     for age in 0..3000u64 {
-        let arm = &mut world.percept.arm;
+        let arm = &mut world.percept.arms[0];
         (arm.age, arm.tracked) = (age, u32::from(age <= 150));
         for point in [&mut arm.shoulder, &mut arm.elbow, &mut arm.wrist, &mut arm.fingertip] {
             point.age = age;
@@ -298,7 +321,7 @@ fn somebody_who_is_not_seen_any_more_is_where_she_can_have_gone() {
     assert_eq!(speed(&world.command), 0.0, "nobody knows where she is now");
     assert!(world.held().is_none());
     world.hand_at(world.task.scene.person_rest);
-    (world.percept.arm.age, world.percept.arm.tracked) = (0, 1);
+    (world.percept.arms[0].age, world.percept.arms[0].tracked) = (0, 1);
     world.until(8.0, "taken", |world| world.held().is_some());
 }
 
@@ -307,7 +330,7 @@ fn a_hidden_hand_is_not_farther_from_a_shoulder_that_is_seen_than_the_arm_is_lon
     let mut world = reaching();
     world.task.scene.person_shoulder[0] -= 0.4;
     world.hand_at(world.task.scene.person_rest);
-    let arm = &mut world.percept.arm;
+    let arm = &mut world.percept.arms[0];
     (arm.age, arm.tracked) = (5000, 0);
     for point in [&mut arm.elbow, &mut arm.wrist, &mut arm.fingertip] {
         point.age = 5000;

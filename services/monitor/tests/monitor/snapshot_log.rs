@@ -166,7 +166,7 @@ fn a_snapshot_tells_who_does_what_and_where_everything_is() {
     let mut run = Watching::open(folder.path());
     run.truth = acting(0, 1, PASS, HINGE, 100, 0);
     run.sample.joints.position[3] = 0.5;
-    let wrist = &mut run.sample.hand.keypoints[KeypointName::Wrist as usize];
+    let wrist = &mut run.sample.hands[0].keypoints[KeypointName::Wrist as usize];
     (wrist.position, wrist.confidence) = ([0.3, 0.4, 0.5], 0.9);
     let mut command: coact_messages::Command = bytemuck::Zeroable::zeroed();
     command.action = RECEIVE_HINGE as u32;

@@ -7,5 +7,5 @@ mod tracked_joint;
 mod view_frame;
 
 pub(crate) use hand_movement::HandMovement;
-pub(crate) use tracked_hand::{TrackedHand, USABLE};
+pub(crate) use tracked_hand::{BELIEVED, TrackedHand, USABLE};
 pub(crate) use view_frame::ViewFrame;

@@ -19,7 +19,7 @@ const AVERAGED: usize = 3;
 /// (median) off the line between their sure neighbours in time, the last sure ones 1.8: what was seen before is nearer. From
 /// 0.2 to 0.3 both are about equal (2.3, 1.9), above that the new one is nearer (1.3, 1.5). With this threshold 84.0 % of the
 /// reaches are understood before contact, with none 82.9 %. The simulated tracker says 0, or 0.7 to 0.95.
-const BELIEVED: f64 = 0.2;
+pub(crate) const BELIEVED: f64 = 0.2;
 /// How far a keypoint may lie from the origin, m: no hand beyond it concerns the robot, the tracker is mistaken.
 const FARTHEST: f64 = 10.0;
 /// Age up to which the newest frame tells where the hand is now: nine frames at 60 Hz, so that dropped ones are bridged.
@@ -54,8 +54,9 @@ const WHOLE_HAND: [KeypointName; 5] = [
     KeypointName::LittleKnuckle,
 ];
 
-/// What a hand that is hidden leaves in sight, and binds it: how far the hand may be away is known from the shoulder.
-const UPPER_ARM: [KeypointName; 2] = [KeypointName::Shoulder, KeypointName::Elbow];
+/// What a hand that is hidden leaves in sight, and binds it: how far the hand may be away is known from the shoulder, and from the wrist
+/// where that is seen.
+const ARM: [KeypointName; 3] = [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist];
 const ALL: [KeypointName; KEYPOINTS] = [
     KeypointName::Shoulder,
     KeypointName::Elbow,
@@ -108,17 +109,17 @@ pub(crate) struct TrackedHand {
 impl TrackedHand {
     /// Takes in the tracker's newest frame. `None` if it is not a new and usable one; true if a movement has begun.
     ///
-    /// While something may `hide` the hand, a frame without wrist, knuckles or finger tips is none: a hand that is half out
+    /// While something may hide the hand, as `hide` says, a frame without wrist, knuckles or finger tips is none: a hand that is half out
     /// of sight tells neither its grip nor its pitch.
-    pub fn observe(&mut self, tick: u64, view: &HandView, hide: bool) -> Option<bool> {
+    pub fn observe(&mut self, tick: u64, view: &HandView, hide: impl FnOnce(&Self) -> bool) -> Option<bool> {
         let found = |name: &KeypointName| view.keypoints[*name as usize].confidence > BELIEVED;
         let known = self.seen == view.frame.wrapping_add(1);
         let late = self.seen > 0 && view.captured_cycle <= self.captured;
         if known || late || view.captured_cycle > tick {
             return None;
         }
-        if hide && !WHOLE_HAND.iter().all(found) {
-            self.merge(view, &UPPER_ARM);
+        if !WHOLE_HAND.iter().all(found) && hide(self) {
+            self.merge(view, &ARM);
             return None;
         }
         let before = self.joints[WRIST];
@@ -299,7 +300,7 @@ impl TrackedHand {
 
     /// Age of the newest usable frame, cycles; `u64::MAX` before the first.
     pub fn age(&self, tick: u64) -> u64 {
-        if self.seen == 0 { u64::MAX } else { tick.saturating_sub(self.captured) }
+        if self.has_been_seen() { tick.saturating_sub(self.captured) } else { u64::MAX }
     }
 
     /// Refuses what is no state of a hand.
@@ -312,6 +313,11 @@ impl TrackedHand {
         finite("hand.pitch", &[self.pitch, self.pitch_rate])?;
         self.recent.iter().try_for_each(ViewFrame::check)?;
         self.movement.check()
+    }
+
+    /// Whether a usable frame of it has come.
+    pub fn has_been_seen(&self) -> bool {
+        self.seen > 0
     }
 
     /// Whether the newest frame is young enough to tell where the hand is now.

@@ -24,6 +24,11 @@ impl ViewFrame {
         (Vector3::from(self.thumb) + Vector3::from(self.index)) * 0.5
     }
 
+    /// Distance of thumb and index tip, m.
+    pub fn aperture(&self) -> f64 {
+        (Vector3::from(self.thumb) - Vector3::from(self.index)).norm()
+    }
+
     /// Refuses what is no frame.
     pub fn check(&self) -> Result<(), Implausible> {
         [self.wrist, self.thumb, self.index, self.middle]

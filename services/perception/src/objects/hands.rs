@@ -5,6 +5,8 @@ use nalgebra::{Isometry3, Vector3};
 pub(crate) struct Hands {
     /// The person's hand, while it is tracked.
     pub person: Option<PersonHand>,
+    /// Whether it was tracked once, and is not now: what its fingers do is not seen.
+    pub unseen: bool,
     /// Whether it has been tracked for so long that what it does is known.
     pub followed: bool,
     /// The robot's palm, when its kinematics are known.

@@ -13,6 +13,14 @@ const OUT: f64 = 0.09;
 const CLOSED: f64 = 0.02;
 /// They have let go of it when they are further apart than its width and this, m.
 const OPENED: f64 = 0.05;
+/// Thumb and index have closed on a part when they lately were further apart by this, while about it, m: several times what the tracker's
+/// scatter makes of fingers that are still. People open theirs by 2 to 4 cm more than a part is wide, and close them on its last 8 cm; those of a
+/// hand that goes back to rest close on all of its way.
+const CLOSING: f64 = 0.012;
+/// Distance from the centre of a part at which a hand's fingers are about it, m. Chosen by hand.
+const ABOUT: f64 = 0.06;
+/// How fast fingers close that close on a part, at least, m/s: what they were wider before counts for the less, the longer ago it was.
+const CLOSES: f64 = 0.01;
 /// Speed of a hand that closes on a part, m/s: that of a hand at rest, with the tracker's scatter.
 const SLOW: f64 = 0.15;
 /// How far a hand must be away that moves off from a part that has settled, and so has let go of it, m.
@@ -40,6 +48,16 @@ impl PartTrack {
         self.above_underside(0.5 * size.height)
     }
 
+    /// Follows how wide the person's fingers are about the part, `time` s after the last frame. Of a hand that is out of sight it is not known.
+    pub(super) fn watch_fingers(&mut self, size: PartSize, around: &Hands, time: f64) {
+        self.set_widest(match around.person {
+            Some(hand) if self.away_from(size, &hand) > ABOUT => 0.0,
+            Some(hand) => hand.aperture.max(self.widest() - CLOSES * time),
+            None if around.unseen => f64::INFINITY,
+            None => 0.0,
+        });
+    }
+
     /// Finds out whether a hand still has the part that it had.
     pub(super) fn let_go(&mut self, size: PartSize, around: &Hands) {
         if let Some(hand) = around.person
@@ -57,7 +75,7 @@ impl PartTrack {
     /// `airborne`: the part hangs in the air, on nothing that could carry it.
     pub(super) fn take(&mut self, free: u32, size: PartSize, around: &Hands, airborne: bool) {
         if let Some(hand) = around.person.filter(|_| free & BY_PERSON != 0)
-            && self.is_taken_by_person(size, &hand)
+            && self.is_taken_by_person(size, &hand, airborne)
         {
             self.is_taken_by_the_person();
         }
@@ -76,15 +94,19 @@ impl PartTrack {
     }
 
     /// Distance from the fingers of a hand that it may be between, or carried by, m.
-    pub(super) fn reached_at(&self, size: PartSize, around: &Hands) -> Option<f64> {
+    pub(super) fn reached_at(&self, size: PartSize, around: &Hands, airborne: bool) -> Option<f64> {
         let hand = around.person?;
         let away = self.away_from(size, &hand);
-        (away < CLOSED_ON || self.is_taken_by_person(size, &hand)).then_some(away)
+        (away < CLOSED_ON || self.is_taken_by_person(size, &hand, airborne)).then_some(away)
     }
 
-    fn is_taken_by_person(&self, size: PartSize, hand: &PersonHand) -> bool {
+    /// By fingers that have closed around it, that are closed around it in the air, or that it goes along with. A hand that came to rest over it, as
+    /// wide as it was on its way there, has not taken it.
+    fn is_taken_by_person(&self, size: PartSize, hand: &PersonHand, airborne: bool) -> bool {
         let away = self.away_from(size, hand);
-        let closed = away < CLOSED_ON && hand.aperture < size.width + CLOSED && hand.speed < SLOW;
+        let narrower = self.widest() - hand.aperture;
+        let around = away < CLOSED_ON && hand.aperture < size.width + CLOSED;
+        let closed = around && (narrower > CLOSING || airborne) && hand.speed < SLOW;
         let carried = away < CARRIED && self.still == 0 && hand.speed > SLOW && self.holder & BY_ROBOT == 0;
         closed || carried
     }

@@ -28,7 +28,12 @@ const SETTLED_UNSEEN: u32 = cycles(Duration::from_millis(2500)) as u32;
 const BELIEVED: u16 = 3;
 /// How long a part must be taken for one of another kind, and never for its own, to be one: recognisers are mistaken for some frames at a
 /// time. Chosen by hand.
-const RELABELLED: u32 = cycles(Duration::from_millis(1000)) as u32;
+const RELABELLED: u16 = cycles(Duration::from_millis(1000)) as u16;
+
+/// No fingers are as wide, tenths of a millimetre: nobody knows how wide they were.
+const UNSEEN: u16 = u16::MAX;
+/// Tenths of a millimetre, m.
+const TENTHS: f64 = 1e-4;
 
 /// No part is farther away, m, and the square of no quaternion's length farther from 1: what readers take in of a percept, which
 /// tells both.
@@ -44,7 +49,9 @@ pub(crate) struct PartTrack {
     /// Kind plus one that the newest frames took it for, where that is another one; 0: they did not.
     taken_for: u16,
     /// Cycles for which they have.
-    mistaken: u32,
+    mistaken: u16,
+    /// How wide the person's fingers lately were about it, tenths of a millimetre: 0 while they are away, [`UNSEEN`] where they were not seen.
+    widest: u16,
     /// [`FREE`], or bits [`BY_ROBOT`] and [`BY_PERSON`].
     pub holder: u32,
     /// Cycles for which its place has been in view and empty.
@@ -112,7 +119,7 @@ impl PartTrack {
 
     /// Takes in a new sighting, `cycles` after the last frame. Of another kind than the part's, it tells where the part is all the same.
     pub fn follow(&mut self, sighting: &Sighting, captured: u64, cycles: u64) {
-        self.look_again_what_it_is(kind_plus_one(sighting), cycles as u32);
+        self.look_again_what_it_is(kind_plus_one(sighting), cycles.min(u64::from(u16::MAX)) as u16);
         self.frames = (self.frames + 1).min(BELIEVED);
         let (old, new) = (Vector3::from(self.position), Vector3::from(sighting.position));
         if (new - old).norm() > MOVED {
@@ -139,7 +146,7 @@ impl PartTrack {
     }
 
     /// A part that is taken for one of another kind for long, and never for its own, is one.
-    fn look_again_what_it_is(&mut self, kind_plus_one: u16, cycles: u32) {
+    fn look_again_what_it_is(&mut self, kind_plus_one: u16, cycles: u16) {
         self.mistaken = match kind_plus_one {
             own if own == self.kind_plus_one => 0,
             other if other == self.taken_for => self.mistaken.saturating_add(cycles),
@@ -149,6 +156,16 @@ impl PartTrack {
         if self.mistaken > RELABELLED {
             (self.kind_plus_one, self.taken_for, self.mistaken) = (kind_plus_one, 0, 0);
         }
+    }
+
+    /// How wide the person's fingers lately were about it, m: 0 while they are away, infinite where they were not seen.
+    pub fn widest(&self) -> f64 {
+        if self.widest == UNSEEN { f64::INFINITY } else { f64::from(self.widest) * TENTHS }
+    }
+
+    /// They were so wide.
+    pub fn set_widest(&mut self, width: f64) {
+        self.widest = (width / TENTHS).min(f64::from(UNSEEN)) as u16;
     }
 
     /// Point on the part's axis, `height` above its underside, m.

@@ -3,7 +3,7 @@ use super::{Hands, Sight, TaskPlaces};
 use crate::plausible_cycle::cycle;
 use bytemuck::{Pod, Zeroable};
 use coact_messages::{MAX_PARTS, SceneView, Sighting};
-use coact_period::cycles;
+use coact_period::{cycles, seconds};
 use coact_stage_state::{Implausible, bounded, ensure};
 use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 use std::time::Duration;
@@ -98,6 +98,9 @@ impl PartTracks {
         self.associate(sight, cycles, places);
         self.follow_robot(around.palm);
         self.miss(sight, cycles, places);
+        for (kind, track) in self.tracks.iter_mut().filter_map(|track| Some((track.kind()?, track))) {
+            track.watch_fingers(places.size(kind), around, seconds(cycles));
+        }
         self.find_holders(around, places);
     }
 
@@ -126,7 +129,8 @@ impl PartTracks {
     /// that close on a small one are as wide as a large one before.
     fn nearest_to_fingers(&self, around: &Hands, places: &TaskPlaces) -> Option<usize> {
         let reached = self.numbered().filter_map(|(index, kind, track)| {
-            track.reached_at(places.size(kind), around).map(|away| (index, away))
+            let airborne = places.is_airborne(kind, track.position);
+            track.reached_at(places.size(kind), around, airborne).map(|away| (index, away))
         });
         reached.min_by(|(_, one), (_, other)| one.total_cmp(other)).map(|(index, _)| index)
     }

@@ -1,4 +1,5 @@
 use super::movement_model::{CURVE_MODES, MovementModel};
+use crate::habit::next_value;
 use bytemuck::{Pod, Zeroable};
 use coact_stage_state::{Implausible, ensure, finite};
 
@@ -42,18 +43,17 @@ impl PersonMovement {
         let spread = model.spread * model.spread;
         let within = |mode: usize| 1.0 - model.own[mode];
         let modes = std::array::from_fn(|mode| {
-            self.expect(self.sum[mode], OTHERS_WAYS * OTHERS_WAYS - within(mode), within(mode))
+            next_value(
+                self.reaches as f64,
+                self.sum[mode],
+                OTHERS_WAYS * OTHERS_WAYS - within(mode),
+                within(mode),
+            )
         });
         let within = spread * (1.0 - model.own_pace);
-        let pace = self.expect(self.pace, OTHERS_PACE * OTHERS_PACE * spread - within, within);
+        let pace =
+            next_value(self.reaches as f64, self.pace, OTHERS_PACE * OTHERS_PACE * spread - within, within);
         Expected { modes, pace }
-    }
-
-    /// Mean and standard deviation of the next value after a sum of so many: a Gaussian mean that varies `between` people, about which each
-    /// value varies `within` one.
-    fn expect(&self, sum: f64, between: f64, within: f64) -> (f64, f64) {
-        let known = self.reaches as f64 * between + within;
-        (sum * between / known, (within + between * within / known).sqrt())
     }
 
     /// Refuses what is none.

@@ -91,7 +91,9 @@ fn a_part_in_the_hand_is_held_until_the_hand_leaves_it() {
     let mut stage = Stage::new();
     let (wheel, kind) = (stage.part("wheel"), stage.kind("wheel"));
     let act = Act::Grasp { grip: TOP, kind };
-    stage.move_to(stage.grasping(wheel, TOP), 600, |_| {});
+    let closed = stage.grasping(wheel, TOP);
+    stage.move_to(closed.open(), 600, |_| {});
+    stage.move_to(closed, 100, |_| {});
     stage.run(150, |_, _| {});
     assert!(stage.percept.person_holds[kind] > 0.9, "closed on the part");
 
@@ -112,6 +114,37 @@ fn a_part_in_the_hand_is_held_until_the_hand_leaves_it() {
     stage.move_to(rest, 600, |_| {});
     stage.run(200, |_, _| {});
     assert!(stage.percept.person_holds[kind] < 0.1 && stage.act(act) < 0.1);
+}
+
+#[test]
+fn a_hand_that_comes_to_rest_over_a_part_has_not_taken_it() {
+    for aperture in [0.02, 0.03, 0.04] {
+        let mut stage = Stage::new();
+        let (nut, kind) = (stage.part("nut"), stage.kind("nut"));
+        let over = Hand { aperture, ..stage.grasping(nut, TOP) };
+        let [x, y, z] = over.centre;
+        let away = Hand { centre: [x, y + 0.4, z + 0.1], aperture: 0.08, ..over };
+        stage.move_to(away, 600, |_| {});
+        stage.run(600, |_, _| {});
+        stage.move_to(over, 700, |_| {});
+        let mut most = 0.0_f64;
+        stage.run(10_000, |stage, _| most = most.max(stage.percept.person_holds[kind]));
+        assert!(most < 0.05, "{aperture} m wide: {most:.2}");
+        // Nobody is there to see how its fingers closed.
+        stage.run(500, |stage, _| stage.tracking = false);
+        stage.run(500, |stage, _| stage.tracking = true);
+        assert!(stage.percept.person_holds[kind] > 0.9);
+    }
+}
+
+#[test]
+fn what_hangs_in_the_air_between_fingers_is_held_by_them() {
+    let mut stage = Stage::new();
+    let (nut, kind) = (stage.part("nut"), stage.kind("nut"));
+    stage.things[nut].position = [-0.75, 0.30, 0.95];
+    stage.hand = stage.grasping(nut, TOP);
+    stage.run(600, |_, _| {});
+    assert!(stage.percept.person_holds[kind] > 0.9, "nobody saw how they closed");
 }
 
 #[test]

@@ -10,13 +10,13 @@ fn distance(point: &TrackedPoint, place: [f64; 3]) -> f64 {
 }
 
 fn shown(stage: &Stage, name: KeypointName) -> [f64; 3] {
-    stage.sample.hand.keypoints[name as usize].position
+    stage.sample.hands[0].keypoints[name as usize].position
 }
 
 #[test]
 fn a_resting_arm_is_where_the_tracker_shows_it() {
     let stage = Stage::new();
-    let arm = &stage.percept.arm;
+    let arm = &stage.percept.arms[0];
     let names = [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist, KeypointName::MiddleTip];
     assert!(arm.is_tracked() && arm.age < 20);
     for (point, name) in arm.points().into_iter().zip(names) {
@@ -34,10 +34,13 @@ fn the_arm_ends_at_the_tip_of_the_longest_finger() {
     let stretched = [x + 0.05, y + 0.02, z];
     stage.wrong = vec![(KeypointName::IndexTip, seen(stretched))];
     stage.run(300, |_, _| {});
-    assert!(distance(&stage.percept.arm.fingertip, stretched) < 2e-3);
+    assert!(distance(&stage.percept.arms[0].fingertip, stretched) < 2e-3);
     stage.wrong = vec![(KeypointName::IndexTip, Keypoint { position: stretched, confidence: 0.0 })];
     stage.run(300, |_, _| {});
-    assert!(distance(&stage.percept.arm.fingertip, [x, y, z]) < 2e-3, "a finger that is not found is none");
+    assert!(
+        distance(&stage.percept.arms[0].fingertip, [x, y, z]) < 2e-3,
+        "a finger that is not found is none"
+    );
 }
 
 #[test]
@@ -45,7 +48,7 @@ fn a_moving_arm_is_where_it_is_now_and_not_where_the_last_frame_showed_it() {
     let mut stage = Stage::new();
     let (wheel, mut worst) = (stage.part("wheel"), [0.0_f64; 2]);
     stage.move_to(stage.grasping(wheel, 0), 550, |stage| {
-        let arm = &stage.percept.arm;
+        let arm = &stage.percept.arms[0];
         let [x, y, z] = stage.hand.centre;
         let (cosine, sine) = (stage.hand.pitch.cos(), stage.hand.pitch.sin());
         let wrist = [x - 0.15 * cosine, y, z - 0.15 * sine];
@@ -58,11 +61,11 @@ fn a_moving_arm_is_where_it_is_now_and_not_where_the_last_frame_showed_it() {
 #[test]
 fn a_joint_that_is_lost_stays_where_it_was_and_becomes_uncertain_alone() {
     let mut stage = Stage::new();
-    let before = stage.percept.arm;
+    let before = stage.percept.arms[0];
     let elbow = shown(&stage, KeypointName::Elbow);
     stage.wrong = vec![(KeypointName::Elbow, Keypoint::default())];
     stage.run(400, |_, _| {});
-    let arm = &stage.percept.arm;
+    let arm = &stage.percept.arms[0];
     assert!(arm.is_tracked() && distance(&arm.elbow, elbow) < 1e-3);
     assert!(arm.elbow.deviation > 0.3 && arm.wrist.deviation < 2.0 * before.wrist.deviation);
 }
@@ -71,12 +74,12 @@ fn a_joint_that_is_lost_stays_where_it_was_and_becomes_uncertain_alone() {
 fn a_joint_that_was_never_seen_is_infinitely_uncertain() {
     let mut stage = Stage::empty();
     stage.run(10, |_, _| {});
-    assert!(!stage.percept.arm.is_tracked() && stage.percept.arm.age == u64::MAX);
-    assert!(stage.percept.arm.points().iter().all(|point| point.deviation == f64::INFINITY));
+    assert!(!stage.percept.arms[0].is_tracked() && stage.percept.arms[0].age == u64::MAX);
+    assert!(stage.percept.arms[0].points().iter().all(|point| point.deviation == f64::INFINITY));
     stage.wrong =
         [KeypointName::Shoulder, KeypointName::Elbow].map(|name| (name, Keypoint::default())).into();
     stage.run(200, |_, _| {});
-    let PersonArm { shoulder, elbow, wrist, .. } = stage.percept.arm;
+    let PersonArm { shoulder, elbow, wrist, .. } = stage.percept.arms[0];
     assert!(shoulder.deviation.is_infinite() && elbow.deviation.is_infinite() && wrist.deviation < 0.01);
     assert!(elbow.position.iter().all(|value| value.is_finite()));
 }
@@ -86,10 +89,10 @@ fn an_arm_that_is_not_seen_becomes_more_uncertain_with_every_cycle() {
     let mut stage = Stage::new();
     stage.move_to(stage.grasping(stage.part("wheel"), 0), 300, |_| {});
     stage.tracking = false;
-    let mut last = stage.percept.arm;
+    let mut last = stage.percept.arms[0];
     for cycle in 0..5000 {
         stage.run(1, |_, _| {});
-        let arm = stage.percept.arm;
+        let arm = stage.percept.arms[0];
         for (now, before) in arm.points().into_iter().zip(last.points()) {
             assert!(now.deviation > before.deviation, "cycle {cycle}: {} m", now.deviation);
         }
@@ -102,11 +105,11 @@ fn an_arm_that_is_not_seen_becomes_more_uncertain_with_every_cycle() {
 #[test]
 fn a_keypoint_that_the_tracker_hardly_believes_is_not_believed() {
     let mut stage = Stage::new();
-    let before = stage.percept.arm.wrist;
+    let before = stage.percept.arms[0].wrist;
     let doubtful = Keypoint { position: [0.0, 0.0, 1.0], confidence: 0.19 };
     stage.wrong = vec![(KeypointName::Wrist, doubtful)];
     stage.run(100, |_, _| {});
-    assert!(distance(&stage.percept.arm.wrist, before.position) < 1e-3);
+    assert!(distance(&stage.percept.arms[0].wrist, before.position) < 1e-3);
 }
 
 proptest! {
@@ -132,11 +135,11 @@ proptest! {
             };
             stage.tick += wait;
             let captured_cycle = if plausible_time { stage.tick } else { bits[0] };
-            let frame = stage.sample.hand.frame.wrapping_add(1);
-            stage.sample.hand = HandView { frame, captured_cycle, keypoints: std::array::from_fn(keypoint) };
+            let frame = stage.sample.hands[0].frame.wrapping_add(1);
+            stage.sample.hands[0] = HandView { frame, captured_cycle, keypoints: std::array::from_fn(keypoint) };
             stage.perception.step(stage.tick, Some(&stage.sample), &mut stage.percept);
             stage.tick += 1;
-            for point in stage.percept.arm.points() {
+            for point in stage.percept.arms[0].points() {
                 prop_assert!(point.position.iter().chain(&point.velocity).all(|value| value.is_finite()));
                 prop_assert!(point.deviation > 0.0, "{}", point.deviation);
             }

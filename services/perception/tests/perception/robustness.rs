@@ -93,8 +93,9 @@ fn assert_sound(percept: &Percept) {
         assert!((0.0..=1.0).contains(value), "evidence of {value}");
     }
     let hand = percept.hand;
-    let arm = percept.arm.points().into_iter().flat_map(|point| point.position.iter().chain(&point.velocity));
-    let numbers = arm.chain([&hand.aperture]);
+    let points = percept.arms.iter().flat_map(|arm| arm.points());
+    let arms = points.flat_map(|point| point.position.iter().chain(&point.velocity));
+    let numbers = arms.chain([&hand.aperture]);
     let positions = percept.workspace.iter().flat_map(|place| place.position.iter().flatten());
     assert!(numbers.chain(positions).all(|value| value.is_finite()));
 }
@@ -107,7 +108,7 @@ fn garbage_makes_no_garbage() {
         let pick = |offset: usize| bad[(round / 3 + offset) % bad.len()];
         stage.run(1, |_, _| {});
         stage.sample.joints.touch = pick(1);
-        stage.sample.hand = HandView {
+        stage.sample.hands[0] = HandView {
             frame: round as u64 * 7,
             captured_cycle: if round % 5 == 0 { u64::MAX } else { stage.tick },
             keypoints: std::array::from_fn(|point| Keypoint {
@@ -140,7 +141,7 @@ fn without_any_sample_nothing_is_seen() {
         stage.perception.step(tick, None, &mut stage.percept);
         assert_sound(&stage.percept);
     }
-    assert!(!stage.percept.arm.is_tracked());
+    assert!(!stage.percept.arms[0].is_tracked());
     assert!(stage.percept.act.iter().all(|value| *value == 0.0));
 }
 
@@ -162,8 +163,8 @@ fn a_gap_in_the_tracking_is_bridged_and_a_long_one_is_told() {
 
     let mut lost = reach(400..560);
     lost.run(400, |stage, _| stage.tracking = false);
-    assert!(!lost.percept.arm.is_tracked());
-    assert!(lost.percept.arm.age > 400 && act(&lost) < 0.05);
+    assert!(!lost.percept.arms[0].is_tracked());
+    assert!(lost.percept.arms[0].age > 400 && act(&lost) < 0.05);
 }
 
 #[test]
@@ -183,5 +184,5 @@ fn a_stale_sample_ages() {
         stage.perception.step(stage.tick, Some(&stage.sample), &mut stage.percept);
         stage.tick += 1;
     }
-    assert!(rest > 0.9 && stage.act(Act::Rest) < 0.05 && !stage.percept.arm.is_tracked());
+    assert!(rest > 0.9 && stage.act(Act::Rest) < 0.05 && !stage.percept.arms[0].is_tracked());
 }

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use coact_joint_task::{Act, Scene, Task};
-use coact_messages::{Keypoint, KeypointName, Percept, SensorSample, Sighting, Surface, TableGrid};
+use coact_messages::{ArmSide, Keypoint, KeypointName, Percept, SensorSample, Sighting, Surface, TableGrid};
 use coact_perception::{Perception, PreshapeModel};
 use std::path::PathBuf;
 
@@ -36,12 +36,19 @@ impl Hand {
         }
     }
 
-    /// Keypoints of a hand that points along x: fingers 0.15 m from the wrist, thumb and index opposed along y.
-    fn keypoints(&self) -> [Keypoint; 9] {
+    /// The same with its fingers open, as people have them on their way to what they grasp.
+    pub fn open(self) -> Self {
+        Self { aperture: self.aperture + 0.03, ..self }
+    }
+
+    /// Keypoints of a hand that points along x: fingers 0.15 m from the wrist, thumb and index opposed along y. The left hand is the mirror
+    /// image of the right one.
+    fn keypoints(&self, side: ArmSide) -> [Keypoint; 9] {
+        let mirror = if side == ArmSide::Right { 1.0 } else { -1.0 };
         let on_hand = |along: f64, aside: f64| Keypoint {
             position: [
                 self.centre[0] + (along - 0.15) * self.pitch.cos(),
-                self.centre[1] + aside,
+                self.centre[1] + mirror * aside,
                 self.centre[2] + (along - 0.15) * self.pitch.sin(),
             ],
             confidence: 0.9,
@@ -79,7 +86,10 @@ pub struct Thing {
 pub struct Stage {
     pub task: Task,
     pub perception: Perception,
+    /// The right hand.
     pub hand: Hand,
+    /// The left one, if it is seen.
+    pub left: Option<Hand>,
     pub things: Vec<Thing>,
     pub sample: Box<SensorSample>,
     pub percept: Box<Percept>,
@@ -88,6 +98,8 @@ pub struct Stage {
     pub tracking: bool,
     /// Keypoints that it delivers in the place of the hand's own.
     pub wrong: Vec<(KeypointName, Keypoint)>,
+    /// Keypoints of the left hand that the tracker does not find.
+    pub lost_left: Vec<KeypointName>,
 }
 
 impl Stage {
@@ -112,12 +124,14 @@ impl Stage {
             things: things.collect(),
             perception: perception(&task),
             hand: resting(&task),
+            left: None,
             task,
             sample,
             percept: bytemuck::zeroed_box(),
             tick: 1,
             tracking: true,
             wrong: Vec::new(),
+            lost_left: Vec::new(),
         }
     }
 
@@ -136,6 +150,16 @@ impl Stage {
         let start = self.hand;
         for time in 1..=ticks {
             self.hand = start.towards(&end, smooth(time as f64 / ticks as f64));
+            self.run(1, |_, _| {});
+            watch(self);
+        }
+    }
+
+    /// Moves the left hand so.
+    pub fn move_left_to(&mut self, end: Hand, ticks: u64, mut watch: impl FnMut(&Self)) {
+        let start = self.left.unwrap();
+        for time in 1..=ticks {
+            self.left = Some(start.towards(&end, smooth(time as f64 / ticks as f64)));
             self.run(1, |_, _| {});
             watch(self);
         }
@@ -197,11 +221,18 @@ impl Stage {
     pub fn sense(&mut self) {
         self.sample.header.cycle = self.tick;
         if self.tracking && self.tick.is_multiple_of(17) {
-            self.sample.hand.frame += 1;
-            self.sample.hand.captured_cycle = self.tick;
-            self.sample.hand.keypoints = self.hand.keypoints();
+            for (side, hand) in [(ArmSide::Right, Some(self.hand)), (ArmSide::Left, self.left)] {
+                let Some(hand) = hand else { continue };
+                let view = &mut self.sample.hands[side as usize];
+                view.frame += 1;
+                view.captured_cycle = self.tick;
+                view.keypoints = hand.keypoints(side);
+            }
+            for name in &self.lost_left {
+                self.sample.hands[1].keypoints[*name as usize].confidence = 0.0;
+            }
             for (name, keypoint) in &self.wrong {
-                self.sample.hand.keypoints[*name as usize] = *keypoint;
+                self.sample.hands[0].keypoints[*name as usize] = *keypoint;
             }
         }
         if self.tick.is_multiple_of(33) {
@@ -253,9 +284,14 @@ pub fn stands_before(task: &Task, surface: &mut Surface, place: [f64; 3], height
     }
 }
 
-/// The hand at rest.
+/// The right hand at rest.
 pub fn resting(task: &Task) -> Hand {
-    let [x, y, z] = task.scene.person_rest;
+    resting_on(task, ArmSide::Right)
+}
+
+/// One of the hands at rest.
+pub fn resting_on(task: &Task, side: ArmSide) -> Hand {
+    let [x, y, z] = task.scene.rest(side);
     let pitch = -0.35_f64;
     Hand { centre: [x + 0.15 * pitch.cos(), y, z + 0.15 * pitch.sin()], pitch, aperture: 0.03 }
 }

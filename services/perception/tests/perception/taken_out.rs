@@ -14,7 +14,7 @@ fn mount(stage: &mut Stage, name: &str) -> usize {
 /// The hand goes to a part and closes on it.
 fn take(stage: &mut Stage, part: usize) {
     let closed = stage.grasping(part, 0);
-    stage.move_to(Hand { aperture: closed.aperture + 0.03, ..closed }, 700, |_| {});
+    stage.move_to(closed.open(), 700, |_| {});
     stage.move_to(closed, 100, |_| {});
     stage.run(200, |_, _| {});
 }

@@ -1,7 +1,7 @@
 use super::schemas;
 use super::values::{UPRIGHT, WORLD, colour, place, point, pose, time};
 use coact_joint_task::Task;
-use coact_messages::{KeypointName, SceneView, SensorSample, Sighting};
+use coact_messages::{HandView, KeypointName, SceneView, SensorSample, Sighting};
 use coact_robot::Robot;
 use coact_run_recording::JsonSchema;
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
@@ -42,7 +42,12 @@ impl Scene {
         let names: Vec<_> = seen.iter().filter_map(|part| self.name(part)).collect();
         let entities = [
             entity("robot", ns, "lines", vec![line(&self.links(sample), ROBOT)]),
-            entity("person", ns, "lines", vec![line(&limbs(sample), PERSON)]),
+            entity(
+                "person",
+                ns,
+                "lines",
+                sample.hands.iter().map(|hand| line(&limbs(hand), PERSON)).collect(),
+            ),
             entity("parts", ns, "cubes", parts),
             entity("names", ns, "texts", names),
             entity("obstacles", ns, "cubes", obstacles(&sample.scene)),
@@ -81,9 +86,9 @@ impl Scene {
     }
 }
 
-/// The person's arm, as far as it is seen.
-fn limbs(sample: &SensorSample) -> Vec<[f64; 3]> {
-    let keypoints = ARM.map(|name| sample.hand.keypoints[name as usize]);
+/// One of the person's arms, as far as it is seen.
+fn limbs(hand: &HandView) -> Vec<[f64; 3]> {
+    let keypoints = ARM.map(|name| hand.keypoints[name as usize]);
     keypoints.iter().filter(|keypoint| keypoint.confidence > 0.0).map(|keypoint| keypoint.position).collect()
 }
 

@@ -96,7 +96,7 @@ impl Replay {
         sample.joints = bytemuck::Zeroable::zeroed();
         sample.drive = bytemuck::Zeroable::zeroed();
         sample.joints.position = self.joints;
-        sample.hand = self.hand(tick);
+        sample.hands = [self.hand(tick), bytemuck::Zeroable::zeroed()];
         sample.scene = bytemuck::Zeroable::zeroed();
         sample.scene.frame = tick / SCENE_FRAME_TIME;
         sample.scene.captured_cycle = sample.scene.frame * SCENE_FRAME_TIME;

@@ -39,13 +39,13 @@ fn reaches_for_what_the_task_has_are_played_one_after_the_other() {
 fn every_frame_is_shown_once_at_its_time_and_the_hand_is_lost_in_between() {
     let (_, replay) = replay(&[reach(Size::Large, 1), reach(Size::Small, 2)]);
     let [first, second] = replay.spans() else { panic!("two spans") };
-    let frame = |tick: u64| step(&replay, tick).0.hand.frame;
+    let frame = |tick: u64| step(&replay, tick).0.hands[0].frame;
     assert_eq!(frame(first.begin), 0);
     assert_eq!(frame(first.onset) - frame(first.onset - 1), 1, "the frame of time 0");
     assert_eq!(frame(first.onset + 19), frame(first.onset));
     assert_eq!(frame(first.end - 1), frame(first.end - GAP), "nothing is seen between the reaches");
     assert!(frame(second.onset) > frame(first.end));
-    let shown = step(&replay, first.onset + 7).0.hand;
+    let shown = step(&replay, first.onset + 7).0.hands[0];
     assert_eq!(shown.captured_cycle, first.onset);
 }
 

@@ -4,6 +4,7 @@ use super::staging_file::{BlindLine, OccluderLine, SlipLine, StartTable};
 use crate::WorldError;
 use coact_joint_task::Task;
 use coact_person::{Due, Script, ScriptEntry, ScriptedAction, Variation};
+use coact_stage_state::Flag;
 use serde::Deserialize;
 use std::path::Path;
 use toml::Spanned;
@@ -38,6 +39,15 @@ struct ActionLine {
     say: Option<Spanned<String>>,
     gives_up: Option<Spanned<f64>>,
     clarity: Option<Spanned<f64>>,
+    hand: Option<Spanned<Hand>>,
+}
+
+/// With which hand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Hand {
+    Left,
+    Right,
 }
 
 /// Longest sentence that a sensor sample can hold, bytes.
@@ -49,7 +59,8 @@ impl Scenario {
     /// `[[action]]`: what the person does, one after the other: `idle` (s), or `chain` and `kind` (names of the task), or
     /// `say` (a sentence) alone or beside them. When it is due: `at` (s from the start of the run) or `after` (s after the
     /// end of the action before; 0 if not given), and not before all subgoals of `once` are achieved. How it is done:
-    /// `gives_up` (s after grasp completion), `clarity` (0 to 1: how plainly the hand shows the grip). An action whose part
+    /// `gives_up` (s after grasp completion), `clarity` (0 to 1: how plainly the hand shows the grip), `hand` ("left" or
+    /// "right"; the right one if not given). An action whose part
     /// does not come within reach for 20 s is left out, see [`World::skipped`](crate::World::skipped).
     ///
     /// `[start]`, `[[start.part]]`, `[[occluder]]`, `[[blind]]` and `[[slip]]` arrange the scene.
@@ -107,10 +118,14 @@ impl ScenarioSource<'_> {
             }
             _ => {}
         }
-        for (key, given) in [("gives_up", &line.gives_up), ("clarity", &line.clarity)] {
-            if let Some(given) = given {
+        for (key, at) in [
+            ("gives_up", line.gives_up.as_ref().map(|given| given.span().start)),
+            ("clarity", line.clarity.as_ref().map(|given| given.span().start)),
+            ("hand", line.hand.as_ref().map(|given| given.span().start)),
+        ] {
+            if let Some(at) = at {
                 let message = format!("key \"{key}\": expected beside \"chain\" and \"kind\" only");
-                return Err(self.fault(given.span().start, message));
+                return Err(self.fault(at, message));
             }
         }
         match (&line.idle, &line.chain, &line.kind, &line.say) {
@@ -132,7 +147,8 @@ impl ScenarioSource<'_> {
             }
         };
         let gives_up_after = gives_up.map_or(0, |cycles| cycles.max(1));
-        Ok(Variation { gives_up_after, blur: 1.0 - clarity, ..Variation::default() })
+        let left = Flag::from(line.hand.as_ref().is_some_and(|hand| *hand.as_ref() == Hand::Left));
+        Ok(Variation { gives_up_after, blur: 1.0 - clarity, left, ..Variation::default() })
     }
 
     fn sentence(&self, say: &Spanned<String>) -> Result<String, WorldError> {

@@ -4,7 +4,7 @@ use coact_messages::{Flaw, HandView, Keypoint, KeypointName};
 use coact_random::{RandomStreams, Stream};
 use coact_stage_state::{Flag, Implausible, ensure};
 use glam::DVec3;
-use rand::RngExt;
+use rand::{Rng, RngExt};
 use rand_distr::{Distribution, StandardNormal};
 
 /// Frames per second, as of usual cameras and of the recorded reaches.
@@ -66,11 +66,11 @@ pub(crate) fn is_captured(last: Option<u64>, tick: u64) -> bool {
 }
 
 /// When a frame is due: delivers the one before, and captures a new one. So a frame is one frame time old when it
-/// comes. Keypoints that `hides` names are lost; a frame without any is not delivered.
+/// comes. `noise` is drawn for each arm by itself. Keypoints that `hides` names are lost; a frame without any is not delivered.
 pub(crate) fn track(
     tick: u64,
     last: Option<u64>,
-    random: &RandomStreams,
+    (random, noise): (&RandomStreams, Stream),
     state: &mut TrackerState,
     capture: impl FnOnce() -> Capture,
     hides: impl Fn([f64; 3]) -> bool,
@@ -86,7 +86,7 @@ pub(crate) fn track(
     let (came, mut keypoints) = match capture() {
         Capture::Nothing => (false, [Keypoint::default(); 9]),
         Capture::Recorded(keypoints) => (true, keypoints),
-        Capture::Simulated(points) => blur(tick, random, &points),
+        Capture::Simulated(points) => blur(random.at(noise, tick), &points),
     };
     for point in keypoints.iter_mut().filter(|point| hides(point.position)) {
         *point = Keypoint::default();
@@ -98,8 +98,7 @@ pub(crate) fn track(
 }
 
 /// The tracker's own noise and gaps. The flag says whether the frame came through.
-fn blur(tick: u64, random: &RandomStreams, points: &[DVec3; 9]) -> (bool, [Keypoint; 9]) {
-    let mut rng = random.at(Stream::Tracker, tick);
+fn blur<R: Rng>(mut rng: R, points: &[DVec3; 9]) -> (bool, [Keypoint; 9]) {
     let seen = !rng.random_bool(LOST_FRAMES);
     let keypoints = points.map(|point| {
         let scatter = DVec3::from_array(std::array::from_fn(|_| StandardNormal.sample(&mut rng)));

@@ -4,8 +4,9 @@ use super::World;
 use crate::scenario::Sense;
 use crate::sensors::{Capture, LinesOfSight, is_captured, read_joints, recognise, track};
 use crate::simulation_state::SimulationState;
-use coact_messages::{KeypointName, NONE, PartnerPhase, SensorSample, Truth};
+use coact_messages::{ArmSide, KeypointName, NONE, PartnerPhase, SensorSample, Truth};
 use coact_person::{Activity, Holder};
+use coact_random::Stream;
 use coact_stage_state::Slot;
 use glam::DVec3;
 
@@ -17,7 +18,7 @@ impl World {
         if is_captured(last, tick) {
             self.look(tick, last);
         }
-        out.hand = self.simulation.tracker.delivered;
+        out.hands = self.simulation.trackers().map(|tracker| tracker.delivered);
         out.scene = self.simulation.scene;
         out.heard = self.simulation.heard;
     }
@@ -25,21 +26,27 @@ impl World {
     /// Takes the frames of the cameras that are due.
     fn look(&mut self, tick: u64, last: Option<u64>) {
         let blind = tick < self.blind_until;
-        let [shoulder, elbow, wrist, _] = self.person_arm();
-        let arm = [[shoulder, elbow], [elbow, wrist]];
-        let limbs: &[_] = if self.person.is_unknown(&self.simulation.person, tick) { &[] } else { &arm };
+        let arms = self.person_arms().map(|[shoulder, elbow, wrist, _]| [[shoulder, elbow], [elbow, wrist]]);
+        let unknown = self.person.is_unknown(&self.simulation.person, tick);
+        let limbs: &[_] = if unknown { &[] } else { arms.as_flattened() };
         let Self { task, random, person, parts, simulation, staging, .. } = self;
         let (boxes, count) = staging.occluders(tick, simulation.person.occluder());
         let (eye, boxes) = (task.scene.eye(), &boxes[..count]);
-        let SimulationState { person: moved, tracker, .. } = simulation;
-        let capture = || match person.recorded_keypoints(moved, tick) {
-            _ if blind || staging.is_blind(Sense::Hand, tick) => Capture::Nothing,
-            Some(keypoints) => Capture::Recorded(keypoints),
-            None if person.is_lost(moved, tick) => Capture::Nothing,
-            None => Capture::Simulated(person.keypoints(moved, tick)),
-        };
+        let SimulationState { person: moved, right_tracker, left_tracker, .. } = simulation;
+        let hands_unseen = blind || staging.is_blind(Sense::Hand, tick);
         let past_boxes = LinesOfSight { eye, boxes, limbs: &[] };
-        track(tick, last, random, tracker, capture, |place| past_boxes.hide(place));
+        for (side, tracker) in ArmSide::BOTH.into_iter().zip([right_tracker, left_tracker]) {
+            let recorded = || person.recorded_keypoints(moved, tick).filter(|_| side == moved.side);
+            let capture = || match recorded() {
+                _ if hands_unseen => Capture::Nothing,
+                Some(keypoints) => Capture::Recorded(keypoints),
+                None if person.is_lost(moved, tick) => Capture::Nothing,
+                None if side == moved.side => Capture::Simulated(person.keypoints(moved, tick)),
+                None => Capture::Simulated(person.resting_keypoints(moved, tick)),
+            };
+            let noise = [Stream::Tracker, Stream::LeftTracker][side as usize];
+            track(tick, last, (random, noise), tracker, capture, |place| past_boxes.hide(place));
+        }
         if !blind && !staging.is_blind(Sense::Objects, tick) {
             let sight = LinesOfSight { limbs, ..past_boxes };
             recognise(tick, last, random, (task, parts), &sight, &mut simulation.scene);
@@ -82,23 +89,28 @@ impl World {
         truth.error = if phase == PartnerPhase::Idle { 0 } else { person.error as u32 };
         truth.waiting = u32::from(person.phase().waits_for_robot());
         truth.joints = self.joints.position;
-        truth.arm = self.person_arm();
+        truth.arms = self.person_arms();
+        truth.side = person.side as u32;
         truth.handover = u32::from(self.drive.hands_over());
         truth.hidden = u32::from(phase != PartnerPhase::Idle && person.occluder().is_some());
     }
 
-    /// Shoulder, elbow, wrist and the tip of the longest finger, as they are.
-    fn person_arm(&self) -> [[f64; 3]; 4] {
-        let person = &self.simulation.person;
-        if self.person.is_unknown(person, self.simulation.tick) {
-            return [[0.0; 3]; 4];
+    /// Shoulder, elbow, wrist and the tip of the longest finger of each arm, as they are.
+    fn person_arms(&self) -> [[[f64; 3]; 4]; 2] {
+        let (person, tick) = (&self.simulation.person, self.simulation.tick);
+        if self.person.is_unknown(person, tick) {
+            return [[[0.0; 3]; 4]; 2];
         }
-        let points = match self.person.recorded_keypoints(person, self.simulation.tick) {
+        let acting = match self.person.recorded_keypoints(person, tick) {
             Some(recorded) => recorded.map(|point| point.position),
-            None => self.person.keypoints(person, self.simulation.tick).map(|point| point.to_array()),
+            None => self.person.keypoints(person, tick).map(|point| point.to_array()),
         };
-        [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist, longest_finger(&points)]
-            .map(|name| points[name as usize])
+        let resting = self.person.resting_keypoints(person, tick).map(|point| point.to_array());
+        ArmSide::BOTH.map(|side| {
+            let points = if side == person.side { &acting } else { &resting };
+            [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist, longest_finger(points)]
+                .map(|name| points[name as usize])
+        })
     }
 }
 

@@ -7,6 +7,7 @@ mod handover;
 mod hesitating;
 mod hidden;
 mod inserting;
+mod left_hand;
 mod live;
 mod manipulator;
 mod mid_reach;

@@ -79,10 +79,10 @@ fn a_frame_whose_layers_do_not_fit_into_it_is_refused() {
 fn a_force_that_is_not_measured_and_a_joint_that_is_lost_are_told_by_nan() {
     let mut sample: Box<SensorSample> = zeroed_box();
     sample.joints.wrist_force = [f64::NAN; 3];
-    sample.hand.keypoints[2].position = [f64::NAN; 3];
+    sample.hands[0].keypoints[2].position = [f64::NAN; 3];
     assert_eq!(sample.check(), Ok(()));
-    sample.hand.keypoints[2].confidence = 0.5;
-    assert_eq!(sample.check().unwrap_err().field, "hand.keypoints.position");
+    sample.hands[0].keypoints[2].confidence = 0.5;
+    assert_eq!(sample.check().unwrap_err().field, "hands.keypoints.position");
     sample.joints.position[3] = f64::NAN;
     assert_eq!(sample.check().unwrap_err().field, "joints.position");
 }

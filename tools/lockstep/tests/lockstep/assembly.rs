@@ -3,6 +3,7 @@
 
 use crate::shipped::{configuration, settings};
 use coact_lockstep::Lockstep;
+use coact_messages::ArmSide;
 use coact_period::cycles;
 use coact_pipeline::RunSettings;
 use std::collections::BTreeSet;
@@ -13,11 +14,15 @@ const LONGEST: u64 = cycles(Duration::from_secs(180));
 
 #[test]
 fn vehicle_is_built_with_every_partner_in_an_order_that_the_plan_allows() {
-    for seed in 1..=4 {
-        let mut stages = Lockstep::new(&settings(seed, "synthetic")).unwrap();
+    let left_handed = "random:goal=0,request=0,means=0,hidden=0,words=0,left=1";
+    let mut by_left = false;
+    for (seed, partner) in [(1, "synthetic"), (4, left_handed)] {
+        let mut stages = Lockstep::new(&settings(seed, partner)).unwrap();
         let mut before = 0;
         while !stages.complete() && stages.ticks() < LONGEST {
             stages.step();
+            by_left |=
+                stages.truth.side == ArmSide::Left as u32 && stages.percept.hand.side == ArmSide::Left as u32;
             let now = stages.truth.achieved;
             for (index, subgoal) in stages.task().subgoals.iter().enumerate() {
                 let new = now & !before & (1 << index) != 0;
@@ -30,6 +35,7 @@ fn vehicle_is_built_with_every_partner_in_an_order_that_the_plan_allows() {
         let all = stages.task().subgoals.len();
         assert_eq!(before.count_ones() as usize, all, "the robot knows what is true");
     }
+    assert!(by_left, "nobody took anything with the left hand, or the robot did not notice");
 }
 
 #[test]

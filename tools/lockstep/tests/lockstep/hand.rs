@@ -246,9 +246,9 @@ fn without_a_hand_from_outside_nobody_is_seen() {
     let mut stages = Lockstep::new(&settings(1, "hand")).unwrap();
     for _ in 0..3_000 {
         stages.step();
-        assert!(!stages.percept.arm.is_tracked());
+        assert!(!stages.percept.arms[0].is_tracked());
     }
-    assert_eq!(stages.truth.arm, [[0.0; 3]; 4]);
+    assert_eq!(stages.truth.arms[0], [[0.0; 3]; 4]);
 }
 
 #[test]

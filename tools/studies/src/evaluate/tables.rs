@@ -94,6 +94,8 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
         row("  wrongly, hidden hands", proportion(&report.wrong_of_hidden)),
         row("  not, hidden hands", proportion(&report.absent_of_hidden)),
         row("  rightly, where one goal is left", proportion(&report.right_of_hidden_one_goal)),
+        row("goal inferred rightly at grasp, left hand", proportion(&report.right_of_left)),
+        row("  wrongly, left hand", proportion(&report.wrong_of_left)),
         row("answer decided before grasp", proportion(&report.anticipated)),
         row("  before the hand set out: predicted", proportion(&report.predicted)),
         row("lead of the others p5 p50 p95, ms", spread(report.lead_ms)),

@@ -25,11 +25,11 @@ struct Hidden {
 impl Hidden {
     /// What the newest frames of hand and parts tell, by the ticks of their capture.
     fn look(&mut self, sample: &SensorSample) {
-        let captured = sample.hand.captured_cycle;
+        let captured = sample.hands[0].captured_cycle;
         let at_the_part =
             self.grasped > 0 && captured >= self.grasped && (self.lifted == 0 || captured < self.lifted);
         assert!(!at_the_part, "the hand is seen at the part: {self:?}");
-        let wrist = sample.hand.keypoints[KeypointName::Wrist as usize].confidence > 0.0;
+        let wrist = sample.hands[0].keypoints[KeypointName::Wrist as usize].confidence > 0.0;
         self.seen_setting_out |= wrist && self.grasped == 0 && captured > self.chosen;
         self.seen_again |= wrist && self.lifted > 0 && captured > self.lifted;
         let scene = &sample.scene;
@@ -90,7 +90,7 @@ fn parts_behind_the_person_s_arm_are_not_seen() {
         if scene.captured_cycle != tick {
             return;
         }
-        let [shoulder, elbow, wrist, _] = out.truth.arm;
+        let [shoulder, elbow, wrist, _] = out.truth.arms[0];
         for part in 0..world.parts.all().len() {
             let (kind, at) = (world.parts.kind(part) as u32, world.parts.position(part));
             let height = world.task.kinds[world.parts.kind(part)].shape.height();

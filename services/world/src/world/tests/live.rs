@@ -83,7 +83,7 @@ impl Bench {
     }
 
     fn sees_hand(&self) -> bool {
-        self.tick - self.out.sample.hand.captured_cycle < 50
+        self.tick - self.out.sample.hands[0].captured_cycle < 50
     }
 }
 
@@ -145,18 +145,18 @@ fn a_part_that_meets_the_robots_fingers_stays_behind_and_moves_no_joint_far() {
 fn the_tracker_sees_the_hand_while_it_is_told_and_not_for_longer() {
     let mut bench = Bench::new();
     (0..500).for_each(|_| bench.step(false));
-    assert_eq!((bench.out.sample.hand.captured_cycle, bench.out.truth.arm), (0, [[0.0; 3]; 4]));
+    assert_eq!((bench.out.sample.hands[0].captured_cycle, bench.out.truth.arms[0]), (0, [[0.0; 3]; 4]));
     bench.go(bench.hand, 1_000);
     assert!(bench.sees_hand());
-    let shown = bench.out.sample.hand.keypoints[KeypointName::Wrist as usize].position;
+    let shown = bench.out.sample.hands[0].keypoints[KeypointName::Wrist as usize].position;
     let told = bench.model.reaching(bench.hand.0, TOP, bench.hand.1)[KeypointName::Wrist as usize];
     assert!(DVec3::from(shown).distance(told) < 0.015);
     let (stalled, lifetime) = (bench.tick, cycles(HandPoints::LIFETIME));
     (0..1_000).for_each(|_| bench.step(false));
     // The last place may have been told a frame before, and the tracker's frame be one of its own later.
-    let last = bench.out.sample.hand.captured_cycle;
+    let last = bench.out.sample.hands[0].captured_cycle;
     assert!((stalled..=stalled + lifetime + FRAME).contains(&last), "last seen {} ms after", last - stalled);
-    assert_eq!(bench.out.truth.arm, [[0.0; 3]; 4]);
+    assert_eq!(bench.out.truth.arms[0], [[0.0; 3]; 4]);
     bench.go(bench.hand, 200);
     assert!(bench.sees_hand());
 }

@@ -103,7 +103,7 @@ fn tracker_loses_the_hand_in_bursts_at_the_rate_that_is_given() {
     let longest_gap = |settings: &str| {
         let (mut frames, mut last, mut longest) = (0, 0, 0);
         run(1, 100, settings, |tick, _, out, _| {
-            let captured = out.sample.hand.captured_cycle;
+            let captured = out.sample.hands[0].captured_cycle;
             if captured != last {
                 (frames, last) = (frames + 1, captured);
             }

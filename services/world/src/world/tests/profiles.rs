@@ -3,6 +3,7 @@ use super::{Out, world};
 use coact_messages::{KeypointName, PartnerPhase};
 use coact_person::{Activity, FINGERS};
 use glam::DVec3;
+use std::sync::LazyLock;
 
 /// One reach for a part as it went, tick by tick.
 struct Reach {
@@ -13,7 +14,10 @@ struct Reach {
     wanted_pitch: f64,
 }
 
-/// The reaches for parts on the table, from rest, in so many minutes of several runs.
+/// The reaches of eight runs of five minutes each.
+static REACHES: LazyLock<Vec<Reach>> = LazyLock::new(|| reaches(0..8));
+
+/// The reaches for parts on the table, from rest, in five minutes of each of several runs.
 fn reaches(seeds: std::ops::Range<u64>) -> Vec<Reach> {
     let mut all = Vec::new();
     for seed in seeds {
@@ -55,7 +59,7 @@ fn quantile(mut values: Vec<f64>, fraction: f64) -> f64 {
 
 #[test]
 fn movement_times_are_distributed_as_in_the_recordings() {
-    let times: Vec<f64> = reaches(0..6).iter().map(|reach| reach.wrist.len() as f64).collect();
+    let times: Vec<f64> = REACHES.iter().map(|reach| reach.wrist.len() as f64).collect();
     assert!(times.len() > 100, "{} reaches", times.len());
     assert!((quantile(times.clone(), 0.5) - 530.0).abs() < 25.0, "median {}", quantile(times.clone(), 0.5));
     assert!((quantile(times.clone(), 0.05) - 429.0).abs() < 35.0, "p5 {}", quantile(times.clone(), 0.05));
@@ -65,7 +69,7 @@ fn movement_times_are_distributed_as_in_the_recordings() {
 
 #[test]
 fn wrist_is_fastest_before_half_time_and_slow_from_three_quarters_on() {
-    let reaches = reaches(6..9);
+    let reaches = &*REACHES;
     let peaks = reaches.iter().map(|reach| {
         let speed: Vec<f64> = reach.wrist.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
         let peak = (0..speed.len()).max_by(|a, b| speed[*a].total_cmp(&speed[*b])).unwrap();
@@ -83,7 +87,7 @@ fn wrist_is_fastest_before_half_time_and_slow_from_three_quarters_on() {
 fn wrist_covers_the_way_as_in_the_recordings() {
     let recorded =
         [(0.1, 0.122), (0.2, 0.257), (0.3, 0.397), (0.4, 0.544), (0.5, 0.675), (0.75, 0.896), (0.9, 0.975)];
-    let reaches = reaches(6..9);
+    let reaches = &*REACHES;
     for (time, median) in recorded {
         let covered = reaches.iter().map(|reach| {
             let (first, last) = (reach.wrist[0], *reach.wrist.last().unwrap());
@@ -100,7 +104,7 @@ fn wrist_covers_the_way_as_in_the_recordings() {
 
 #[test]
 fn aperture_peaks_at_two_thirds_grows_with_the_part_and_ends_on_it() {
-    let reaches = reaches(9..17);
+    let reaches = &*REACHES;
     let peak = |reach: &Reach| {
         let (time, aperture) =
             reach.aperture.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1)).unwrap();
@@ -116,7 +120,7 @@ fn aperture_peaks_at_two_thirds_grows_with_the_part_and_ends_on_it() {
     };
     let slope = (mean(0.075) - mean(0.055)) / 0.02;
     assert!((0.6..1.0).contains(&slope), "aperture grows by {slope} with width");
-    for reach in &reaches {
+    for reach in reaches {
         assert!((reach.aperture.last().unwrap() - reach.width - FINGERS).abs() < 0.003, "{} m", reach.width);
     }
 }
@@ -124,7 +128,7 @@ fn aperture_peaks_at_two_thirds_grows_with_the_part_and_ends_on_it() {
 #[test]
 fn grip_shows_in_the_pitch_long_before_contact() {
     let (mut right, mut all) = (0, 0);
-    for reach in reaches(14..17) {
+    for reach in &*REACHES {
         let at = |fraction: f64| reach.pitch[(reach.pitch.len() as f64 * fraction) as usize];
         let middle = -0.74;
         all += 1;

@@ -75,7 +75,7 @@ fn run(partner: Partner, reaches: Option<RecordedReaches>) -> (Vec<u64>, f64, u6
     let (mut times, mut lost, mut frames) = (Vec::new(), 0.0, 0.0);
     for tick in 1..=200_000 {
         let before = *out.truth;
-        let frame = out.sample.hand.frame;
+        let frame = out.sample.hands[0].frame;
         robot.step(tick, &mut world, &mut out);
         let grasped = out.truth.grasp_cycle != before.grasp_cycle && out.truth.grasp_cycle > 0;
         if grasped && let Some(part) = world.simulation.person.held.get() {
@@ -87,9 +87,10 @@ fn run(partner: Partner, reaches: Option<RecordedReaches>) -> (Vec<u64>, f64, u6
                 .distance(world.person.hand_centre(&world.simulation.person));
             assert!(missed < 0.001, "fingers closed {missed} m beside the part");
         }
-        if out.truth.phase == PartnerPhase::Reach as u32 && out.sample.hand.frame != frame {
+        if out.truth.phase == PartnerPhase::Reach as u32 && out.sample.hands[0].frame != frame {
             frames += 1.0;
-            lost += f64::from(out.sample.hand.keypoints[KeypointName::MiddleTip as usize].confidence == 0.0);
+            lost +=
+                f64::from(out.sample.hands[0].keypoints[KeypointName::MiddleTip as usize].confidence == 0.0);
         }
     }
     (times, lost / frames, out.truth.assemblies)

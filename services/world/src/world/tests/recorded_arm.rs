@@ -32,9 +32,9 @@ fn the_arm_moves_as_it_was_recorded_and_the_tracker_shows_it_late_and_scattered(
     let (mut path, mut off, mut frames) = (Vec::new(), Vec::new(), 0);
     for tick in 1..2_500 {
         world.step(tick, None, &mut out.sample, &mut out.truth, &mut out.state);
-        let wrist = glam::DVec3::from(out.truth.arm[2]);
+        let wrist = glam::DVec3::from(out.truth.arms[0][2]);
         path.push(wrist);
-        let view = &out.sample.hand;
+        let view = &out.sample.hands[0];
         let shown = view.keypoints[KeypointName::Wrist as usize];
         if view.frame > frames && shown.confidence > 0.0 {
             frames = view.frame;

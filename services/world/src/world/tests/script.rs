@@ -172,9 +172,9 @@ fn an_occluder_hides_the_part_and_the_hand_that_takes_it_and_nothing_else() {
         behind = behind.max(if (600..700).contains(&tick) { wheels(out) } else { 0 });
         let grasped = out.truth.grasp_cycle;
         let hidden = grasped > 0 && (grasped..grasped + 60).contains(&tick);
-        frames += usize::from(hidden && out.sample.hand.captured_cycle == tick - 1);
+        frames += usize::from(hidden && out.sample.hands[0].captured_cycle == tick - 1);
         assert!(
-            !(200..=700).contains(&tick) || out.sample.hand.captured_cycle + 100 > tick,
+            !(200..=700).contains(&tick) || out.sample.hands[0].captured_cycle + 100 > tick,
             "hand lost at {tick}"
         );
         mounted |= world.parts.achieved() & 1 == 1;
@@ -201,7 +201,7 @@ fn the_person_gives_up_and_puts_the_part_back() {
 #[test]
 fn blind_trackers_deliver_nothing_and_sentences_arrive() {
     let (mut seen, mut said) = (0, String::new());
-    run(&mut scenario("absent.toml"), 5, |_, _, out| seen = seen.max(out.sample.hand.captured_cycle));
+    run(&mut scenario("absent.toml"), 5, |_, _, out| seen = seen.max(out.sample.hands[0].captured_cycle));
     assert_eq!(seen, 0);
     run(&mut scenario("words.toml"), 3, |tick, _, out| {
         assert_eq!(out.sample.heard.sentences, u64::from(tick >= 2000));
