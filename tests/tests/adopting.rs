@@ -107,7 +107,7 @@ fn deaths(supervisor: &[SupervisorEvent]) -> Vec<&SupervisorEvent> {
 #[test]
 fn a_successor_goes_on_with_the_same_processes_and_the_arm_stands_until_an_operator_resumes() {
     let _alone = alone();
-    let Orphaned { _folder, mut launched, run, mut viewer, before, stood, .. } = Orphaned::of(PATIENT, "50");
+    let Orphaned { _folder, mut launched, run, mut viewer, before, stood, .. } = Orphaned::of(PATIENT, "100");
     assert!(run.is_orphaned() && before.iter().all(|&pid| lives(pid)));
     let (code, said, _) = operate(&["stop", "--run", run.id()]);
     assert_eq!(code, Some(2), "{said}");
@@ -130,6 +130,9 @@ fn a_successor_goes_on_with_the_same_processes_and_the_arm_stands_until_an_opera
     kill(before[2]);
     let replacement = wait_for("a replacement", || run.ready("fields", 1).unwrap());
     assert!(replacement.resumed);
+    // Whatever it had achieved before, it builds on.
+    wait_for("a subgoal that is achieved", || launched.said().contains("achieved: ").then_some(()));
+    launched.signal(Signal::TERM);
 
     let finished = launched.finish();
     assert_eq!(left_behind(&run), Vec::<String>::new());

@@ -23,13 +23,15 @@ pub(crate) struct PersonGrips {
 }
 
 impl PersonGrips {
-    /// How this person's next grasp with each of `grips` will be: a mean that differs between people, about which one person varies.
+    /// How this person's next grasp with each of `grips` will be: a mean that differs between people, about which one person varies. What
+    /// is none of them is never looked at.
     pub fn usual(&self, grips: &[PersonGrip]) -> [UsualGrip; MAX_GRIPS] {
         let (between, within) = (BETWEEN * BETWEEN, WITHIN * WITHIN);
         std::array::from_fn(|index| {
+            let Some(grip) = grips.get(index) else { return UsualGrip { pitch: 0.0, deviation: 1.0 } };
             let (grasps, beyond) = (f64::from(self.grasps[index]), f64::from(self.beyond[index]));
             let (beyond, deviation) = next_value(grasps, beyond, between, within);
-            UsualGrip { pitch: grips.get(index).map_or(0.0, |grip| grip.pitch) + beyond, deviation }
+            UsualGrip { pitch: grip.pitch + beyond, deviation }
         })
     }
 

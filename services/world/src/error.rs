@@ -38,6 +38,9 @@ pub enum WorldError {
         /// Key, what was found and what was expected.
         message: String,
     },
+    /// The robot's links have no shape.
+    #[error(transparent)]
+    Shape(#[from] coact_robot::RobotError),
     /// The scene cannot be simulated as it is laid out.
     #[error("task \"{task}\": {message}")]
     Scene {

@@ -42,6 +42,7 @@ mod replay;
 mod resume_error;
 mod robot_hand;
 mod robot_hand_state;
+mod robot_shape;
 mod scenario;
 mod sensors;
 mod settings;

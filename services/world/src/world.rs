@@ -5,6 +5,7 @@ use crate::hand_recording::HandRecording;
 use crate::palm::Palm;
 use crate::parts::Parts;
 use crate::robot_hand::RobotHand;
+use crate::robot_shape::RobotShape;
 use crate::scenario::Staging;
 use crate::simulation_state::SimulationState;
 use crate::{Partner, ResumeError, Settings, WorldError};
@@ -46,6 +47,8 @@ pub struct World {
     /// The cameras show nothing before this tick.
     blind_until: u64,
     robot: SimulatedRobot,
+    /// Its links, as the cameras see them.
+    shape: RobotShape,
     joints: Joints,
     parts: Parts,
     simulation: SimulationState,
@@ -91,6 +94,7 @@ impl World {
             hold: HoldReason::None,
             blind_until: 0,
             robot: SimulatedRobot::new(settings.mode, &task, robot, &joints, &parts)?,
+            shape: RobotShape::new(robot)?,
             joints,
             parts,
             simulation: SimulationState::zeroed(),

@@ -45,7 +45,21 @@ const EYE: (f64, f64) = (0.10, 1.05);
 /// How far a shoulder is from the middle of the body, m. Chosen by hand, for an adult.
 const SHOULDER: f64 = 0.18;
 
+/// Where the second camera is: on a stand beside the table, across from the robot's arm; so far before the world's origin, to the left of
+/// the middle of the table, and above the table top, m. Chosen by hand, of six places: from there the arm hides least.
+const EYE_BESIDE: [f64; 3] = [-0.62, 0.60, 1.20];
+
 impl Scene {
+    /// Place of the camera that sees parts alone, past the robot's own arm. It looks towards the robot.
+    pub fn eye_beside(&self) -> [f64; 3] {
+        [EYE_BESIDE[0], self.table_centre[1] + EYE_BESIDE[1], self.table_height + EYE_BESIDE[2]]
+    }
+
+    /// Whether a place is in the picture of that camera: on the robot's side of it.
+    pub fn is_before_eye_beside(&self, [x, _, _]: [f64; 3]) -> bool {
+        x > EYE_BESIDE[0]
+    }
+
     /// Where the hand of this arm rests. What the task says of the right one is mirrored for the left one.
     pub fn rest(&self, side: ArmSide) -> [f64; 3] {
         self.on_side(side, self.person_rest)
@@ -76,7 +90,7 @@ impl Scene {
         if length > 0.0 { [x / length, y / length] } else { [1.0, 0.0] }
     }
 
-    /// Place of the camera that follows hand and parts: above and behind the robot's head, over the middle of the table.
+    /// Place of the camera that sees depth, hands and parts: above and behind the robot's head, over the middle of the table.
     pub fn eye(&self) -> [f64; 3] {
         [EYE.0, self.table_centre[1], self.table_height + EYE.1]
     }

@@ -59,6 +59,12 @@ impl Task {
             && !self.is_spared(subgoal, achieved)
     }
 
+    /// How many parts of `kind` there are; none where the task lists no parts of it.
+    pub fn count(&self, kind: usize) -> Option<usize> {
+        let count = self.parts.iter().filter(|part| part.kind == kind).count();
+        (count > 0).then_some(count)
+    }
+
     /// Whether nobody needs `subgoal` any more: it is not achieved, and another one was chosen.
     pub fn is_spared(&self, subgoal: usize, achieved: u64) -> bool {
         let spares = |choice: &Choice| choice.spares.contains(&subgoal) && choice.is_made(achieved);

@@ -105,7 +105,7 @@ pub const ALL: [TopicEntry; 12] = [
         name: PERCEPT,
         message: "Percept",
         writers: &["perception"],
-        readers: &["fields", "control", "recorder", "console", "supervisor"],
+        readers: &["fields", "control", "voice", "recorder", "console", "supervisor"],
         depth: PERCEPTS_EACH_CYCLE,
         ..CHAIN
     },
@@ -122,7 +122,7 @@ pub const ALL: [TopicEntry; 12] = [
         message: "Command",
         writers: &["control"],
         // Control looks whether its standby has sent the command of a cycle already, and the standby whether control has.
-        readers: &["world", "control", "monitor", "recorder", "console", "supervisor"],
+        readers: &["world", "control", "voice", "monitor", "recorder", "console", "supervisor"],
         ..CHAIN
     },
     TopicEntry {

@@ -37,18 +37,23 @@ impl Person {
     }
 
     /// The same intention with the hand that this person takes for it: at times the left one takes what lies nearer to it, but does not
-    /// lie under it.
+    /// lie under it. Either one asks for a part, or takes it from the robot.
     fn with_either_hand(&self, intention: Intention, around: &Surroundings) -> Intention {
-        let own = matches!(intention.activity, Activity::Insert | Activity::Undo);
         let share = self.policy.behaviour().map_or(0.0, |behaviour| behaviour.left);
-        let Some(part) = intention.part.filter(|_| own && share > 0.0) else { return intention };
-        let place = around.parts.centre(part, around.task);
-        let [right, left] = ArmSide::BOTH.map(|side| self.arms[side as usize].away_from_rest(place));
-        let suits = (UNDER_HAND..right).contains(&left);
-        if !suits || !self.random.at(Stream::Side, around.tick).random_bool(share) {
+        let may = share > 0.0 && self.suits_the_left(intention, around);
+        if !may || !self.random.at(Stream::Side, around.tick).random_bool(share) {
             return intention;
         }
         Intention { variation: Variation { left: Flag::Set, ..intention.variation }, ..intention }
+    }
+
+    /// Whether what is wanted does not lie nearer to the right hand.
+    fn suits_the_left(&self, intention: Intention, around: &Surroundings) -> bool {
+        let lies = intention.part.filter(|_| intention.activity != Activity::Receive);
+        let Some(part) = lies else { return true };
+        let place = around.parts.centre(part, around.task);
+        let [right, left] = ArmSide::BOTH.map(|side| self.arms[side as usize].away_from_rest(place));
+        (UNDER_HAND..right).contains(&left)
     }
 
     /// Makes an intention the present activity.

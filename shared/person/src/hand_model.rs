@@ -14,6 +14,8 @@ pub(crate) const FOREARM: f64 = 0.26;
 const INDEX_ASIDE: f64 = 0.025;
 const INDEX_LENGTH: f64 = 0.095;
 const FOLDED: f64 = 0.07;
+/// How much of the arm's length people reach with before they lean. Chosen by hand: elbows do not lock.
+const LEANS: f64 = 0.9;
 /// Pitch of the hand that lies on the table, rad: 20 degrees down. Chosen by hand.
 const REST_PITCH: f64 = -0.35;
 
@@ -53,7 +55,7 @@ impl HandModel {
     /// The keypoints of an arm whose finger tips have `centre` (m) in their middle and are `aperture` (m) apart, while the hand points
     /// `pitch` (rad) above the table plane. For those who show a hand ([`HandPoints`](coact_messages::HandPoints)) and have no arm.
     ///
-    /// Wherever it is: a place that is farther away than the arm is long has it stretched.
+    /// Wherever it is: who reaches for a place that is farther away than the arm is long leans after it.
     pub fn reaching(&self, centre: DVec3, pitch: f64, aperture: f64) -> [DVec3; 9] {
         self.keypoints(&self.grasping(centre, pitch, aperture, (GRASPING, 0.0)))
     }
@@ -67,9 +69,7 @@ impl HandModel {
         let mut points = hand_points(wrist, ahead, thumb, &folded);
         points[KeypointName::IndexTip as usize] =
             points[KeypointName::IndexKnuckle as usize] + INDEX_LENGTH * ahead;
-        points[KeypointName::Shoulder as usize] = self.shoulder;
-        points[KeypointName::Elbow as usize] = self.elbow(wrist, thumb);
-        points
+        self.with_arm(points, thumb)
     }
 
     /// The pose that comes nearest to these keypoints.
@@ -141,10 +141,7 @@ impl HandModel {
     /// All keypoints in the order of [`KeypointName`], m.
     pub fn keypoints(&self, pose: &HandPose) -> [DVec3; 9] {
         let (thumb, wrist) = (self.thumb_side(pose), pose.wrist());
-        let mut points = hand_points(wrist, self.direction(pose), thumb, pose);
-        points[KeypointName::Shoulder as usize] = self.shoulder;
-        points[KeypointName::Elbow as usize] = self.elbow(wrist, thumb);
-        points
+        self.with_arm(hand_points(wrist, self.direction(pose), thumb, pose), thumb)
     }
 
     /// Unit vector on the table plane in which the person faces.
@@ -157,19 +154,37 @@ impl HandModel {
         self.facing
     }
 
-    /// The elbow of an arm of two links, bent downwards and outwards.
-    fn elbow(&self, wrist: DVec3, thumb_side: DVec3) -> DVec3 {
-        let line = wrist - self.shoulder;
-        let distance = line.length().max(1e-6);
-        let along = line / distance;
-        if distance >= UPPER_ARM + FOREARM {
-            return self.shoulder + line * (UPPER_ARM / (UPPER_ARM + FOREARM));
-        }
-        let foot = (UPPER_ARM * UPPER_ARM - FOREARM * FOREARM + distance * distance) / (2.0 * distance);
-        let bend = (UPPER_ARM * UPPER_ARM - foot * foot).max(0.0).sqrt();
-        let pull = DVec3::NEG_Z - 0.4 * thumb_side;
-        self.shoulder + foot * along + bend * pull.reject_from_normalized(along).normalize_or_zero()
+    /// The same keypoints, with the arm that the wrist is at the end of.
+    fn with_arm(&self, mut points: [DVec3; 9], thumb_side: DVec3) -> [DVec3; 9] {
+        let wrist = points[KeypointName::Wrist as usize];
+        let shoulder = self.leaning(wrist);
+        points[KeypointName::Shoulder as usize] = shoulder;
+        points[KeypointName::Elbow as usize] = elbow(shoulder, wrist, thumb_side);
+        points
     }
+
+    /// The shoulder of an arm that ends at `wrist`: who reaches far leans after the hand, the more the farther, and never has the arm quite
+    /// straight.
+    fn leaning(&self, wrist: DVec3) -> DVec3 {
+        let line = self.shoulder - wrist;
+        let (bent, rest) = (LEANS * (UPPER_ARM + FOREARM), (1.0 - LEANS) * (UPPER_ARM + FOREARM));
+        let beyond = line.length() - bent;
+        if beyond <= 0.0 {
+            return self.shoulder;
+        }
+        wrist + (bent + rest * (1.0 - (-beyond / rest).exp())) * line.normalize()
+    }
+}
+
+/// The elbow of an arm of two links, bent downwards and outwards.
+fn elbow(shoulder: DVec3, wrist: DVec3, thumb_side: DVec3) -> DVec3 {
+    let line = wrist - shoulder;
+    let distance = line.length().max(1e-6);
+    let along = line / distance;
+    let foot = (UPPER_ARM * UPPER_ARM - FOREARM * FOREARM + distance * distance) / (2.0 * distance);
+    let bend = (UPPER_ARM * UPPER_ARM - foot * foot).max(0.0).sqrt();
+    let pull = DVec3::NEG_Z - 0.4 * thumb_side;
+    shoulder + foot * along + bend * pull.reject_from_normalized(along).normalize_or_zero()
 }
 
 /// The keypoints of a hand whose knuckles are `ahead` of the wrist and whose thumb is on the side `thumb`; shoulder and elbow are
@@ -187,4 +202,31 @@ pub(crate) fn hand_points(wrist: DVec3, ahead: DVec3, thumb: DVec3, pose: &HandP
         on_hand(pose.extension + 0.012, index_tip - 0.08 * pose.aperture);
     points[KeypointName::LittleKnuckle as usize] = on_hand(0.080, -0.040);
     points
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+mod tests {
+    use super::*;
+    use coact_joint_task::Task;
+    use std::path::Path;
+
+    #[test]
+    fn arms_keep_their_lengths_wherever_the_hand_goes() {
+        let task = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/toy-vehicle.toml");
+        let scene = Task::load(&task).unwrap().scene;
+        for arm in ArmSide::BOTH.map(|side| HandModel::of(&scene, side)) {
+            for centre in [scene.handover, scene.person_rest, [-0.2, -0.4, 0.9], [-1.2, 0.3, 0.85]] {
+                let points = arm.reaching(centre.into(), -0.3, 0.05);
+                let at = |name: KeypointName| points[name as usize];
+                let [shoulder, elbow, wrist] =
+                    [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist].map(at);
+                assert!(
+                    (shoulder.distance(elbow) - UPPER_ARM).abs() < 1e-6,
+                    "{centre:?}: {shoulder} {elbow}"
+                );
+                assert!((elbow.distance(wrist) - FOREARM).abs() < 1e-6, "{centre:?}: {elbow} {wrist}");
+            }
+        }
+    }
 }

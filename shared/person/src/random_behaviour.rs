@@ -20,7 +20,7 @@ use std::ops::RangeInclusive;
 /// | `changes` | fraction | of valid, plain reaches to a part, the hand turns to another one at 25 to 90 % of its way; 0 unless given |
 /// | `returns` | fraction | of valid takings of an own part, the grasped part is put back to where it lay; 0 unless given |
 /// | `hesitates` | fraction | of valid, plain reaches to a part, the hand stops at 25 to 75 % of its way for 0.3 to 1.0 s, and goes on; 0 unless given |
-/// | `left` | fraction | of takings of an own part that lies nearer to the left hand, with that one; 0 unless given |
+/// | `left` | fraction | of actions with what lies nearer to the left hand, and of askings and takings from the robot, with that one; 0 unless given |
 /// | `movement` | range in ms | movement time of a reach, 300 to 3000 |
 ///
 /// A fraction is from 0 to 1; the seven fractions of all choices add up to at most 1. To receive what the robot gives is

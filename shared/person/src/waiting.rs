@@ -1,6 +1,6 @@
 //! The phases in which the person waits for the robot.
 
-use crate::{Manipulation, Person, PersonState, Surroundings};
+use crate::{Intention, Manipulation, Person, PersonState, Surroundings, Variation};
 use coact_period::cycles;
 use coact_random::Stream;
 use coact_stage_state::Slot;
@@ -29,7 +29,8 @@ impl Person {
     /// Keeps the gesture up until the robot gives what is needed, or for as long as patience lasts.
     pub(crate) fn show(&self, state: &mut PersonState, around: &Surroundings) {
         if let Some(receiving) = around.receive().filter(|_| !self.comes_late(around)) {
-            self.take_up(receiving, state, around);
+            let variation = Variation { left: state.variation.left, ..receiving.variation };
+            self.take_up(Intention { variation, ..receiving }, state, around);
         } else if around.tick >= state.until {
             self.withdraw(state, around);
         }

@@ -55,6 +55,8 @@ pub struct SeenParts {
 /// A part whose place is seen bare for so long is elsewhere. Chosen by hand: 15 frames, all of which a recogniser that misses one part
 /// in four misses once in 10⁹ times.
 const FORGOTTEN: u64 = cycles(Duration::from_millis(500));
+/// Frames that must have shown a part for it to be surely one of its kind: a recogniser takes one for one of another kind for some frames at a time.
+const SURE: u64 = 15;
 /// Frames that must have shown a part for it to stay where something hides it: a recogniser sees one now and then where there is none.
 const BELIEVED: u64 = 3;
 /// A part moves no farther than this from one frame to the next, m: as a hand carries it. One that seems to is another one of its kind.
@@ -86,9 +88,10 @@ impl SeenParts {
             let frames = old.map_or(0, |old| before.frames[old]).saturating_add(1);
             self.remember(*part, [self.newest, self.newest, frames]);
         }
+        let in_view = *self;
         for (index, part) in before.all().iter().enumerate().filter(|(index, _)| missing[*index]) {
-            let is_believed = before.frames[index] >= BELIEVED;
-            let is_there = is_believed && lies(task, part) && hides(scene, task, part);
+            let may_be = before.frames[index] >= BELIEVED && !in_view.has_all(part.kind, task);
+            let is_there = may_be && lies(task, part) && hides(scene, task, part);
             let covered = if is_there { self.newest } else { before.covered[index] };
             if self.newest.saturating_sub(covered) < FORGOTTEN {
                 self.remember(*part, [before.seen[index], covered, before.frames[index]]);
@@ -117,6 +120,13 @@ impl SeenParts {
     /// What is implausible of it.
     pub fn check(&self) -> Result<(), Implausible> {
         ensure(self.count <= MAX_PARTS as u64, "seen.count", "a number of parts")
+    }
+
+    /// Whether as many parts of a kind as there are have been seen for long, so that one which is not seen has become one of them.
+    fn has_all(&self, kind: u32, task: &Task) -> bool {
+        let sure =
+            self.all().iter().zip(self.frames).filter(|(own, frames)| own.kind == kind && *frames >= SURE);
+        task.count(kind as usize).is_some_and(|count| sure.count() >= count)
     }
 
     /// Which of them that part is.
@@ -238,6 +248,31 @@ mod tests {
         assert_eq!(look(0, 14, 0), 1, "a recogniser misses one now and then");
         assert_eq!(look(0, 2, 0), 0, "it is elsewhere");
         assert_eq!((look(1, 2, 0), look(0, 16, 40)), (1, 0), "it was not there");
+    }
+
+    #[test]
+    fn what_something_hides_is_elsewhere_once_all_of_its_kind_are_seen() {
+        let task = task();
+        let single = (0..task.kinds.len()).find(|kind| task.count(*kind) == Some(1)).unwrap() as u32;
+        let [x, y] = task.scene.table_centre;
+        let at =
+            |aside| Sighting { position: [x, y + aside, task.scene.table_height], ..sighting(single, 0.0) };
+        let (mut seen, mut view) = (SeenParts::none(), frame(33, &[at(0.0)]));
+        view.surface.grid = TableGrid { first: [x - 0.5, y - 0.5], spacing: 0.02, sites: [51, 51] };
+        view.surface.height.fill(UNMEASURED);
+        let mut look = |frames: u64, sightings: &[Sighting]| {
+            view.sightings = sightings.len() as u32;
+            view.sighting[..sightings.len()].copy_from_slice(sightings);
+            for _ in 0..frames {
+                view.captured_cycle += 33;
+                seen.see(&view, &task);
+            }
+            seen.all().len()
+        };
+        assert_eq!(look(20, &[at(0.0)]), 1);
+        assert_eq!(look(SURE - 1, &[at(0.3)]), 2, "a recogniser may be mistaken for so long");
+        assert_eq!(look(100, &[]), 2, "one that is seen no more");
+        assert_eq!(look(SURE + 16, &[at(0.3)]), 1);
     }
 
     #[test]

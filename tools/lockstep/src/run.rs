@@ -6,7 +6,7 @@ use coact_pipeline::RunSettings;
 use coact_robot::{Robot, RobotError};
 use coact_run_records::Summary;
 use coact_safety::{SafetyError, SafetyLimits};
-use coact_voice::{Meanings, Sentence, Voice};
+use coact_voice::{Meanings, Sentence, Standstill, Voice};
 use std::time::{Duration, Instant, SystemTime};
 
 /// How often monitor and voice look at the messages: as their processes do.
@@ -58,7 +58,8 @@ pub fn run(
     std::fs::create_dir_all(&settings.report)
         .map_err(|cause| RunError::Report { path: settings.report.clone(), cause })?;
     let mut monitor = monitor(settings, &stages)?;
-    let mut voice = Voice::new(stages.task(), Meanings::from(stages.plan()));
+    let (mut voice, mut standstill) =
+        (Voice::new(stages.task(), Meanings::from(stages.plan())), Standstill::default());
     let most = (duration.unwrap_or(LONGEST).as_nanos() / u128::from(PERIOD_NS)) as u64;
     let (started, mut end) = (Instant::now(), most);
     let mut events = Vec::new();
@@ -72,7 +73,8 @@ pub fn run(
         monitor.sample(&stages.sample);
         monitor.frame(&stages.frame, &mut events);
         monitor.command(&stages.command);
-        let sentence = voice.observe(&stages.frame);
+        let decided = voice.observe(&stages.frame);
+        let sentence = decided.or_else(|| standstill.observe(&stages.command, &stages.percept));
         if let Some(sentence) = &sentence {
             monitor.speech(&speech(sentence), &mut events);
         }

@@ -95,9 +95,11 @@ impl PartTracks {
         let cycles = view.captured_cycle - self.captured;
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;
-        self.associate(sight, cycles, places);
+        self.associate(view, cycles, places);
         self.follow_robot(around.palm);
         self.miss(sight, cycles, places);
+        let counted = (0..places.kinds()).filter_map(|kind| Some((kind, places.count(kind)?)));
+        counted.for_each(|(kind, most)| self.forget_surplus(kind, most));
         for (kind, track) in self.tracks.iter_mut().filter_map(|track| Some((track.kind()?, track))) {
             track.watch_fingers(places.size(kind), around, seconds(cycles));
         }
@@ -137,9 +139,9 @@ impl PartTracks {
 
     /// Gives every sighting to the nearest track of its kind, those of what lies still first; what is left, to a part that it may be another
     /// sight of, or to a new track.
-    fn associate(&mut self, sight: &Sight, cycles: u64, places: &TaskPlaces) {
+    fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces) {
         let mut left = [None; MAX_PARTS];
-        let plausible = sight.view.sightings().iter().filter(|sighting| is_plausible(sighting, places));
+        let plausible = view.sightings().iter().filter(|sighting| is_plausible(sighting, places));
         left.iter_mut().zip(plausible).for_each(|(left, sighting)| *left = Some(sighting));
         for within in [MOVED, GATE] {
             for left in &mut left {
@@ -151,7 +153,7 @@ impl PartTracks {
             }
         }
         for sighting in left.into_iter().flatten() {
-            let known = self.at_its_place(sighting).or_else(|| self.turned_up(sighting, sight, places));
+            let known = self.at_its_place(sighting);
             match known.or_else(|| self.tracks.iter().position(|track| track.kind().is_none())) {
                 Some(index) if known.is_some() => self.tracks[index].follow(sighting, self.captured, cycles),
                 Some(index) => self.tracks[index] = PartTrack::new(sighting, self.captured),
@@ -181,18 +183,6 @@ impl PartTracks {
         all.min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b))).map(|(index, _)| index)
     }
 
-    /// The track of a part of the sighting's kind that has been out of sight: one that turns up where none was is rather
-    /// that one than another.
-    fn turned_up(&self, sighting: &Sighting, sight: &Sight, places: &TaskPlaces) -> Option<usize> {
-        let height = places.size(sighting.kind as usize).height;
-        let unseen = |track: &PartTrack| self.captured.saturating_sub(track.seen) > u64::from(ABSENT);
-        self.tracks.iter().position(|track| {
-            track.kind() == Some(sighting.kind as usize)
-                && unseen(track)
-                && sight.hides(track.position, height)
-        })
-    }
-
     /// What the robot holds goes where its palm goes, seen or not.
     fn follow_robot(&mut self, palm: Option<Isometry3<f64>>) {
         if let (Some(before), Some(now)) = (pose(self.palm), palm) {
@@ -214,6 +204,20 @@ impl PartTracks {
             }
             if track.absent > ABSENT || !track.is_believed() {
                 *track = PartTrack::zeroed();
+            }
+        }
+    }
+
+    /// There are no more parts of `kind` than so many: if more are believed in, one that is not seen has turned up elsewhere. Something may
+    /// cover the place where it lay, for good.
+    fn forget_surplus(&mut self, kind: usize, most: usize) {
+        let own = self.numbered().filter(|(_, own, _)| *own == kind);
+        if own.clone().count() > most {
+            let unseen = own.filter(|(_, _, track)| {
+                !track.is_held() && self.captured.saturating_sub(track.seen) > u64::from(ABSENT)
+            });
+            if let Some((index, _, _)) = unseen.min_by_key(|(_, _, track)| track.seen) {
+                self.tracks[index] = PartTrack::zeroed();
             }
         }
     }

@@ -32,6 +32,8 @@ pub(crate) struct TaskPlaces {
     scene: Scene,
     subgoals: Vec<Subgoal>,
     sizes: Vec<PartSize>,
+    /// How many parts there are of each kind, where that is known.
+    counts: Vec<Option<usize>>,
 }
 
 impl TaskPlaces {
@@ -47,6 +49,7 @@ impl TaskPlaces {
             scene: task.scene.clone(),
             subgoals: task.subgoals.clone(),
             sizes: task.kinds.iter().map(size).collect(),
+            counts: (0..task.kinds.len()).map(|kind| task.count(kind)).collect(),
         }
     }
 
@@ -56,6 +59,11 @@ impl TaskPlaces {
 
     pub fn size(&self, kind: usize) -> PartSize {
         self.sizes[kind]
+    }
+
+    /// How many parts of `kind` there are, if that is known.
+    pub fn count(&self, kind: usize) -> Option<usize> {
+        self.counts[kind]
     }
 
     /// Whether a part of `kind` at `position` lies neither on the table nor in a socket.
@@ -107,6 +115,13 @@ impl TaskPlaces {
             .for_each(|goal| self.report_subgoal(goal, parts, sight, followed, out));
     }
 
+    /// Whether each part of `kind` that there is has been seen lately, wherever it is.
+    fn are_all_seen(&self, tick: u64, kind: usize, parts: &PartTracks) -> bool {
+        let seen =
+            |(own, part): &(usize, &PartTrack)| *own == kind && tick.saturating_sub(part.seen) < RECENT;
+        self.count(kind).is_some_and(|count| parts.parts().filter(seen).count() >= count)
+    }
+
     fn report_workspace(
         &self,
         tick: u64,
@@ -125,8 +140,9 @@ impl TaskPlaces {
             place.position[kind] = part.position;
             place.orientation[kind] = part.orientation.map(f64::from);
         }
-        let gone = nearest.is_none()
-            && !sight.hides(self.last_place(side, place.position[kind]), self.size(kind).height);
+        let last = self.last_place(side, place.position[kind]);
+        let is_bare = || !sight.hides(last, self.size(kind).height);
+        let gone = nearest.is_none() && (is_bare() || self.are_all_seen(tick, kind, parts));
         approach(&mut place.seen[kind], seen, RAMP);
         approach(&mut place.gone[kind], gone, RAMP);
     }

@@ -120,6 +120,29 @@ fn what_is_out_of_view_is_neither_seen_nor_gone() {
 }
 
 #[test]
+fn what_is_covered_is_forgotten_once_all_of_its_kind_are_seen_elsewhere() {
+    // Seen there and elsewhere at once, or elsewhere only after it was covered.
+    for at_once in [true, false] {
+        let mut stage = Stage::new();
+        let (part, kind) = (stage.part("column 1"), stage.kind("column 1"));
+        let at = stage.things[part].position;
+        let there = stage.things.len();
+        stage.things.push(stage.things[part]);
+        stage.things[there].position = [-0.43, 0.60, at[2]];
+        stage.things[there].visible = at_once;
+        stage.run(500, |_, _| {});
+        stands_before(&stage.task, &mut stage.sample.scene.surface, at, 0.3);
+        stage.run(200, |stage, _| stage.things[part].visible = false);
+        assert!(stage.percept.workspace[PERSON].gone[kind] < 0.1, "it may be there");
+        stage.run(800, |stage, _| stage.things[there].visible = true);
+        let [robot, person] = &stage.percept.workspace;
+        let evidence = [robot.seen[kind], robot.gone[kind], person.seen[kind], person.gone[kind]];
+        assert_eq!(evidence.map(|own| own > 0.9), [true, false, false, true], "{at_once}: {evidence:?}");
+        assert!(evidence.iter().all(|own| !(0.1..0.9).contains(own)), "{evidence:?}");
+    }
+}
+
+#[test]
 fn a_part_that_is_not_seen_where_the_table_is_seen_is_gone() {
     // Nothing is there; something no higher than the part; something high beside it; something high before it.
     for (height, aside, is_gone) in [(0.0, 0.0, true), (0.05, 0.0, true), (0.3, 0.2, true), (0.3, 0.0, false)]

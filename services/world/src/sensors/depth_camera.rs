@@ -30,8 +30,10 @@ pub(crate) fn picture<R: Rng>(sight: &LinesOfSight, scene: &Scene, rng: &mut R, 
         let corners = [[x - half_x, y - half_y, z - half_z], [x + half_x, y + half_y, z + half_z]];
         raise(sight.eye, out, corners, |place| box_before(own, sight.eye, place, 0.0));
     }
-    for limb in sight.limbs {
-        raise(sight.eye, out, LinesOfSight::around(*limb), |place| sight.met(*limb, place));
+    for limb in sight.limbs() {
+        let (low, high) = (limb.start.inf(&limb.end), limb.start.sup(&limb.end));
+        let corners = [low.map(|end| end - limb.radius), high.map(|end| end + limb.radius)].map(Into::into);
+        raise(sight.eye, out, corners, |place| sight.met(limb, place));
     }
 }
 

@@ -1,7 +1,5 @@
+use coact_motion::Capsule;
 use coact_person::box_before;
-
-/// Half the width of a person's arm, m. Chosen by hand: about that of a forearm below the elbow.
-const ARM: f64 = 0.043;
 
 /// Divisors are no less than this, m²: lines that are shorter are points.
 const LEAST: f64 = 1e-12;
@@ -13,33 +11,33 @@ pub(crate) struct LinesOfSight<'a> {
     pub eye: [f64; 3],
     /// What stands on the table beside the parts: centre and half extents, m.
     pub boxes: &'a [[f64; 6]],
-    /// The person's upper arm and forearm, each from joint to joint, m.
-    pub limbs: &'a [[[f64; 3]; 2]],
+    /// The robot's own links.
+    pub robot: &'a [Capsule],
+    /// The person's arm.
+    pub person: &'a [Capsule],
 }
 
 impl LinesOfSight<'_> {
     /// Whether something stands before `place`.
     pub fn hide(&self, place: [f64; 3]) -> bool {
         let by_box = |own: &[f64; 6]| box_before(own, self.eye, place, 0.0).is_some();
-        self.boxes.iter().any(by_box) || self.limbs.iter().any(|limb| self.met(*limb, place).is_some())
+        self.boxes.iter().any(by_box) || self.limbs().any(|limb| self.met(limb, place).is_some())
     }
 
     /// How far along the line of sight to `place` a limb is met, as a fraction of it.
-    pub fn met(&self, limb: [[f64; 3]; 2], place: [f64; 3]) -> Option<f64> {
-        limb_before(limb, ARM, self.eye, place)
+    pub fn met(&self, limb: &Capsule, place: [f64; 3]) -> Option<f64> {
+        limb_before([limb.start.into(), limb.end.into()], limb.radius, self.eye, place)
     }
 
-    /// The least and the greatest corner of the box around a limb, m.
-    pub fn around([start, end]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
-        let corner =
-            |pick: fn(f64, f64) -> f64, more: f64| [0, 1, 2].map(|axis| pick(start[axis], end[axis]) + more);
-        [corner(f64::min, -ARM), corner(f64::max, ARM)]
+    /// Arms: the robot's and the person's.
+    pub fn limbs(&self) -> impl Iterator<Item = &Capsule> {
+        self.robot.iter().chain(self.person)
     }
 }
 
 /// How far along the line from `eye` to `place` something long and round, as thick as `radius` around the line between two points, is met, as a
 /// fraction of it; `None` if it is not. Exact where both cross at a right angle. What is not finite is met nowhere.
-pub(crate) fn limb_before(limb: [[f64; 3]; 2], radius: f64, eye: [f64; 3], place: [f64; 3]) -> Option<f64> {
+fn limb_before(limb: [[f64; 3]; 2], radius: f64, eye: [f64; 3], place: [f64; 3]) -> Option<f64> {
     let Nearest { apart, along_sight, length } = nearest(limb, [eye, place]);
     (apart < radius).then(|| (along_sight - (radius * radius - apart * apart).sqrt() / length).max(0.0))
 }

@@ -9,7 +9,5 @@ mod tracker;
 
 pub(crate) use encoders::read_joints;
 pub(crate) use lines_of_sight::LinesOfSight;
-#[cfg(test)]
-pub(crate) use lines_of_sight::limb_before;
-pub(crate) use recogniser::recognise;
+pub(crate) use recogniser::{is_seen, recognise};
 pub(crate) use tracker::{Capture, TrackerState, is_captured, track};

@@ -2,7 +2,7 @@ use super::depth_camera::picture;
 use super::frame_rate::is_frame_due;
 use super::lines_of_sight::LinesOfSight;
 use crate::parts::Parts;
-use coact_joint_task::Task;
+use coact_joint_task::{Scene, Task};
 use coact_messages::{MAX_PARTS, SceneView, Sighting, WORKSPACES};
 use coact_period::cycles;
 use coact_random::{RandomStreams, Stream, is_in_burst};
@@ -33,7 +33,7 @@ const IMAGINED: f64 = 0.01;
 const CONFIDENCE: std::ops::Range<f64> = 0.85..0.99;
 
 /// Takes a frame when one is due: a picture of depth, and all parts; parts in hands and mounted parts are seen where they are, those whose
-/// upper face something hides are not. Now and then a part is missed or taken for one of another kind, or one is seen where there is none.
+/// upper face something hides from both cameras are not. Now and then a part is missed or taken for one of another kind, or one is seen where there is none.
 pub(crate) fn recognise(
     tick: u64,
     last: Option<u64>,
@@ -58,7 +58,7 @@ pub(crate) fn recognise(
         let taken_for = taken_for(part, tick, random, task).unwrap_or(parts.kind(part));
         let sighting = Sighting { kind: taken_for as u32, ..sighting(part, parts, &mut rng) };
         let top = parts.position(part) + parts.orientation(part) * DVec3::Z * height(task, parts.kind(part));
-        if !missed && !sight.hide(top.into()) {
+        if !missed && is_seen(top.into(), sight, &task.scene) {
             view.sighting[view.sightings as usize] = sighting;
             view.sightings += 1;
         }
@@ -68,6 +68,12 @@ pub(crate) fn recognise(
         view.sightings += 1;
     }
     picture(sight, &task.scene, &mut random.at(Stream::Depth, tick), &mut view.surface);
+}
+
+/// Whether a place is seen past what stands before it, by the camera of these lines of `sight` or by the one beside the table.
+pub(crate) fn is_seen(place: [f64; 3], sight: &LinesOfSight, scene: &Scene) -> bool {
+    let beside = LinesOfSight { eye: scene.eye_beside(), ..*sight };
+    !sight.hide(place) || (scene.is_before_eye_beside(place) && !beside.hide(place))
 }
 
 fn height(task: &Task, kind: usize) -> f64 {

@@ -5,10 +5,14 @@ use crate::scenario::Sense;
 use crate::sensors::{Capture, LinesOfSight, is_captured, read_joints, recognise, track};
 use crate::simulation_state::SimulationState;
 use coact_messages::{ArmSide, KeypointName, NONE, PartnerPhase, SensorSample, Truth};
+use coact_motion::Capsule;
 use coact_person::{Activity, Holder};
 use coact_random::Stream;
 use coact_stage_state::Slot;
 use glam::DVec3;
+
+/// Half the width of a person's arm, m. Chosen by hand: about that of a forearm below the elbow.
+const ARM: f64 = 0.043;
 
 impl World {
     /// Reads all sensors.
@@ -26,15 +30,14 @@ impl World {
     /// Takes the frames of the cameras that are due.
     fn look(&mut self, tick: u64, last: Option<u64>) {
         let blind = tick < self.blind_until;
-        let arms = self.person_arms().map(|[shoulder, elbow, wrist, _]| [[shoulder, elbow], [elbow, wrist]]);
-        let unknown = self.person.is_unknown(&self.simulation.person, tick);
-        let limbs: &[_] = if unknown { &[] } else { arms.as_flattened() };
-        let Self { task, random, person, parts, simulation, staging, .. } = self;
+        let person_limbs = self.person_limbs(tick);
+        let Self { task, random, person, joints, parts, simulation, staging, shape, .. } = self;
         let (boxes, count) = staging.occluders(tick, simulation.person.occluder());
         let (eye, boxes) = (task.scene.eye(), &boxes[..count]);
         let SimulationState { person: moved, right_tracker, left_tracker, .. } = simulation;
         let hands_unseen = blind || staging.is_blind(Sense::Hand, tick);
-        let past_boxes = LinesOfSight { eye, boxes, limbs: &[] };
+        // The tracker has cameras of its own, which see hands past all arms.
+        let boards = LinesOfSight { eye, boxes, robot: &[], person: &[] };
         for (side, tracker) in ArmSide::BOTH.into_iter().zip([right_tracker, left_tracker]) {
             let recorded = || person.recorded_keypoints(moved, tick).filter(|_| side == moved.side);
             let capture = || match recorded() {
@@ -45,12 +48,26 @@ impl World {
                 None => Capture::Simulated(person.resting_keypoints(moved, tick)),
             };
             let noise = [Stream::Tracker, Stream::LeftTracker][side as usize];
-            track(tick, last, (random, noise), tracker, capture, |place| past_boxes.hide(place));
+            track(tick, last, (random, noise), tracker, capture, |place| boards.hide(place));
         }
         if !blind && !staging.is_blind(Sense::Objects, tick) {
-            let sight = LinesOfSight { limbs, ..past_boxes };
+            let person = person_limbs.as_ref().map_or(&[][..], |limbs| limbs);
+            let sight = LinesOfSight { robot: shape.links(&joints.position), person, ..boards };
             recognise(tick, last, random, (task, parts), &sight, &mut simulation.scene);
         }
+    }
+
+    /// Upper arms and forearms of a person whose arms are known.
+    fn person_limbs(&self, tick: u64) -> Option<[Capsule; 4]> {
+        if self.person.is_unknown(&self.simulation.person, tick) {
+            return None;
+        }
+        let limb =
+            |[start, end]: [[f64; 3]; 2]| Capsule { start: start.into(), end: end.into(), radius: ARM };
+        let [right, left] = self
+            .person_arms()
+            .map(|[shoulder, elbow, wrist, _]| [[shoulder, elbow], [elbow, wrist]].map(limb));
+        Some([right[0], right[1], left[0], left[1]])
     }
 
     /// What the fingers hold a part with, and what the outside exerts on the wrist, N.

@@ -2,11 +2,13 @@
 
 use super::mistakes::run;
 use crate::parts::Parts;
-use crate::sensors::{LinesOfSight, limb_before, recognise};
+use crate::sensors::{LinesOfSight, is_seen, recognise};
 use coact_messages::{KeypointName, NONE, SceneView, SensorSample, Sighting};
+use coact_motion::Capsule;
 use coact_person::ActivityPhase;
 use coact_random::RandomStreams;
 use glam::DVec3;
+use nalgebra::{Point3, Vector3};
 
 const ALWAYS: &str = "idle=0,goal=0,request=0,means=0,hidden=1,words=0,dropouts=0";
 
@@ -95,8 +97,14 @@ fn parts_behind_the_person_s_arm_are_not_seen() {
             let (kind, at) = (world.parts.kind(part) as u32, world.parts.position(part));
             let height = world.task.kinds[world.parts.kind(part)].shape.height();
             let top = at + world.parts.orientation(part) * DVec3::Z * height;
-            let by = |limb| limb_before(limb, 0.03, world.task.scene.eye(), top.into()).is_some();
-            if by([shoulder, elbow]) || by([elbow, wrist]) {
+            let arm = [[shoulder, elbow], [elbow, wrist]].map(|[start, end]| Capsule {
+                start: start.into(),
+                end: end.into(),
+                radius: 0.03,
+            });
+            let eye = world.task.scene.eye();
+            let sight = LinesOfSight { eye, boxes: &[], robot: &[], person: &arm };
+            if !is_seen(top.into(), &sight, &world.task.scene) {
                 behind += 1;
                 let shows =
                     |one: &Sighting| one.kind == kind && at.distance(DVec3::from(one.position)) < 0.012;
@@ -108,16 +116,25 @@ fn parts_behind_the_person_s_arm_are_not_seen() {
 }
 
 #[test]
-fn what_is_behind_a_limb_is_not_seen_and_the_picture_shows_that_something_is_before_it() {
+fn what_is_behind_a_link_of_the_robot_is_not_seen_and_the_picture_shows_that_something_is_before_it() {
     let (task, random) = (super::task(), RandomStreams::new(5));
     let parts = Parts::new(&task, Vec::new(), task.scene.fit);
     let (eye, at) = (task.scene.eye(), |part| parts.position(part));
-    let (before, aside) = (at(0).lerp(eye.into(), 0.2), DVec3::new(0.05, 0.02, 0.0));
-    let limb = [before - aside, before + aside].map(Into::into);
-    let sight = LinesOfSight { eye, boxes: &[], limbs: &[limb] };
+    let link = |middle: DVec3, radius| {
+        let (middle, aside) = (Point3::from(middle.to_array()), Vector3::new(0.05, 0.02, 0.0));
+        Capsule { start: middle - aside, end: middle + aside, radius }
+    };
+    // Over one part on the robot's side so low that neither camera sees it; before another so high that the one beside the table does.
+    let of_robot = |part: &usize| task.scene.is_before_eye_beside(at(*part).into());
+    let mut of_robot = (0..task.parts.len()).filter(of_robot);
+    let [low, high] = std::array::from_fn(|_| of_robot.next().unwrap());
+    let links = [link(at(low) + 0.12 * DVec3::Z, 0.1), link(at(high).lerp(eye.into(), 0.2), 0.04)];
+    let sight = LinesOfSight { eye, boxes: &[], robot: &links, person: &[] };
     let mut view: Box<SceneView> = bytemuck::zeroed_box();
     let hidden: Vec<bool> = (0..task.parts.len()).map(|part| sight.hide(at(part).into())).collect();
-    assert!(hidden[0] && hidden.iter().filter(|hidden| **hidden).count() < 4, "{hidden:?}");
+    let is_seen = |part: usize| is_seen(at(part).into(), &sight, &task.scene);
+    assert!(hidden[low] && !is_seen(low) && hidden[high] && is_seen(high), "{hidden:?}");
+    assert!(hidden.iter().filter(|hidden| **hidden).count() < 5, "{hidden:?}");
     let mut seen = vec![0; task.parts.len()];
     for frame in 1..=100_u64 {
         recognise(100 * frame, Some(100 * frame - 100), &random, (&task, &parts), &sight, &mut view);
@@ -128,7 +145,7 @@ fn what_is_behind_a_limb_is_not_seen_and_the_picture_shows_that_something_is_bef
             assert_eq!(above > 0.1, hidden[part], "part {part}: {above}");
         }
     }
-    for (hidden, seen) in hidden.iter().zip(&seen) {
-        assert!(if *hidden { *seen == 0 } else { *seen > 90 }, "{seen:?} of 100, hidden: {hidden:?}");
+    for (part, seen) in seen.into_iter().enumerate() {
+        assert!(if is_seen(part) { seen > 90 } else { seen == 0 }, "part {part}: {seen} of 100");
     }
 }

@@ -6,11 +6,12 @@ use crate::Partner;
 use crate::world::World;
 use coact_joint_task::Task;
 use coact_messages::{ArmSide, KeypointName};
+use coact_person::Activity;
 use coact_pipeline::WorldMode;
 use coact_stage_state::Slot;
 use glam::DVec3;
 
-const ALWAYS: &str = "random:idle=0,goal=0.5,request=0,means=0,hidden=0,words=0,dropouts=0,left=1";
+const ALWAYS: &str = "random:idle=0,goal=0.5,means=0,hidden=0,words=0,dropouts=0,left=1";
 /// No wrist goes so far in a tick, m: 3 m/s.
 const STEP: f64 = 0.003;
 
@@ -27,7 +28,7 @@ fn world(seed: u64) -> World {
 #[test]
 fn the_left_hand_takes_what_lies_nearer_to_it_and_neither_hand_ever_jumps() {
     let rest = ArmSide::BOTH.map(|side| DVec3::from(task().scene.rest(side)));
-    let (mut by_left, mut by_right) = (0, 0);
+    let (mut by_left, mut by_right, mut received) = (0, 0, 0);
     for seed in 0..3 {
         let (mut world, mut robot, mut out) = (world(seed), FakeRobot::new(), Out::new());
         let mut before: Option<[DVec3; 2]> = None;
@@ -51,6 +52,7 @@ fn the_left_hand_takes_what_lies_nearer_to_it_and_neither_hand_ever_jumps() {
             assert!(centre.distance(world.person.hand_centre(person)) < 1e-6);
             let [right, left] = rest.map(|rest| rest.distance(centre));
             match person.side {
+                ArmSide::Left if person.activity() == Activity::Receive => received += 1,
                 ArmSide::Left => {
                     by_left += 1;
                     assert!(left < right, "{left}, {right}");
@@ -60,6 +62,7 @@ fn the_left_hand_takes_what_lies_nearer_to_it_and_neither_hand_ever_jumps() {
         }
     }
     assert!(by_left >= 3 && by_right >= 3, "{by_left} with the left hand, {by_right} with the right one");
+    assert!(received >= 3, "{received} from the robot with the left hand");
 }
 
 #[test]
