@@ -110,7 +110,7 @@ impl TrackedHand {
     /// Takes in the tracker's newest frame. `None` if it is not a new and usable one; true if a movement has begun.
     ///
     /// While something may hide the hand, as `hide` says, a frame without wrist, knuckles or finger tips is none: a hand that is half out
-    /// of sight tells neither its grip nor its pitch.
+    /// of sight tells neither its grip nor its pitch. Nor is a frame one that shows nothing of the hand: where shoulder and elbow are it tells.
     pub fn observe(&mut self, tick: u64, view: &HandView, hide: impl FnOnce(&Self) -> bool) -> Option<bool> {
         let found = |name: &KeypointName| view.keypoints[*name as usize].confidence > BELIEVED;
         let known = self.seen == view.frame.wrapping_add(1);
@@ -118,7 +118,8 @@ impl TrackedHand {
         if known || late || view.captured_cycle > tick {
             return None;
         }
-        if !WHOLE_HAND.iter().all(found) && hide(self) {
+        let nothing_of_it = !WHOLE_HAND.iter().any(found);
+        if nothing_of_it || (!WHOLE_HAND.iter().all(found) && hide(self)) {
             self.merge(view, &ARM);
             return None;
         }

@@ -9,5 +9,7 @@ mod tracker;
 
 pub(crate) use encoders::read_joints;
 pub(crate) use lines_of_sight::LinesOfSight;
-pub(crate) use recogniser::{is_seen, recognise};
+#[cfg(test)]
+pub(crate) use recogniser::is_seen;
+pub(crate) use recogniser::recognise;
 pub(crate) use tracker::{Capture, TrackerState, is_captured, track};

@@ -1,6 +1,6 @@
 use super::frame_rate::is_frame_due;
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
-use coact_messages::{Flaw, HandView, Keypoint, KeypointName};
+use coact_messages::{Flaw, HandView, Keypoint};
 use coact_random::{RandomStreams, Stream};
 use coact_stage_state::{Flag, Implausible, ensure};
 use glam::DVec3;
@@ -66,7 +66,8 @@ pub(crate) fn is_captured(last: Option<u64>, tick: u64) -> bool {
 }
 
 /// When a frame is due: delivers the one before, and captures a new one. So a frame is one frame time old when it
-/// comes. `noise` is drawn for each arm by itself. Keypoints that `hides` names are lost; a frame without any is not delivered.
+/// comes. `noise` is drawn for each arm by itself. Keypoints that `hides` names are lost; a frame without any, of the hand or of the rest
+/// of the arm, is not delivered.
 pub(crate) fn track(
     tick: u64,
     last: Option<u64>,
@@ -91,8 +92,7 @@ pub(crate) fn track(
     for point in keypoints.iter_mut().filter(|point| hides(point.position)) {
         *point = Keypoint::default();
     }
-    let hand = &keypoints[KeypointName::Wrist as usize..];
-    state.is_pending = Flag::from(came && hand.iter().any(|point| point.confidence > 0.0));
+    state.is_pending = Flag::from(came && keypoints.iter().any(|point| point.confidence > 0.0));
     state.pending.captured_cycle = tick;
     state.pending.keypoints = keypoints;
 }

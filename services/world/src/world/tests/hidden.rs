@@ -27,7 +27,10 @@ struct Hidden {
 impl Hidden {
     /// What the newest frames of hand and parts tell, by the ticks of their capture.
     fn look(&mut self, sample: &SensorSample) {
-        let captured = sample.hands[0].captured_cycle;
+        let shows_the_hand = sample.hands[0].keypoints[KeypointName::Wrist as usize..]
+            .iter()
+            .any(|point| point.confidence > 0.0);
+        let captured = if shows_the_hand { sample.hands[0].captured_cycle } else { 0 };
         let at_the_part =
             self.grasped > 0 && captured >= self.grasped && (self.lifted == 0 || captured < self.lifted);
         assert!(!at_the_part, "the hand is seen at the part: {self:?}");
