@@ -49,7 +49,7 @@ mod tests {
     fn said(seen: [u32; 2], stands: impl Fn(u64) -> bool, cycles: u64) -> Vec<Sentence> {
         let mut standstill = Standstill::default();
         let mut percept = Percept::zeroed();
-        percept.arms.iter_mut().zip(seen).for_each(|(arm, seen)| arm.tracked = seen.into());
+        percept.arms.iter_mut().zip(seen).for_each(|(arm, seen)| arm.tracked = seen);
         let said = (1..=cycles).filter_map(|cycle| {
             let mut command = Command::zeroed();
             command.header.cycle = cycle;
