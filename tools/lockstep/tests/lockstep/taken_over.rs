@@ -78,27 +78,29 @@ fn shifts(what: &str, undisturbed: &Decisions, disturbed: &Decisions) -> Vec<u64
 
 #[test]
 fn whoever_takes_over_computes_the_same_bits() {
-    let mut pair = [0, 1].map(|_| Lockstep::new(&settings(1, "synthetic")).unwrap());
-    let mut random = Pcg64Mcg::seed_from_u64(1);
-    let mut died = [0, 0];
-    for tick in 0..cycles(Duration::from_secs(20)) {
-        pair.iter_mut().for_each(Lockstep::step);
-        let [undisturbed, disturbed] = &mut pair;
-        let bytes = |stages: &Lockstep| {
-            [bytemuck::bytes_of(&*stages.frame), bytemuck::bytes_of(&*stages.command)].concat()
-        };
-        assert!(bytes(undisturbed) == bytes(disturbed), "tick {tick}, {died:?} deaths");
-        if random.random_bool(OFTEN) {
-            disturbed.replace_fields().unwrap();
-            died[0] += 1;
+    for seed in 1..=2 {
+        let mut pair = [0, 1].map(|_| Lockstep::new(&settings(seed, "synthetic")).unwrap());
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let mut died = [0, 0];
+        for tick in 0..cycles(Duration::from_secs(20)) {
+            pair.iter_mut().for_each(Lockstep::step);
+            let [undisturbed, disturbed] = &mut pair;
+            let bytes = |stages: &Lockstep| {
+                [bytemuck::bytes_of(&*stages.frame), bytemuck::bytes_of(&*stages.command)].concat()
+            };
+            assert!(bytes(undisturbed) == bytes(disturbed), "seed {seed}, tick {tick}, {died:?} deaths");
+            if random.random_bool(OFTEN) {
+                disturbed.replace_fields().unwrap();
+                died[0] += 1;
+            }
+            // To make another control takes a while; so it dies less often.
+            if random.random_bool(OFTEN / 4.0) && !disturbed.awaits_movement() {
+                disturbed.replace_control().unwrap();
+                died[1] += 1;
+            }
         }
-        // To make another control takes a while; so it dies less often.
-        if random.random_bool(OFTEN / 4.0) && !disturbed.awaits_movement() {
-            disturbed.replace_control().unwrap();
-            died[1] += 1;
-        }
+        assert!(died[0] > 100 && died[1] > 20, "{died:?} deaths");
     }
-    assert!(died[0] > 100 && died[1] > 20, "{died:?} deaths");
 }
 
 /// Two networks perceive the same, one of them not always. (In a run of its own it would soon perceive something else: a robot
@@ -106,7 +108,7 @@ fn whoever_takes_over_computes_the_same_bits() {
 #[test]
 fn frames_that_are_missing_delay_a_decision_by_ticks() {
     let mut all = Vec::new();
-    for seed in 1..=4 {
+    for seed in 1..=8 {
         let (mut stages, mut random) = (scripted(seed), Pcg64Mcg::seed_from_u64(seed));
         let mut network = Network::new(stages.plan().clone(), stages.task().fingerprint, seed).unwrap();
         let mut frame: Box<FieldFrame> = bytemuck::zeroed_box();
@@ -137,7 +139,7 @@ fn frames_that_are_missing_delay_a_decision_by_ticks() {
 
 #[test]
 fn a_frame_that_is_missing_changes_no_decision() {
-    for seed in 1..=2 {
+    for seed in 1..=3 {
         let mut missing = 0;
         let disturbed = decisions(seed, |stages, random| {
             if random.random_bool(OFTEN) {
@@ -155,7 +157,7 @@ fn a_frame_that_is_missing_changes_no_decision() {
 #[test]
 fn a_command_that_is_missing_and_a_query_that_dies_with_control_change_no_decision() {
     let mut died = 0;
-    for seed in 1..=2 {
+    for seed in 1..=3 {
         let mut missing = 0;
         let disturbed = decisions(seed, |stages, random| {
             if random.random_bool(OFTEN) {

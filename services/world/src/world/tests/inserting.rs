@@ -32,7 +32,7 @@ fn insert_with(mut robot: Manipulator, kind: &str, aside: f64, tilt: f64) -> (bo
 #[test]
 fn part_within_the_tolerances_enters_its_place_and_is_mounted() {
     for kind in KINDS {
-        for (aside, tilt) in [(-0.75, 0.0), (0.0, 0.75)] {
+        for (aside, tilt) in [(0.75, 0.0), (-0.75, 0.0), (0.0, 0.75)] {
             assert_eq!(insert(kind, aside, tilt), (true, true), "{kind}: {aside} x position, {tilt} x angle");
         }
     }
