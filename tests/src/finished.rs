@@ -37,17 +37,29 @@ impl Finished {
         self.supervisor.iter().filter(|event| event.event == kind && event.process == process).count()
     }
 
-    /// Nobody died. A machine that others share stands still at times, and a stage is then taken for hung: one may be.
+    /// Nobody died, as [`Finished::only_died`] tells.
     ///
     /// # Panics
     /// Somebody did.
     pub fn nobody_died(&self) {
-        let hung = |event: &&SupervisorEvent| {
+        self.only_died(&[]);
+    }
+
+    /// These processes died, each once and in this order, and nobody else. A machine that others share stands still at times, and a stage is
+    /// then taken for hung: one may be.
+    ///
+    /// # Panics
+    /// One of them did not, or somebody else did.
+    pub fn only_died(&self, expected: &[&str]) {
+        let died = self.supervisor.iter().filter(|event| event.event == SupervisorEventKind::Died);
+        let (own, others): (Vec<_>, Vec<_>) =
+            died.partition(|event| expected.contains(&event.process.as_str()));
+        let is_hung = |event: &&SupervisorEvent| {
             event.reason.as_deref().is_some_and(|reason| reason.starts_with("hung"))
         };
-        let died = self.supervisor.iter().filter(|event| event.event == SupervisorEventKind::Died);
-        let (hung, otherwise): (Vec<_>, Vec<_>) = died.partition(hung);
-        assert!(otherwise.is_empty() && hung.len() <= 1, "{otherwise:?} {hung:?}");
+        let own: Vec<_> = own.iter().map(|event| event.process.as_str()).collect();
+        let as_expected = own == expected && others.len() <= 1 && others.iter().all(is_hung);
+        assert!(as_expected, "{own:?} {others:?}\n{}", self.stderr);
     }
 
     /// Cycles of a process.

@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_run_recording::{Recorded, Recording, RecordingWriter};
-use coact_run_records::SupervisorEventKind;
 use coact_tests::{Launched, checkout, coact, wait_for};
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
@@ -109,10 +108,7 @@ fn a_killed_recorder_leaves_a_recording_that_can_be_read_and_its_successor_anoth
     kill_process(Pid::from_raw(pid as i32).unwrap(), Signal::KILL).unwrap();
     wait_for("the recorder's replacement", || run.ready("recorder", 1).unwrap());
     let finished = launched.finish();
-    let died = finished.supervisor.iter().filter(|event| event.event == SupervisorEventKind::Died);
-    // A stage that the machine keeps from its cycles for long is taken for hung: one may be.
-    let (recorder, others): (Vec<_>, Vec<_>) = died.partition(|event| event.process == "recorder");
-    assert!(recorder.len() == 1 && others.len() <= 1, "{:?}", finished.supervisor);
+    finished.only_died(&["recorder"]);
     assert!(matches!(finished.code, Some(0 | 1)), "{}", finished.stderr);
     let (code, first) = replayed(&report.join("run.mcap"));
     assert_eq!(
