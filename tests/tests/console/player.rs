@@ -160,10 +160,6 @@ impl Player {
         self.part(kind, near, 2).map(DVec3::truncate)
     }
 
-    fn takes(&mut self, kind: &str, grip: u32) {
-        self.takes_from(kind, grip, |player| player.lying(kind));
-    }
-
     /// Takes a part from where it is, looks whether the hand has it, and tries again if not: on a busy machine the fingers close late.
     fn takes_from(&mut self, kind: &str, grip: u32, place: impl Fn(&mut Self) -> DVec3) {
         for _ in 0..TRIES {
@@ -180,12 +176,17 @@ impl Player {
     /// Takes a part, brings it there, and sees that it has come there, or is in the robot's hand already; if not, tries again: on a busy machine the
     /// hand leaves before its fingers have closed.
     fn brings(&mut self, kind: &str, grip: u32, to: DVec2) {
+        self.brings_from(kind, grip, to, |player| player.lying(kind));
+    }
+
+    fn brings_from(&mut self, kind: &str, grip: u32, to: DVec2, place: impl Fn(&mut Self) -> DVec3) {
         for _ in 0..TRIES {
-            self.takes(kind, grip);
+            self.takes_from(kind, grip, &place);
             self.go(to);
             let is_there = |at: DVec2| at.distance(to) < 0.03;
+            let is_beside = |at: DVec3| at.truncate().distance(to) < 0.15;
             let came = |player: &mut Self| {
-                player.in_hand(kind).is_some_and(is_there) || player.part(kind, to, 1).is_some()
+                player.in_hand(kind).is_some_and(is_there) || player.part(kind, to, 1).is_some_and(is_beside)
             };
             if self.sees(LOOKS, came) {
                 return;
@@ -243,11 +244,11 @@ impl Player {
         let is_given = self.sees(PATIENCE, |player| player.part(kind, handover, 1).is_some_and(is_near));
         assert!(is_given, "the robot does not give the {kind}: {}", self.state());
         std::thread::sleep(Duration::from_millis(1000));
-        self.takes_from(kind, 0, |player| {
+        let (socket, _) = self.subgoal(name);
+        // Where the hand left before its fingers had closed, the robot has the part still.
+        self.brings_from(kind, 0, socket, |player| {
             wait_within(PATIENCE, "the part that is given", || player.part(kind, handover, 1))
         });
-        let (socket, _) = self.subgoal(name);
-        self.go(socket);
         self.insert(name);
     }
 
