@@ -67,7 +67,7 @@ impl PartTrack {
             self.holder &= !BY_PERSON;
         }
         if self.holder & BY_ROBOT != 0 && !self.stays_with_robot(size, around) {
-            self.holder &= !BY_ROBOT;
+            self.is_let_go_by_the_robot();
         }
     }
 

@@ -25,7 +25,7 @@ const SETTLED_UNSEEN: u32 = cycles(Duration::from_millis(2500)) as u32;
 
 /// Frames in a row that must show a part where none was before it is taken to be there: a recogniser that sees one in a hundred frames where
 /// there is none does so thrice in a row in a million.
-const BELIEVED: u16 = 3;
+const BELIEVED: u8 = 3;
 /// How long a part must be taken for one of another kind, and never for its own, to be one: recognisers are mistaken for some frames at a
 /// time. Chosen by hand.
 const RELABELLED: u16 = cycles(Duration::from_millis(1000)) as u16;
@@ -62,8 +62,10 @@ pub(crate) struct PartTrack {
     lay_mounted: u8,
     /// 1: it was mounted when the person took it for the last time; else 0.
     taken_out: u8,
+    /// 1: it lies where the robot has let go of it; else 0.
+    put_by_robot: u8,
     /// Frames that have shown it, as far as they are needed to believe in it.
-    frames: u16,
+    frames: u8,
     /// Cycle of the newest sighting.
     pub seen: u64,
     /// Centre of the underside, m.
@@ -110,8 +112,12 @@ impl PartTrack {
         ensure(self.holder <= BY_ROBOT | BY_PERSON, "parts.holder", "the bits of robot and person")?;
         bounded("parts.position", &self.position, FARTHEST)?;
         ensure(self.frames <= BELIEVED, "parts.frames", "no more frames than are needed")?;
-        let truths = self.lay_mounted <= 1 && self.taken_out <= 1;
-        ensure(truths, "parts: mounted, taken out", "0 or 1")?;
+        let truths = [self.lay_mounted, self.taken_out, self.put_by_robot];
+        ensure(
+            truths.iter().all(|truth| *truth <= 1),
+            "parts: mounted, taken out, put by the robot",
+            "0 or 1",
+        )?;
         let [x, y, z, w] = self.orientation.map(f64::from);
         let square = x * x + y * y + z * z + w * w;
         ensure(square == 0.0 || (square - 1.0).abs() <= UNIT, "parts.orientation", "a quaternion of length 1")
@@ -124,7 +130,7 @@ impl PartTrack {
         let (old, new) = (Vector3::from(self.position), Vector3::from(sighting.position));
         if (new - old).norm() > MOVED {
             self.position = sighting.position;
-            self.still = 0;
+            (self.still, self.put_by_robot) = (0, 0);
         } else {
             self.position = (old + (new - old) * SMOOTHING).into();
             self.still = self.still.saturating_add(cycles as u32);
@@ -179,9 +185,21 @@ impl PartTrack {
     }
 
     /// Whether it has lain still for so long, in nobody's hand, that it has settled where it is; `followed`: what the person's hand does
-    /// is known.
+    /// is known. Where the robot has put it, it need not look.
     pub fn has_settled(&self, followed: bool) -> bool {
-        !self.is_held() && self.still >= if followed { SETTLED } else { SETTLED_UNSEEN }
+        let still = self.still >= if followed { SETTLED } else { SETTLED_UNSEEN };
+        !self.is_held() && (still || self.is_put_by_robot())
+    }
+
+    /// Whether it lies where the robot has let go of it: the robot's hand may hide it, but what it has put where it knows.
+    pub fn is_put_by_robot(&self) -> bool {
+        self.put_by_robot == 1
+    }
+
+    /// The robot has let go of it.
+    pub fn is_let_go_by_the_robot(&mut self) {
+        self.holder &= !BY_ROBOT;
+        self.put_by_robot = (self.holder == FREE).into();
     }
 
     /// Takes in whether a part that has settled is `mounted` where it is.
@@ -194,7 +212,7 @@ impl PartTrack {
     /// The person has it.
     pub fn is_taken_by_the_person(&mut self) {
         self.holder |= BY_PERSON;
-        self.taken_out = self.lay_mounted;
+        (self.taken_out, self.put_by_robot) = (self.lay_mounted, 0);
     }
 
     /// Whether the person took it out of its socket when she took it for the last time.

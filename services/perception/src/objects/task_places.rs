@@ -22,8 +22,8 @@ const ON_TABLE: f64 = 0.05;
 const RECENT: u64 = cycles(Duration::from_millis(300));
 /// Time in which evidence about parts rises or falls from end to end, cycles: two frames of the recogniser.
 const RAMP: f64 = cycles(Duration::from_millis(60)) as f64;
-/// Time in which evidence that a step is achieved rises from end to end, cycles. Chosen by hand: the hand that has let go of the part is to be
-/// forgotten by then in the mind, or what it did is taken for the next step of the same kind of part.
+/// Time in which evidence that the person has achieved a step rises from end to end, cycles. Chosen by hand: the hand that has let go of the part
+/// is to be forgotten by then in the mind, or what it did is taken for the next step of the same kind of part.
 const ACHIEVES: f64 = cycles(Duration::from_millis(200)) as f64;
 
 /// The places of the task: workspaces, sockets, and what each kind of part is like.
@@ -177,10 +177,11 @@ impl TaskPlaces {
         let away = |part: &PartTrack| (Vector3::from(socket) - Vector3::from(part.position)).norm();
         let own = parts.parts().filter(|(own, _)| *own == kind);
         let mounted = |part: &PartTrack| away(part) < IN_PLACE && part.has_settled(followed);
-        let achieved = own.clone().any(|(_, part)| mounted(part));
+        let achieved = own.clone().find(|(_, part)| mounted(part)).map(|(_, part)| part);
+        let rise = if achieved.is_some_and(|part| !part.is_put_by_robot()) { ACHIEVES } else { RAMP };
         let empty =
             !own.clone().any(|(_, part)| away(part) < EMPTY) && !sight.hides(socket, self.size(kind).height);
-        approach(&mut out.achieved[goal], achieved, if achieved { ACHIEVES } else { RAMP });
+        approach(&mut out.achieved[goal], achieved.is_some(), rise);
         approach(&mut out.open[goal], empty, RAMP);
     }
 }
