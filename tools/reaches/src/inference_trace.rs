@@ -11,16 +11,20 @@ const SAME_WIDTH: f64 = 1e-6;
 /// What perception and the fields inferred from a person's reaches, while they were played.
 #[derive(Debug, Clone, Default)]
 pub struct InferenceTrace {
-    /// Each change of the goal whose peak stands in IL: the cycle, and the goal from then on.
-    goals: Vec<(u64, Option<InferredGoal>)>,
+    goals: PeakTrace,
+    answers: PeakTrace,
     /// Cycle at which perception noticed a movement, and of the onset that it gives it.
     onsets: Vec<(u64, u64)>,
     reaching: bool,
 }
 
-/// A goal whose peak stands: kind of part, and cycle at which the peak crossed threshold.
+/// Each change of the peak that stands in one layer: the cycle, and the peak from then on.
+#[derive(Debug, Clone, Default)]
+struct PeakTrace(Vec<(u64, Option<Peak>)>);
+
+/// A peak: the kind of part that it is about, and the cycle at which it crossed threshold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct InferredGoal {
+struct Peak {
     kind: usize,
     since: u64,
 }
@@ -37,10 +41,8 @@ impl InferenceTrace {
 
     /// Records a frame of the network that `plan` describes.
     pub fn frame(&mut self, plan: &NetworkPlan, frame: &FieldFrame) {
-        let goal = inferred_goal(plan, frame);
-        if self.goals.last().is_none_or(|(_, last)| *last != goal) {
-            self.goals.push((frame.header.cycle, goal));
-        }
+        self.goals.record(frame.header.cycle, peak(LayerKind::Intention, plan, frame));
+        self.answers.record(frame.header.cycle, peak(LayerKind::ActionExecution, plan, frame));
     }
 
     /// Compares what was decided with the labels, reach by reach.
@@ -50,13 +52,19 @@ impl InferenceTrace {
     }
 
     fn judge_one(&self, task: &Task, reach: &Reach, span: &Span) -> ReachOutcome {
-        let width = |goal: InferredGoal| task.kinds[goal.kind].width;
-        let is_right = |goal: InferredGoal| (width(goal) - reach.size.width()).abs() < SAME_WIDTH;
+        let width = |peak: Peak| task.kinds[peak.kind].width;
+        let is_right = |peak: Peak| (width(peak) - reach.size.width()).abs() < SAME_WIDTH;
         let at = |fraction: f64| {
             let elapsed = (fraction * reach.movement_time * CYCLES_PER_SECOND as f64).round() as u64;
-            self.goal_at(span.onset + elapsed)
+            self.goals.at(span.onset + elapsed)
         };
-        let decision = at(1.0).filter(|goal| goal.since < span.contact);
+        let before_contact = |peak: Option<Peak>| {
+            peak.filter(|peak| peak.since < span.contact).map(|peak| GoalDecision {
+                right: is_right(peak),
+                lead_ms: (span.contact - peak.since) as i64,
+                width: width(peak),
+            })
+        };
         ReachOutcome {
             participant: reach.participant,
             trial: reach.trial,
@@ -64,17 +72,9 @@ impl InferenceTrace {
             movement_ms: (span.contact - span.onset) as i64,
             onset_ms: self.onset_in(span).map(|onset| onset as i64 - span.onset as i64),
             right_during_reach: FRACTIONS.map(|fraction| at(fraction).map(is_right)),
-            decision: decision.map(|goal| GoalDecision {
-                right: is_right(goal),
-                lead_ms: (span.contact - goal.since) as i64,
-                width: width(goal),
-            }),
+            decision: before_contact(at(1.0)),
+            answer: before_contact(self.answers.at(span.contact)),
         }
-    }
-
-    fn goal_at(&self, cycle: u64) -> Option<InferredGoal> {
-        let changes = self.goals.partition_point(|(at, _)| *at <= cycle);
-        self.goals[..changes].last().and_then(|(_, goal)| *goal)
     }
 
     /// The first onset that perception gives a movement of this span.
@@ -84,11 +84,23 @@ impl InferenceTrace {
     }
 }
 
-/// The goal whose peak stands in IL.
-fn inferred_goal(plan: &NetworkPlan, frame: &FieldFrame) -> Option<InferredGoal> {
-    let layer = plan.layer(LayerKind::Intention);
-    let mut peaks = layer.populations.clone().filter(|index| frame.since[*index] > 0);
+impl PeakTrace {
+    fn record(&mut self, cycle: u64, peak: Option<Peak>) {
+        if self.0.last().is_none_or(|(_, last)| *last != peak) {
+            self.0.push((cycle, peak));
+        }
+    }
+
+    fn at(&self, cycle: u64) -> Option<Peak> {
+        let changes = self.0.partition_point(|(at, _)| *at <= cycle);
+        self.0[..changes].last().and_then(|(_, peak)| *peak)
+    }
+}
+
+/// The peak that stands in a layer.
+fn peak(layer: LayerKind, plan: &NetworkPlan, frame: &FieldFrame) -> Option<Peak> {
+    let mut peaks = plan.layer(layer).populations.clone().filter(|index| frame.since[*index] > 0);
     let index = peaks.next()?;
     let kind = plan.populations[index].kind?;
-    Some(InferredGoal { kind, since: frame.since[index] })
+    Some(Peak { kind, since: frame.since[index] })
 }

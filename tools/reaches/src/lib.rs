@@ -17,6 +17,6 @@ mod training;
 pub use evaluation::Evaluation;
 pub use inference_trace::InferenceTrace;
 pub use reach_outcome::{FRACTIONS, GoalDecision, ReachOutcome};
-pub use reaches_report::{ReachTally, ReachesReport};
+pub use reaches_report::{FIRST, ReachTally, ReachesReport};
 pub use subject::Subject;
 pub use training::{TrainError, model_file, train};

@@ -20,6 +20,8 @@ pub struct ReachOutcome {
     pub right_during_reach: [Option<bool>; 5],
     /// The decision that stood at contact.
     pub decision: Option<GoalDecision>,
+    /// The robot's answer to it that stood in AEL at contact: for which part it was decided.
+    pub answer: Option<GoalDecision>,
 }
 
 /// A decision that was taken before contact and stayed until then.
@@ -37,5 +39,10 @@ impl ReachOutcome {
     /// Whether the right goal was decided before contact.
     pub fn is_right(&self) -> bool {
         self.decision.is_some_and(|decision| decision.right)
+    }
+
+    /// Whether the robot had decided on the right answer before contact.
+    pub fn is_answered(&self) -> bool {
+        self.answer.is_some_and(|answer| answer.right)
     }
 }

@@ -1,5 +1,8 @@
-use crate::reach_outcome::{FRACTIONS, ReachOutcome};
+use crate::reach_outcome::{FRACTIONS, GoalDecision, ReachOutcome};
 use serde::Serialize;
+
+/// How many reaches of a person count as the first.
+pub const FIRST: usize = 10;
 
 /// What was inferred from all reaches, and from each person's.
 #[derive(Debug, Clone, Serialize)]
@@ -12,6 +15,10 @@ pub struct ReachesReport {
     pub overall: ReachTally,
     /// Each person, in the order of the folder.
     pub people: Vec<(u32, ReachTally)>,
+    /// The first [`FIRST`] reaches of each person that were played: little is known of them yet.
+    pub first: ReachTally,
+    /// Each width of object, m, ascending.
+    pub widths: Vec<(f64, ReachTally)>,
     /// Every reach.
     pub reaches: Vec<ReachOutcome>,
 }
@@ -31,8 +38,12 @@ pub struct ReachTally {
     pub right_fraction: f64,
     /// Fraction for which the right goal stood at 20, 40, 60, 80 and 100 % of movement time.
     pub right_during_reach: [f64; 5],
-    /// Contact minus decision, ms, of all decisions: p5, p50, p95; `None` without decisions.
+    /// Contact minus decision, ms, of right ones: p5, p50, p95; `None` without any.
     pub lead_ms: Option<[i64; 3]>,
+    /// Fraction that the robot had decided to answer rightly (AEL) before contact.
+    pub answered_fraction: f64,
+    /// Contact minus the right answer's decision, ms: p5, p50, p95; `None` without any.
+    pub answer_lead_ms: Option<[i64; 3]>,
     /// Perception's onset minus the label, ms: p5, p50, p95.
     pub onset_ms: Option<[i64; 3]>,
     /// Reaches whose onset perception missed before contact.
@@ -40,13 +51,24 @@ pub struct ReachTally {
 }
 
 impl ReachesReport {
-    /// Counts the outcomes.
+    /// Counts the outcomes, which stand person by person, in the order in which their reaches were played.
     pub fn new(task: &str, goals: usize, reaches: Vec<ReachOutcome>) -> Self {
         let mut people: Vec<u32> = reaches.iter().map(|outcome| outcome.participant).collect();
         people.dedup();
-        let own = |person: u32| reaches.iter().filter(move |outcome| outcome.participant == person);
-        let people = people.into_iter().map(|person| (person, ReachTally::of(own(person)))).collect();
-        Self { task: task.to_owned(), goals, overall: ReachTally::of(reaches.iter()), people, reaches }
+        let mut widths: Vec<f64> = reaches.iter().map(|outcome| outcome.width).collect();
+        widths.sort_unstable_by(f64::total_cmp);
+        widths.dedup();
+        let of = |person: u32| reaches.iter().filter(move |outcome| outcome.participant == person);
+        let wide = |width: f64| reaches.iter().filter(move |outcome| outcome.width == width);
+        Self {
+            task: task.to_owned(),
+            goals,
+            overall: ReachTally::of(reaches.iter()),
+            first: ReachTally::of(people.iter().flat_map(|person| of(*person).take(FIRST))),
+            widths: widths.into_iter().map(|width| (width, ReachTally::of(wide(width)))).collect(),
+            people: people.into_iter().map(|person| (person, ReachTally::of(of(person)))).collect(),
+            reaches,
+        }
     }
 }
 
@@ -59,7 +81,10 @@ impl ReachTally {
         let stood = |at: usize| {
             outcomes.clone().filter(|outcome| outcome.right_during_reach[at] == Some(true)).count()
         };
-        let leads = outcomes.clone().filter_map(|outcome| outcome.decision.map(|decided| decided.lead_ms));
+        let leads = |of: fn(&ReachOutcome) -> Option<GoalDecision>| {
+            let decisions = outcomes.clone().filter_map(of).filter(|decision| decision.right);
+            percentiles(decisions.map(|decision| decision.lead_ms).collect())
+        };
         Self {
             reaches,
             right,
@@ -67,7 +92,9 @@ impl ReachTally {
             undecided,
             right_fraction: fraction(right),
             right_during_reach: std::array::from_fn::<_, { FRACTIONS.len() }, _>(|at| fraction(stood(at))),
-            lead_ms: percentiles(leads.collect()),
+            lead_ms: leads(|outcome| outcome.decision),
+            answered_fraction: fraction(outcomes.clone().filter(|outcome| outcome.is_answered()).count()),
+            answer_lead_ms: leads(|outcome| outcome.answer),
             onset_ms: percentiles(outcomes.clone().filter_map(|outcome| outcome.onset_ms).collect()),
             onset_missed: outcomes.filter(|outcome| outcome.onset_ms.is_none()).count(),
         }

@@ -1,12 +1,12 @@
-//! Anticipation as a table, one person a row.
+//! Anticipation as a table: one person, then one kind of reach, a row.
 
 use super::Measured;
 use super::real_time::RealTimeMetrics;
-use coact_reaches::ReachTally;
+use coact_reaches::{FIRST, ReachTally};
 use comfy_table::{CellAlignment, Table, presets};
 
-const COLUMNS: [&str; 12] = [
-    "person",
+const COLUMNS: [&str; 14] = [
+    "of",
     "reaches",
     "right",
     "wrong",
@@ -16,6 +16,8 @@ const COLUMNS: [&str; 12] = [
     "60 %",
     "80 %",
     "100 %",
+    "lead p5 p50 p95",
+    "answered",
     "lead p5 p50 p95",
     "onset p5 p50 p95",
 ];
@@ -31,11 +33,16 @@ pub(super) fn print(measured: &Measured, unseen: &str) {
         table.add_row(row(&format!("p{person}"), tally));
     }
     table.add_row(row("all", &report.overall));
+    table.add_row(row(&format!("first {FIRST} each"), &report.first));
+    for (width, tally) in &report.widths {
+        table.add_row(row(&format!("{:.0} mm wide", 1e3 * width), tally));
+    }
     table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
     println!("{table}");
     println!(
-        "right: decided before contact, of all reaches. 20 % ...: right goal standing at that part of movement time.\n\
-         lead: contact minus decision, ms. onset: perception's minus the label, ms."
+        "right: goal decided before contact (IL), of all reaches. 20 % ...: right goal standing at that part of movement time.\n\
+         answered: right action decided before contact (AEL). lead: contact minus right decision, ms. onset: perception's\n\
+         minus the label, ms."
     );
     for RealTimeMetrics { participant, cycles, missed, end_to_end_p99_ns, report, .. } in real_time {
         println!(
@@ -52,6 +59,7 @@ fn row(name: &str, tally: &ReachTally) -> Vec<String> {
     let mut cells = vec![name.to_owned(), tally.reaches.to_string(), percent(tally.right_fraction)];
     cells.extend([tally.wrong.to_string(), tally.undecided.to_string()]);
     cells.extend(tally.right_during_reach.map(percent));
-    cells.extend([spread(tally.lead_ms), spread(tally.onset_ms)]);
+    cells.push(spread(tally.lead_ms));
+    cells.extend([percent(tally.answered_fraction), spread(tally.answer_lead_ms), spread(tally.onset_ms)]);
     cells
 }
