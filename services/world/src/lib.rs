@@ -52,7 +52,7 @@ mod world;
 pub use error::WorldError;
 pub use hand_recording::HandRecording;
 pub use laid_out::laid_out;
-pub use replay::{METRES_PER_PIXEL, Replay, Span, has_part_for};
+pub use replay::{Replay, Span, has_part_for};
 pub use resume_error::ResumeError;
 pub use scenario::Scenario;
 pub use settings::{Partner, Settings};

@@ -1,8 +1,7 @@
 use crate::PersonError;
 use crate::hand_model::FOREARM;
 use crate::recorded_reach::RecordedReach;
-use coact_messages::KeypointName;
-use coact_recordings::{Reach, read_folder};
+use coact_recordings::{Reach, forearm, read_folder};
 use std::path::Path;
 
 /// Reaches of one recorded person, ready to drive the partner's hand.
@@ -46,7 +45,8 @@ impl RecordedReaches {
                 None => lacking("holds no reach; expected CSV files as in data/reaches"),
             });
         }
-        let scale = metres_per_pixel(&own)
+        let scale = forearm(&own)
+            .map(|length| FOREARM / length)
             .ok_or_else(|| lacking("shows no forearm at rest; expected elbow and wrist before the onset"))?;
         let reaches: Vec<_> = own.iter().filter_map(|reach| RecordedReach::new(reach, scale)).collect();
         if reaches.is_empty() {
@@ -70,19 +70,4 @@ impl RecordedReaches {
         let nearest = self.reaches.iter().map(distance).fold(f64::INFINITY, f64::min);
         (0..self.reaches.len()).filter(move |&index| distance(&self.reaches[index]) <= nearest + 1e-9)
     }
-}
-
-/// Scale that makes the person's forearm, as seen before the onsets, as long as the model's.
-fn metres_per_pixel(reaches: &[&Reach]) -> Option<f64> {
-    let before = reaches.iter().flat_map(|reach| &reach.frames).filter(|frame| frame.time < 0.0);
-    let mut lengths: Vec<f64> = before
-        .filter_map(|frame| {
-            let (elbow, wrist) =
-                (frame.joints[KeypointName::Elbow as usize], frame.joints[KeypointName::Wrist as usize]);
-            (elbow.confidence > 0.0 && wrist.confidence > 0.0)
-                .then(|| (elbow.x - wrist.x).hypot(elbow.y - wrist.y))
-        })
-        .collect();
-    lengths.sort_by(f64::total_cmp);
-    lengths.get(lengths.len() / 2).filter(|length| **length > 1.0).map(|length| FOREARM / length)
 }

@@ -44,7 +44,7 @@ pub use body_recording::{BodyFrame, BodyRecording};
 pub use coact_messages::ArmSide;
 pub use error::RecordingError;
 pub use order::Order;
-pub use reach::{Frame, ImagePoint, Reach, Size};
+pub use reach::{Frame, ImagePoint, Reach, Size, forearm};
 pub use read::{JOINTS, read_file, read_folder};
 pub use way::Way;
 pub use way_kind::WayKind;

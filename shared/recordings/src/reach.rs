@@ -1,3 +1,5 @@
+use coact_messages::KeypointName;
+
 /// Size of the cube that was reached for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Size {
@@ -57,4 +59,20 @@ pub struct Reach {
     pub movement_time: f64,
     /// Frames in the order of time.
     pub frames: Vec<Frame>,
+}
+
+/// Length of one person's forearm in the image, pixels: the median of how it is first seen in each reach, at rest. `None` where it never is.
+///
+/// It tells the image's scale: how far the person sat from the camera, nobody wrote down.
+pub fn forearm(reaches: &[&Reach]) -> Option<f64> {
+    let first = |reach: &&Reach| reach.frames.iter().find_map(forearm_in);
+    let mut lengths: Vec<f64> = reaches.iter().filter_map(first).collect();
+    lengths.sort_unstable_by(f64::total_cmp);
+    lengths.get(lengths.len() / 2).copied().filter(|length| *length > 1.0)
+}
+
+fn forearm_in(frame: &Frame) -> Option<f64> {
+    let [elbow, wrist] = [KeypointName::Elbow, KeypointName::Wrist].map(|joint| frame.joints[joint as usize]);
+    let found = elbow.confidence > 0.0 && wrist.confidence > 0.0;
+    found.then(|| (elbow.x - wrist.x).hypot(elbow.y - wrist.y))
 }

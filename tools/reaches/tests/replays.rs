@@ -6,8 +6,10 @@ use coact_perception::PreshapeModel;
 use coact_reaches::{Evaluation, ReachOutcome, ReachesReport, model_file, train};
 use coact_recordings::{Frame, ImagePoint, Order, Reach, Size};
 use coact_robot::Robot;
-use coact_world::METRES_PER_PIXEL;
 use std::path::PathBuf;
+
+/// Scale of the made-up images: a forearm is 0.26 m long in them.
+const METRES_PER_PIXEL: f64 = 0.008;
 
 fn configuration(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../rt-config").join(file)

@@ -24,6 +24,11 @@ impl Counts {
         self.weight += responsibility;
         self.sum += responsibility * at;
     }
+
+    /// How many reaches were of this class.
+    pub fn weight(&self, class: usize) -> f64 {
+        self.weight[class]
+    }
 }
 
 impl Hierarchy {

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! all Gaussian, with covariances learned from other people. For the person at hand, the mixture of all classes is
-//! fitted to the reaches so far, whose sizes nobody tells: their responsibilities and the person's own class means,
-//! by expectation maximisation under the learned priors. Everything happens along Fisher's discriminant.
+//! fitted to the reaches so far, whose sizes nobody tells: their responsibilities, the classes' shares and the person's own
+//! class means, by expectation maximisation under the learned priors. Everything happens along Fisher's discriminant.
 
 mod blend;
 mod classifier;

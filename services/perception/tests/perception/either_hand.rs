@@ -51,7 +51,7 @@ fn a_reach_of_the_left_hand_is_understood_as_one_of_the_right_and_so_is_what_it_
     assert!(stage.percept.person_holds[kind] < 0.1 && stage.act(act) < 0.1 && stage.act(Act::Rest) > 0.9);
     // And the other one again.
     let wheel = stage.part("wheel");
-    stage.move_to(stage.grasping(wheel, TOP), 700, |_| {});
+    stage.move_to(stage.grasping(wheel, TOP).open(), 700, |_| {});
     assert_eq!(acting(&stage.percept), ArmSide::Right);
     let act = Act::Grasp { grip: TOP, kind: stage.kind("wheel") };
     assert!(stage.act(act) > 0.8, "{:.2}", stage.act(act));

@@ -1,16 +1,19 @@
 use coact_joint_task::Task;
 use coact_messages::{HandView, Keypoint, SceneView, Sighting};
-use coact_recordings::{Frame, ImagePoint, Reach};
+use coact_recordings::{Frame, ImagePoint, Reach, forearm};
 
-/// Scale that the recordings' pixels are given: it makes the median forearm 0.26 m long. One number for all people:
-/// perception has to cope with what is left of their differences.
-pub const METRES_PER_PIXEL: f64 = 0.008;
+/// How long everybody's forearm is taken to be, m: an image has no scale of its own, and people sat nearer to the camera or farther
+/// from it.
+const FOREARM: f64 = 0.26;
+/// Scale where nobody saw it, metres per pixel: that of the median person of the shipped recordings.
+const USUAL_SCALE: f64 = 0.008;
 
 /// Shows one person's reaches as the robot's sensors would: the image lies flat in space, and the hand begins where
 /// the task has it rest.
 pub(crate) struct Camera {
     /// Where the hand rests, m.
     rest: [f64; 3],
+    metres_per_pixel: f64,
     /// Every part that the task lays out, in the one place where the person's objects lay. Only the hand's shape tells
     /// which is meant.
     parts: Vec<Sighting>,
@@ -20,7 +23,8 @@ impl Camera {
     /// For the reaches of one person.
     pub fn new(task: &Task, person: &[&Reach]) -> Self {
         let rest = task.scene.person_rest;
-        let [right, down] = object_place(person).map(|pixels| pixels * METRES_PER_PIXEL);
+        let metres_per_pixel = forearm(person).map_or(USUAL_SCALE, |length| FOREARM / length);
+        let [right, down] = object_place(person).map(|pixels| pixels * metres_per_pixel);
         let seen = |kind: usize| Sighting {
             kind: kind as u32,
             reserved: 0,
@@ -28,7 +32,7 @@ impl Camera {
             position: [rest[0] + right, rest[1] + down, task.scene.table_height],
             orientation: [0.0, 0.0, 0.0, 1.0],
         };
-        Self { rest, parts: task.parts.iter().map(|part| seen(part.kind)).collect() }
+        Self { rest, metres_per_pixel, parts: task.parts.iter().map(|part| seen(part.kind)).collect() }
     }
 
     /// What the hand tracker makes of one frame, of a reach that begins with the wrist at `origin`, pixels.
@@ -36,8 +40,8 @@ impl Camera {
         let [x, y, z] = self.rest;
         view.keypoints = frame.joints.map(|joint| Keypoint {
             position: [
-                x + (joint.x - origin[0]) * METRES_PER_PIXEL,
-                y + (joint.y - origin[1]) * METRES_PER_PIXEL,
+                x + (joint.x - origin[0]) * self.metres_per_pixel,
+                y + (joint.y - origin[1]) * self.metres_per_pixel,
                 z,
             ],
             confidence: joint.confidence.min(1.0),

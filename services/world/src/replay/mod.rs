@@ -3,7 +3,6 @@
 mod camera;
 mod span;
 
-pub use camera::METRES_PER_PIXEL;
 pub use span::Span;
 
 use crate::world::parked;
