@@ -24,7 +24,11 @@ pub struct PersonLimits {
     pub radii: [f64; 3],
     /// Length of a hand of which only the wrist is known, m.
     pub hand_length: f64,
-    /// Length of the hand from the wrist to the finger tips, m.
+    /// How far the elbow may be from the shoulder, m.
+    pub upper_arm_reach: f64,
+    /// How far the wrist may be from the elbow, m.
+    pub forearm_reach: f64,
+    /// How far the finger tips may be from the wrist, m.
     pub hand_reach: f64,
     /// Length of the arm from the shoulder to the finger tips, m.
     pub reach: f64,

@@ -48,16 +48,26 @@ impl ArmCapsules {
             limb.now.radius = radius;
         }
         let is_seen = |joint: &TrackedPoint| joint.age <= cycles(stale.hand_after);
-        let (arm_goes_on, hand_goes_on) =
-            ((limits.reach, limits.walking_speed), (limits.hand_reach, limits.hand_speed));
-        if is_seen(&shoulder) {
-            for limb in [&mut upper_arm, &mut forearm, &mut hand].into_iter().filter(|limb| !limb.is_seen) {
-                limb.bound = Some(ArmBound::of(&shoulder, arm_goes_on, &limb.now, limits));
-            }
-        }
-        // Fingers that something hides are where the wrist is.
-        if is_seen(&wrist) && !hand.is_seen {
-            hand.bound = Some(ArmBound::of(&wrist, hand_goes_on, &hand.now, limits));
+        // What is not seen is not farther from the nearest joint that is than the arm goes on from there.
+        let (walks, reaches) = (limits.walking_speed, limits.hand_speed);
+        let below_elbow = limits.forearm_reach + limits.hand_reach;
+        let goes_on: [&[(TrackedPoint, f64, f64)]; 3] = [
+            &[(shoulder, limits.upper_arm_reach, walks)],
+            &[
+                (wrist, limits.forearm_reach, reaches),
+                (elbow, limits.forearm_reach, reaches),
+                (shoulder, limits.reach, walks),
+            ],
+            &[
+                (wrist, limits.hand_reach, reaches),
+                (elbow, below_elbow, reaches),
+                (shoulder, limits.reach, walks),
+            ],
+        ];
+        for (limb, joints) in [&mut upper_arm, &mut forearm, &mut hand].into_iter().zip(goes_on) {
+            let seen = joints.iter().find(|(joint, ..)| !limb.is_seen && is_seen(joint));
+            limb.bound =
+                seen.map(|(joint, long, most)| ArmBound::of(joint, (*long, *most), &limb.now, limits));
         }
         // The robot's fingers reach around a part to the wrist, where the forearm ends.
         (forearm.hands_over, hand.hands_over) = (true, true);
@@ -210,7 +220,7 @@ mod tests {
         for (wrist_age, stays) in [(10, true), (10_000, false)] {
             let arm = PersonArm {
                 shoulder: at(-0.3, 10),
-                elbow: at(-0.15, 10),
+                elbow: at(-0.15, wrist_age),
                 wrist: at(0.0, wrist_age),
                 fingertip: at(0.18, 10_000),
                 ..bytemuck::Zeroable::zeroed()
@@ -229,6 +239,38 @@ mod tests {
             assert!(!held.is_bound_away_from(&beside(0.55), 0.05, 0.2));
             assert_eq!(held.is_bound_away_from(&beside(0.9), 0.05, 0.2), stays, "{wrist_age}");
         }
+    }
+
+    #[test]
+    fn an_elbow_that_something_hides_is_near_the_shoulder_and_near_the_wrist() {
+        let limits = safety_limits();
+        let at = |x, age| TrackedPoint { position: [x, 0.0, 0.0], age, still: 10_000, ..point() };
+        let arm = |ages: [u64; 4]| {
+            let [shoulder, elbow, wrist, fingertip] =
+                [(-0.3, ages[0]), (-0.15, ages[1]), (0.0, ages[2]), (0.18, ages[3])]
+                    .map(|(x, age)| at(x, age));
+            let arm = PersonArm { shoulder, elbow, wrist, fingertip, ..bytemuck::Zeroable::zeroed() };
+            ArmCapsules::of(&arm, 0, &limits.person, &limits.stale).unwrap().limbs
+        };
+        let away_from = |limb: &BodyPart, x: f64| {
+            let at = Point3::new(x, 0.0, 0.0);
+            let robot = Capsule { start: at, end: at, radius: 0.05 };
+            limb.is_bound_away_from(&robot, 0.05, 0.2)
+        };
+        let (seen, hidden) = (10, 10_000);
+        // Somebody at arm's length of the shoulder: each limb may be near what it hangs on, not where the whole arm reaches.
+        let [upper_arm, forearm, hand] = arm([seen, hidden, seen, seen]);
+        assert!(hand.is_seen && !upper_arm.is_seen && !forearm.is_seen);
+        assert!(away_from(&upper_arm, 0.4) && !away_from(&upper_arm, 0.15));
+        assert!(away_from(&forearm, 0.6) && !away_from(&forearm, 0.35));
+        // Of a hand that only its elbow tells of, as far as forearm and hand reach.
+        let [_, forearm, hand] = arm([hidden, seen, hidden, hidden]);
+        assert!(away_from(&forearm, 0.45) && !away_from(&forearm, 0.2));
+        assert!(away_from(&hand, 0.7) && !away_from(&hand, 0.5));
+        // Of an arm of which only the shoulder is seen, as far as it all reaches; of one that nobody sees, nothing is known.
+        let [_, forearm, hand] = arm([seen, hidden, hidden, hidden]);
+        assert!([forearm, hand].iter().all(|limb| away_from(limb, 0.8) && !away_from(limb, 0.55)));
+        assert!(arm([hidden; 4]).iter().all(|limb| !away_from(limb, 5.0)));
     }
 
     #[test]

@@ -23,7 +23,7 @@ pub(crate) struct BodyPart {
     /// Its speed, m/s, as far as it is known.
     pub(super) speed: f64,
     pub(super) growth: Growth,
-    /// Where the arm's length binds it to, while the shoulder is seen and it is not.
+    /// Where the arm's length binds it to, while some joint that it hangs on is seen and it is not.
     pub(super) bound: Option<ArmBound>,
     /// Whether it may take or give a part in a handover.
     pub hands_over: bool,
