@@ -24,7 +24,7 @@ impl Person {
         index.get().and_then(|index| recorded.reaches.get(index))
     }
 
-    /// The hand that makes a movement as `reach` was made, `None` while the recording shows nothing.
+    /// The hand that makes a movement as `reach` was made, `None` where it has begun or ended outside the recording.
     pub(crate) fn recorded_pose(
         &self,
         reach: &RecordedReach,
@@ -44,6 +44,24 @@ impl Person {
 
     /// What a tracker of the recorded person would report at `tick`; `None` when the model alone shapes the hand.
     pub fn recorded_keypoints(&self, state: &PersonState, tick: u64) -> Option<[Keypoint; 9]> {
+        let (frame, fraction) = self.recorded_frame(state, tick)?;
+        let Some(frame) = frame else { return Some([Keypoint::default(); 9]) };
+        let places = self.shaped(state, &frame, fraction);
+        Some(std::array::from_fn(|joint| match frame.confidence[joint] {
+            confidence if confidence > 0.0 => Keypoint { position: places[joint].into(), confidence },
+            _ => Keypoint::default(),
+        }))
+    }
+
+    /// Where the recorded person's joints are at `tick`, seen or not: those that the recording has lost are where it has seen them last against the
+    /// wrist. `None` when the model alone shapes the hand.
+    pub fn recorded_joints(&self, state: &PersonState, tick: u64) -> Option<[DVec3; 9]> {
+        let (frame, fraction) = self.recorded_frame(state, tick)?;
+        Some(self.shaped(state, &frame?, fraction))
+    }
+
+    /// What the recording has of the hand at `tick`, if anything, and how much of its shape is the recorded one's.
+    fn recorded_frame(&self, state: &PersonState, tick: u64) -> Option<(Option<RecordedFrame>, f64)> {
         let reach = self.recording(state)?;
         let begins = state.movement.onset;
         let turned = state.turn.begun > 0;
@@ -53,15 +71,11 @@ impl Person {
             _ if turned => (state.grasped.saturating_sub(reach.movement_time), trail(state, tick)),
             _ => (state.onset + state.hesitation.delay(), trail(state, tick)),
         };
-        if fraction <= 0.0 {
-            return None;
-        }
-        let lost = [Keypoint::default(); 9];
         let frame = match state.phase() {
             ActivityPhase::Reach if turned => self.turning_frame(state, tick),
             _ => reach.at((state.hesitation.time(tick) - onset as f64) * PERIOD_S),
         };
-        Some(frame.map_or(lost, |frame| self.shaped(state, &frame, fraction)))
+        (fraction > 0.0).then_some((frame, fraction))
     }
 
     /// What the recordings of both movements of a reach that has turned show at `tick`. The fingers go over from the first one's shape to the
@@ -87,18 +101,14 @@ impl Person {
     }
 
     /// The recorded shape of the hand in the plane of its pose, mixed with the model's: this `fraction` is recorded.
-    fn shaped(&self, state: &PersonState, frame: &RecordedFrame, fraction: f64) -> [Keypoint; 9] {
+    fn shaped(&self, state: &PersonState, frame: &RecordedFrame, fraction: f64) -> [DVec3; 9] {
         let (arm, pose) = (self.arm(state), &state.hand);
         let modelled = arm.keypoints(pose);
         let (ahead, aside, wrist) = (arm.direction(pose), arm.thumb_side(pose), pose.wrist());
         std::array::from_fn(|joint| {
-            if frame.confidence[joint] <= 0.0 {
-                return Keypoint::default();
-            }
             let on_arm = joint == KeypointName::Shoulder as usize || joint == KeypointName::Elbow as usize;
             let shown = wrist + frame.shape[joint].x * ahead + frame.shape[joint].y * aside;
-            let place = if on_arm { modelled[joint] } else { modelled[joint].lerp(shown, fraction.min(1.0)) };
-            Keypoint { position: place.into(), confidence: frame.confidence[joint] }
+            if on_arm { modelled[joint] } else { modelled[joint].lerp(shown, fraction.min(1.0)) }
         })
     }
 }

@@ -75,17 +75,17 @@ impl RecordedReach {
         Some(Self { width: reach.size.width(), movement_time, centre, frames })
     }
 
-    /// What the recording shows `time` s after onset, between its frames; `None` where frames are lost.
+    /// The hand `time` s after onset, between the recording's frames; where frames are lost, no joint is seen. `None` before the first frame and
+    /// after the last.
     pub fn at(&self, time: f64) -> Option<RecordedFrame> {
         let next = self.frames.partition_point(|frame| frame.time <= time);
         let before = self.frames.get(next.checked_sub(1)?)?;
         let after = self.frames.get(next)?;
         let gap = after.time - before.time;
-        if gap > LOST {
-            return None;
-        }
         let along = ((time - before.time) / gap.max(1e-9)).clamp(0.0, 1.0);
-        Some(RecordedFrame { time, ..before.mixed_with(after, along) })
+        let mixed = before.mixed_with(after, along);
+        let confidence = if gap > LOST { [0.0; 9] } else { mixed.confidence };
+        Some(RecordedFrame { time, confidence, ..mixed })
     }
 }
 

@@ -118,24 +118,23 @@ impl World {
         if self.person.is_unknown(person, tick) {
             return [[[0.0; 3]; 4]; 2];
         }
-        let acting = match self.person.recorded_keypoints(person, tick) {
-            Some(recorded) => recorded.map(|point| point.position),
-            None => self.person.keypoints(person, tick).map(|point| point.to_array()),
+        let (acting, tip) = match self.person.recorded_joints(person, tick) {
+            // Nobody points in the recordings.
+            Some(recorded) => (recorded, KeypointName::MiddleTip),
+            None => with_longest_finger(self.person.keypoints(person, tick)),
         };
-        let resting = self.person.resting_keypoints(person, tick).map(|point| point.to_array());
+        let (resting, resting_tip) = with_longest_finger(self.person.resting_keypoints(person, tick));
         ArmSide::BOTH.map(|side| {
-            let points = if side == person.side { &acting } else { &resting };
-            [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist, longest_finger(points)]
-                .map(|name| points[name as usize])
+            let (points, tip) = if side == person.side { (&acting, tip) } else { (&resting, resting_tip) };
+            [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist, tip]
+                .map(|name| points[name as usize].into())
         })
     }
 }
 
-/// The finger that reaches farthest from the wrist: the middle one, unless the index is stretched out alone.
-fn longest_finger(points: &[[f64; 3]; 9]) -> KeypointName {
-    let reach = |name: KeypointName| {
-        DVec3::from(points[name as usize]).distance(points[KeypointName::Wrist as usize].into())
-    };
+/// An arm, and the finger that reaches farthest from its wrist: the middle one, unless the index is stretched out alone.
+fn with_longest_finger(points: [DVec3; 9]) -> ([DVec3; 9], KeypointName) {
+    let reach = |name: KeypointName| points[name as usize].distance(points[KeypointName::Wrist as usize]);
     let (index, middle) = (KeypointName::IndexTip, KeypointName::MiddleTip);
-    if reach(index) > reach(middle) { index } else { middle }
+    (points, if reach(index) > reach(middle) { index } else { middle })
 }

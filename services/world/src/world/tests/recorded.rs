@@ -77,6 +77,7 @@ fn run(partner: Partner, reaches: Option<RecordedReaches>) -> (Vec<u64>, f64, u6
         let before = *out.truth;
         let frame = out.sample.hands[0].frame;
         robot.step(tick, &mut world, &mut out);
+        assert!(tick == 1 || most_gone(&before.arms, &out.truth.arms) < 0.02, "an arm is torn at {tick}");
         let grasped = out.truth.grasp_cycle != before.grasp_cycle && out.truth.grasp_cycle > 0;
         if grasped && let Some(part) = world.simulation.person.held.get() {
             times.push(out.truth.grasp_cycle - out.truth.onset_cycle);
@@ -94,6 +95,12 @@ fn run(partner: Partner, reaches: Option<RecordedReaches>) -> (Vec<u64>, f64, u6
         }
     }
     (times, lost / frames, out.truth.assemblies)
+}
+
+/// How far a joint of the arms has gone that has gone farthest, m.
+fn most_gone(before: &[[[f64; 3]; 4]; 2], now: &[[[f64; 3]; 4]; 2]) -> f64 {
+    let joints = before.as_flattened().iter().zip(now.as_flattened());
+    joints.map(|(before, now)| DVec3::from(*before).distance((*now).into())).fold(0.0, f64::max)
 }
 
 #[test]
