@@ -3,7 +3,7 @@
 
 use coact_messages::{ARM_JOINTS, SensorSample, topic};
 use coact_realtime::{Bus, Input};
-use coact_run_records::SupervisorEventKind;
+use coact_run_records::{SupervisorEvent, SupervisorEventKind};
 use coact_tests::{Launched, coact, wait_for};
 use rustix::process::Signal;
 use std::process::Command;
@@ -45,11 +45,13 @@ fn a_frozen_planner_is_replaced_and_the_arm_moves_afterwards() {
     wait_for_a_fast_arm(&mut samples);
     launched.signal(Signal::TERM);
     let finished = launched.finish();
-    let deaths = finished.supervisor.iter().filter(|event| event.event == SupervisorEventKind::Died);
-    let [death] = deaths.collect::<Vec<_>>()[..] else { panic!("{:?}", finished.supervisor) };
-    assert_eq!((death.process.as_str(), death.fault.as_deref()), ("control", Some("freeze-planner")));
+    finished.only_died(&["control"]);
+    let died =
+        |event: &&SupervisorEvent| event.event == SupervisorEventKind::Died && event.process == "control";
+    let death = finished.supervisor.iter().find(died).unwrap();
+    assert_eq!(death.fault.as_deref(), Some("freeze-planner"));
     assert_eq!(death.reason.as_deref(), Some("ended by itself, because a thread of it hung"));
     assert!(finished.stderr.contains("the thread \"planner\" hangs"), "{}", finished.stderr);
-    let [fault] = finished.summary().faults.as_slice() else { panic!("{:?}", finished.summary().faults) };
+    let fault = finished.summary().faults.iter().find(|fault| fault.process == "control").unwrap();
     assert!(fault.detected_ms.is_some() && fault.recovered_ms.is_some(), "{fault:?}");
 }
