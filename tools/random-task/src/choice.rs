@@ -1,4 +1,4 @@
-use crate::random_task::Subgoal;
+use crate::subgoal::Subgoal;
 use rand::RngExt;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg32;

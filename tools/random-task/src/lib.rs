@@ -18,6 +18,7 @@ mod choice;
 mod places;
 mod random_task;
 mod shape_error;
+mod subgoal;
 mod task_shape;
 
 pub use random_task::RandomTask;

@@ -1,6 +1,7 @@
 use crate::TaskShape;
 use crate::choice::{self, Choice};
 use crate::places::{part_places, tower_places};
+use crate::subgoal::{Socket, Subgoal};
 use coact_joint_task::Agent;
 use rand::seq::{IndexedMutRandom, SliceRandom, index};
 use rand::{RngExt, SeedableRng};
@@ -38,20 +39,6 @@ struct Part {
     kind: String,
     workspace: &'static str,
     at: [f64; 2],
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Subgoal {
-    pub(crate) name: String,
-    kind: String,
-    side: &'static str,
-    pub(crate) socket: Socket,
-    pub(crate) after: Vec<String>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(crate) struct Socket {
-    pub(crate) at: [f64; 3],
 }
 
 /// A tower that grows: the parts in it, from below, by their steps.
