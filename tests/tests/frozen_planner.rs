@@ -52,6 +52,7 @@ fn a_frozen_planner_is_replaced_and_the_arm_moves_afterwards() {
     assert_eq!(death.fault.as_deref(), Some("freeze-planner"));
     assert_eq!(death.reason.as_deref(), Some("ended by itself, because a thread of it hung"));
     assert!(finished.stderr.contains("the thread \"planner\" hangs"), "{}", finished.stderr);
-    let fault = finished.summary().faults.iter().find(|fault| fault.process == "control").unwrap();
+    let of_control = finished.summary().faults.iter().filter(|fault| fault.process == "control");
+    let [fault] = of_control.collect::<Vec<_>>()[..] else { panic!("{:?}", finished.summary().faults) };
     assert!(fault.detected_ms.is_some() && fault.recovered_ms.is_some(), "{fault:?}");
 }

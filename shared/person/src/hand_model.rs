@@ -8,7 +8,7 @@ use glam::DVec3;
 /// Upper arm and forearm of an adult, m (Winter 2009, for 1.70 m of stature).
 pub(crate) const UPPER_ARM: f64 = 0.31;
 /// Elbow to wrist of the same adult, m; recordings are scaled to this length.
-pub(crate) const FOREARM: f64 = 0.26;
+pub const FOREARM: f64 = 0.26;
 /// How far the index finger is beside the line from the wrist to the middle finger, and how long it is, m; and how far the tips of folded
 /// fingers are from the wrist: of the same adult's hand.
 const INDEX_ASIDE: f64 = 0.025;

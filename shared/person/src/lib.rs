@@ -95,7 +95,7 @@ pub use activity::Activity;
 pub use activity_phase::ActivityPhase;
 pub use error::PersonError;
 pub use habits::Habits;
-pub use hand_model::HandModel;
+pub use hand_model::{FOREARM, HandModel};
 pub use hand_movement::HandMovement;
 pub use hand_pose::HandPose;
 pub use hesitation::Hesitation;

@@ -71,11 +71,14 @@ impl Person {
             _ if turned => (state.grasped.saturating_sub(reach.movement_time), trail(state, tick)),
             _ => (state.onset + state.hesitation.delay(), trail(state, tick)),
         };
+        if fraction <= 0.0 {
+            return None;
+        }
         let frame = match state.phase() {
             ActivityPhase::Reach if turned => self.turning_frame(state, tick),
             _ => reach.at((state.hesitation.time(tick) - onset as f64) * PERIOD_S),
         };
-        (fraction > 0.0).then_some((frame, fraction))
+        Some((frame, fraction))
     }
 
     /// What the recordings of both movements of a reach that has turned show at `tick`. The fingers go over from the first one's shape to the

@@ -51,21 +51,22 @@ impl ArmCapsules {
         // What is not seen is not farther from the nearest joint that is than the arm goes on from there.
         let (walks, reaches) = (limits.walking_speed, limits.hand_speed);
         let below_elbow = limits.forearm_reach + limits.hand_reach;
-        let goes_on: [&[(TrackedPoint, f64, f64)]; 3] = [
-            &[(shoulder, limits.upper_arm_reach, walks)],
+        let goes_on: [&[(&TrackedPoint, f64, f64)]; 3] = [
+            &[(&shoulder, limits.upper_arm_reach, walks)],
             &[
-                (wrist, limits.forearm_reach, reaches),
-                (elbow, limits.forearm_reach, reaches),
-                (shoulder, limits.reach, walks),
+                (&wrist, limits.forearm_reach, reaches),
+                (&elbow, limits.forearm_reach, reaches),
+                (&shoulder, limits.reach, walks),
             ],
             &[
-                (wrist, limits.hand_reach, reaches),
-                (elbow, below_elbow, reaches),
-                (shoulder, limits.reach, walks),
+                (&wrist, limits.hand_reach, reaches),
+                (&elbow, below_elbow, reaches),
+                (&shoulder, limits.reach, walks),
             ],
         ];
-        for (limb, joints) in [&mut upper_arm, &mut forearm, &mut hand].into_iter().zip(goes_on) {
-            let seen = joints.iter().find(|(joint, ..)| !limb.is_seen && is_seen(joint));
+        let limbs = [&mut upper_arm, &mut forearm, &mut hand].into_iter().zip(goes_on);
+        for (limb, joints) in limbs.filter(|(limb, _)| !limb.is_seen) {
+            let seen = joints.iter().find(|(joint, ..)| is_seen(joint));
             limb.bound =
                 seen.map(|(joint, long, most)| ArmBound::of(joint, (*long, *most), &limb.now, limits));
         }

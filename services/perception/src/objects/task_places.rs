@@ -177,8 +177,8 @@ impl TaskPlaces {
         let away = |part: &PartTrack| (Vector3::from(socket) - Vector3::from(part.position)).norm();
         let own = parts.parts().filter(|(own, _)| *own == kind);
         let mounted = |part: &PartTrack| away(part) < IN_PLACE && part.has_settled(followed);
-        let achieved = own.clone().find(|(_, part)| mounted(part)).map(|(_, part)| part);
-        let rise = if achieved.is_some_and(|part| !part.is_put_by_robot()) { ACHIEVES } else { RAMP };
+        let achieved = own.clone().find(|(_, part)| mounted(part));
+        let rise = if achieved.is_some_and(|(_, part)| !part.is_put_by_robot()) { ACHIEVES } else { RAMP };
         let empty =
             !own.clone().any(|(_, part)| away(part) < EMPTY) && !sight.hides(socket, self.size(kind).height);
         approach(&mut out.achieved[goal], achieved.is_some(), rise);

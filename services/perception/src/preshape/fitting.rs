@@ -90,7 +90,7 @@ impl Fitting {
             self.mixture = start(done / SWEEPS, whole, possible, person);
         }
         let mut counts = Counts::default();
-        let mut score = self.mixture.prior(whole, possible);
+        let mut score = self.mixture.prior(whole);
         for reach in person.past() {
             let (responsibility, evidence) = self.mixture.responsibilities(whole, reach.whole);
             counts.add(&responsibility, reach.whole);
@@ -129,8 +129,8 @@ impl Mixture {
     }
 
     /// Logarithm of how likely such a person is beforehand, up to a constant.
-    fn prior(&self, whole: &Hierarchy, possible: [bool; CLASSES]) -> f64 {
-        let shares: f64 = (0..CLASSES).filter(|class| possible[*class]).map(|class| self.shares[class]).sum();
+    fn prior(&self, whole: &Hierarchy) -> f64 {
+        let shares: f64 = self.shares.iter().filter(|share| share.is_finite()).sum();
         whole.prior(&Vector3::from(self.means)) + PRIOR_REACHES * shares
     }
 }

@@ -1,10 +1,8 @@
 use coact_joint_task::Task;
 use coact_messages::{HandView, Keypoint, SceneView, Sighting};
+use coact_person::FOREARM;
 use coact_recordings::{Frame, ImagePoint, Reach, forearm};
 
-/// How long everybody's forearm is taken to be, m: an image has no scale of its own, and people sat nearer to the camera or farther
-/// from it.
-const FOREARM: f64 = 0.26;
 /// Scale where nobody saw it, metres per pixel: that of the median person of the shipped recordings.
 const USUAL_SCALE: f64 = 0.008;
 
@@ -13,6 +11,7 @@ const USUAL_SCALE: f64 = 0.008;
 pub(crate) struct Camera {
     /// Where the hand rests, m.
     rest: [f64; 3],
+    /// Scale of the image, which has none of its own: the one that makes the person's forearm as long as the simulated person's.
     metres_per_pixel: f64,
     /// Every part that the task lays out, in the one place where the person's objects lay. Only the hand's shape tells
     /// which is meant.
