@@ -7,6 +7,7 @@
     tools/watch-layer.py AEL                live bars, until Ctrl-C
     tools/watch-layer.py AEL --png ael.png  a picture of the newest frame
     tools/watch-layer.py destination        where on the table the person's hand is going (--png as well)
+    tools/watch-layer.py grip               in which grip it takes, or holds, a part (--png as well)
 
 It is also an example of a client in another language. What such a client needs to know:
 
@@ -30,15 +31,16 @@ It is also an example of a client in another language. What such a client needs 
 import argparse
 import ctypes
 import json
+import math
 import sys
 import tempfile
 import time
 from pathlib import Path
 
-LAYOUT = 13
-MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, MAX_PLACES = 16, 1216, 12160, 4096
+LAYOUT = 14
+MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, MAX_PLACES, MAX_GRIP_SITES = 16, 1216, 12160, 4096, 1024
 NONE = 0xFFFF_FFFF
-DESTINATION = "destination"
+DESTINATION, GRIP = "destination", "grip"
 LAYERS = ["AOL", "OML-robot", "OML-person", "CSGL-achieved", "CSGL-available", "ASL", "IL", "EML", "AEL"]
 
 EXAMPLES = """Examples:
@@ -46,6 +48,7 @@ EXAMPLES = """Examples:
   tools/watch-layer.py AEL                live bars, until Ctrl-C
   tools/watch-layer.py AEL --png ael.png  a picture of the newest frame
   tools/watch-layer.py destination        where on the table the person's hand is going (--png as well)
+  tools/watch-layer.py grip               in which grip it takes, or holds, a part (--png as well)
 
 Needs: pip install iceoryx2==0.10.0 (and matplotlib, for --png)"""
 
@@ -84,10 +87,10 @@ class Decision(ctypes.Structure):
     _fields_ = [("action", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("since", ctypes.c_uint64)]
 
 
-class TableGrid(ctypes.Structure):
-    """Where the sites of the destination field lie: row after row along x, the sites of a row along y."""
+class SiteGrid(ctypes.Structure):
+    """Where the sites of a field of two dimensions lie: row after row along the first axis, the sites of a row along the second."""
 
-    _fields_ = [("first", ctypes.c_double * 2), ("spacing", ctypes.c_double), ("sites", ctypes.c_uint32 * 2)]
+    _fields_ = [("first", ctypes.c_double * 2), ("spacing", ctypes.c_double * 2), ("sites", ctypes.c_uint32 * 2)]
 
 
 class FieldFrame(ctypes.Structure):
@@ -98,7 +101,8 @@ class FieldFrame(ctypes.Structure):
         ("task", ctypes.c_uint64),
         ("noise_seed", ctypes.c_uint64),
         ("layers", LayerTable),
-        ("table", TableGrid),
+        ("table", SiteGrid),
+        ("shapes", SiteGrid),
         ("decision", Decision),
         ("activity", ctypes.c_double * MAX_SITES),
         ("input", ctypes.c_double * MAX_SITES),
@@ -106,6 +110,7 @@ class FieldFrame(ctypes.Structure):
         ("signal", ctypes.c_double * MAX_POPULATIONS),
         ("since", ctypes.c_uint64 * MAX_POPULATIONS),
         ("destination", ctypes.c_double * MAX_PLACES),
+        ("grip", ctypes.c_double * MAX_GRIP_SITES),
         ("checksum", ctypes.c_uint64),
     ]
 
@@ -194,33 +199,48 @@ def bars(frame, name, sites, populations):
     return lines
 
 
-def destination(frame):
-    """Activity of the destination field, row after row along x."""
-    along_x, along_y = frame.table.sites
-    return [list(frame.destination[row * along_y : (row + 1) * along_y]) for row in range(along_x)]
+# Of each field that selects: its grid, its axes' names, and what their units are of those on the screen.
+SELECTS = {
+    DESTINATION: ("table", ("x [m]", "y [m]"), (1, 1)),
+    GRIP: ("shapes", ("pitch [degrees]", "width [mm]"), (math.degrees(1), 1000)),
+}
 
 
-def table(frame):
-    """The destination field seen from the person: active sites in four shades."""
+def rows(frame, field):
+    """Activity of a field that selects, row after row along its first axis."""
+    along_first, along_second = getattr(frame, SELECTS[field][0]).sites
+    activity = getattr(frame, field)
+    return [list(activity[row * along_second : (row + 1) * along_second]) for row in range(along_first)]
+
+
+def selection(frame, field):
+    """A field that selects: active sites in four shades."""
     shades = " ░▒▓█"
-    rows = destination(frame)
-    least = min(min(row) for row in rows)
+    _, (upwards, rightwards), _ = SELECTS[field]
+    sites = rows(frame, field)
+    least = min(min(row) for row in sites)
     shade = lambda u: shades[0 if u < least / 2 else 1 if u < least / 4 else 2 if u < 0 else 3 if u < -least / 2 else 4]
-    lines = [f"destination field, cycle {frame.header.cycle}; x grows upwards, y to the right"]
-    return lines + ["".join(shade(u) for u in row) for row in reversed(rows)]
+    lines = [f"{field} field, cycle {frame.header.cycle}; {upwards} grows upwards, {rightwards} to the right"]
+    return lines + ["".join(shade(u) for u in row) for row in reversed(sites)]
 
 
-def table_picture(frame, path):
+def selection_picture(frame, field, path):
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    (x, y), spacing, (along_x, along_y) = frame.table.first, frame.table.spacing, frame.table.sites
-    extent = (y, y + (along_y - 1) * spacing, x, x + (along_x - 1) * spacing)
+    grid, (upwards, rightwards), units = SELECTS[field]
+    grid = getattr(frame, grid)
+    spans = [
+        (unit * first, unit * (first + (sites - 1) * spacing))
+        for unit, first, spacing, sites in zip(units, grid.first, grid.spacing, grid.sites)
+    ]
     figure, axes = pyplot.subplots(figsize=(6, 6))
-    image = axes.imshow(destination(frame), origin="lower", extent=extent, cmap="PuOr_r", vmin=-3, vmax=3)
-    axes.set(title=f"destination field, cycle {frame.header.cycle}", xlabel="y [m]", ylabel="x [m]")
+    image = axes.imshow(
+        rows(frame, field), origin="lower", extent=(*spans[1], *spans[0]), cmap="PuOr_r", vmin=-3, vmax=3, aspect="auto"
+    )
+    axes.set(title=f"{field} field, cycle {frame.header.cycle}", xlabel=rightwards, ylabel=upwards)
     figure.colorbar(image, label="activity u")
     figure.tight_layout()
     figure.savefig(path, dpi=120)
@@ -249,9 +269,9 @@ def main():
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    layers_and_field = [*LAYERS, DESTINATION]
-    names = f"one of {', '.join(layers_and_field)}; without it, list them"
-    parser.add_argument("layer", nargs="?", choices=layers_and_field, metavar="LAYER", help=names)
+    layers_and_fields = [*LAYERS, *SELECTS]
+    names = f"one of {', '.join(layers_and_fields)}; without it, list them"
+    parser.add_argument("layer", nargs="?", choices=layers_and_fields, metavar="LAYER", help=names)
     parser.add_argument("--run", help="id or directory of the run [default: the newest]")
     parser.add_argument("--png", metavar="FILE", help="write a picture of the newest frame instead")
     arguments = parser.parse_args()
@@ -265,10 +285,10 @@ def main():
         if not arguments.layer:
             return list_layers(frame)
         clear = "\x1b[H\x1b[J" if sys.stdout.isatty() else ""
-        if arguments.layer == DESTINATION:
+        if arguments.layer in SELECTS:
             if arguments.png:
-                return table_picture(frame, arguments.png)
-            print(clear + "\n".join(table(frame)), flush=True)
+                return selection_picture(frame, arguments.layer, arguments.png)
+            print(clear + "\n".join(selection(frame, arguments.layer)), flush=True)
             time.sleep(0.1)
             continue
         if arguments.layer not in chosen:

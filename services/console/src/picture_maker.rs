@@ -341,7 +341,7 @@ fn draw_destinations(frame: Option<&FieldFrame>, numbers: &mut Numbers) {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use coact_messages::{Surface, TableGrid};
+    use coact_messages::{SiteGrid, Surface};
     use std::path::Path;
 
     fn maker() -> PictureMaker {
@@ -417,7 +417,7 @@ mod tests {
         let Surface { grid, level, height } = &mut sample.scene.surface;
         let scene = &maker.task.scene;
         (*grid, *level) =
-            (TableGrid { first: [-1.5, -0.5], spacing: 0.04, sites: [60, 60] }, scene.table_height);
+            (SiteGrid { first: [-1.5, -0.5], spacing: [0.04; 2], sites: [60, 60] }, scene.table_height);
         height.fill(30);
         (sample.scene.sightings, sample.scene.captured_cycle) = (0, 99 + 501);
         let seen = Seen { sample: Some(&sample), ..Seen::default() };

@@ -1,135 +1,41 @@
+//! The destination field: over the table, in it the places that the person's hand may go to compete. A peak is where it is going.
+
 use crate::likely::Likely;
-use coact_joint_task::DestinationPlan;
-use coact_messages::{MAX_KINDS, TableGrid};
-use coact_neural_field::{MetricField, ParameterError, sigmoid};
+use crate::selection_field::{CUT_OFF, signal};
+use coact_joint_task::SelectionPlan;
+use coact_messages::MAX_KINDS;
 
-/// Standard deviations beyond which a place's input is cut off: there it is a hundredth.
-const CUT_OFF: f64 = 3.0;
-
-/// The field over the table in which the places that the person's hand may go to compete (chapter, eq. 1, in two dimensions): a peak is
-/// where it is going.
-#[derive(Debug, Clone)]
-pub(crate) struct DestinationField {
-    plan: DestinationPlan,
-    field: MetricField<2>,
-    input: Vec<f64>,
+/// What drives it: of each place, by how much more than mere chance it is what the movement may lead to, as far as that tells anything. Places hold
+/// each other back before the field does: each counts by its share of all (divisive normalisation, Carandini and Heeger 2012).
+pub(crate) fn drives(likely: Likely) -> impl Iterator<Item = ([f64; 2], f64)> {
+    let (all, kinds) = likely.all();
+    let chance = if kinds > 1 { 1.0 / kinds as f64 } else { 0.0 };
+    let told = likely.destinations.told / (1.0 - chance);
+    let fits = likely.iter().filter(move |(_, _, fit)| all > 0.0 && *fit > chance * all);
+    fits.map(move |(_, place, fit)| (place, told * (fit / all - chance)))
 }
 
-impl DestinationField {
-    /// # Errors
-    /// A constant that is out of its range.
-    pub fn new(plan: &DestinationPlan) -> Result<Self, ParameterError> {
-        let field = MetricField::new(plan.constants, plan.interaction()?)?;
-        Ok(Self { plan: *plan, input: vec![0.0; field.lattice().sites()], field })
-    }
-
-    /// One step of `dt` ms from the activity `now` to `next`, driven by where the hand may go, if anything is told of it.
-    pub fn step(&mut self, dt: f64, told: Option<Likely>, now: &[f64], next: &mut [f64]) {
-        let sites = self.input.len();
-        let (now, next) = (&now[..sites], &mut next[..sites]);
-        let told = told.filter(|likely| likely.destinations.told > 0.0);
-        if told.is_none() && self.is_quiet(now) {
-            let rate = dt / self.plan.constants.tau;
-            next.iter_mut().zip(now).for_each(|(next, u)| *next = u + rate * (self.plan.resting - u));
-            return;
-        }
-        self.input.fill(0.0);
-        if let Some(likely) = told {
-            self.drive(likely);
-        }
-        self.field.step(dt, now, &self.input, self.plan.resting, next);
-    }
-
-    /// Whether all sites are so far below threshold that none acts on another one: there f(u) is below a hundredth. Without input they only
-    /// go back to rest then, at a tenth of the cost.
-    fn is_quiet(&self, now: &[f64]) -> bool {
-        now.iter().fold(f64::NEG_INFINITY, |most, u| most.max(*u)) < 0.5 * self.plan.resting
-    }
-
-    /// A Gaussian of input at each place. Places hold each other back before the field does: each counts by its share of all that the
-    /// movement may lead to (divisive normalisation, Carandini and Heeger 2012), as far as that is more than mere chance.
-    fn drive(&mut self, likely: Likely) {
-        let Alternatives { all, kinds } = Alternatives::of(likely);
-        if all <= 0.0 {
-            return;
-        }
-        let chance = if kinds > 1 { 1.0 / kinds as f64 } else { 0.0 };
-        let gain = self.plan.gain * likely.destinations.told / (1.0 - chance);
-        let (table, sigma) = (self.plan.table, self.plan.input_sigma);
-        for (_, place, fit) in likely.iter().filter(|(_, _, fit)| *fit > chance * all) {
-            add_gaussian(&table, place, sigma, gain * (fit / all - chance), &mut self.input);
-        }
-    }
-}
-
-/// What the movement may lead to: each kind counts once, however many of its parts lie there, and so does that nothing is taken.
-struct Alternatives {
-    /// How well all of them fit together.
-    all: f64,
-    /// How many kinds could be taken.
-    kinds: usize,
-}
-
-impl Alternatives {
-    fn of(likely: Likely) -> Self {
-        let mut of_kind = [None; MAX_KINDS];
-        let mut nothing = 0.0_f64;
-        for (kind, _, fit) in likely.iter() {
-            match kind {
-                Some(kind) => of_kind[kind] = Some(of_kind[kind].map_or(fit, |best: f64| best.max(fit))),
-                None => nothing = nothing.max(fit),
-            }
-        }
-        let known = || of_kind.iter().copied().flatten();
-        Self { all: nothing + known().sum::<f64>(), kinds: known().count() }
-    }
-}
-
-/// Adds a Gaussian around `place` that has this strength at the site nearest to it: wherever between sites a part lies, it drives as much.
-fn add_gaussian(table: &TableGrid, place: [f64; 2], sigma: f64, strength: f64, input: &mut [f64]) {
-    let range = |axis: usize| {
-        let end = f64::from(table.sites[axis]);
-        let number = |at: f64| ((at - table.first[axis]) / table.spacing).clamp(0.0, end).ceil() as usize;
-        number(place[axis] - CUT_OFF * sigma)..number(place[axis] + CUT_OFF * sigma)
-    };
-    let share = |axis: usize, site: usize| {
-        let deviation = (table.first[axis] + site as f64 * table.spacing - place[axis]) / sigma;
-        (-0.5 * deviation * deviation).exp()
-    };
-    let width = table.sites[1] as usize;
-    let most = |axis: usize| range(axis).map(|site| share(axis, site)).fold(f64::MIN_POSITIVE, f64::max);
-    let strength = strength / (most(0) * most(1));
-    for along_x in range(0) {
-        let strength = strength * share(0, along_x);
-        for along_y in range(1) {
-            input[along_x * width + along_y] += strength * share(1, along_y);
-        }
-    }
-}
-
-/// Of each kind of part, the signal of the highest peak at one of its parts: 0 below threshold, 1 with a full peak (eq. 4). Where other kinds lie at
-/// the same place, the place tells nothing of them apart, and each has its share by how well it fits.
-pub(crate) fn signals(plan: &DestinationPlan, activity: &[f64], likely: Likely) -> [f64; MAX_KINDS] {
+/// Of each kind of part, the signal of the highest peak at one of its parts. Where other kinds lie at the same place, the place tells nothing of them
+/// apart, and each has its share by how well it fits.
+pub(crate) fn signals(plan: &SelectionPlan, activity: &[f64], likely: Likely) -> [f64; MAX_KINDS] {
     let mut signals = [0.0_f64; MAX_KINDS];
-    let slope = plan.constants.slope;
     for (kind, place, fit) in likely.iter() {
-        let Some((kind, site)) = kind.zip(plan.table.site(place)) else { continue };
-        let u = activity[site] - plan.constants.threshold;
-        if u > 0.0 && fit > 0.0 {
+        let Some(kind) = kind.filter(|_| fit > 0.0) else { continue };
+        let signal = signal(plan, activity, place);
+        if signal > 0.0 {
             let beside = beside(likely, kind, place, plan.input_sigma);
-            let signal = (2.0 * sigmoid(u, slope, 0.0) - 1.0) * fit / (fit + beside);
-            signals[kind] = signals[kind].max(signal);
+            signals[kind] = signals[kind].max(signal * fit / (fit + beside));
         }
     }
     signals
 }
 
 /// How well other kinds fit that lie where this one does.
-fn beside(likely: Likely, kind: usize, place: [f64; 2], sigma: f64) -> f64 {
+fn beside(likely: Likely, kind: usize, place: [f64; 2], sigma: [f64; 2]) -> f64 {
     let others = likely.iter().filter(|(other, _, _)| *other != Some(kind));
     let near = others.filter_map(|(_, other, fit)| {
-        let square = (other[0] - place[0]).powi(2) + (other[1] - place[1]).powi(2);
-        let deviations = square / (sigma * sigma);
+        let along = |axis: usize| ((other[axis] - place[axis]) / sigma[axis]).powi(2);
+        let deviations = along(0) + along(1);
         (deviations < CUT_OFF * CUT_OFF).then(|| fit * (-0.5 * deviations).exp())
     });
     near.sum()
@@ -140,6 +46,7 @@ fn beside(likely: Likely, kind: usize, place: [f64; 2], sigma: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::due_kinds::Beforehand;
+    use crate::selection_field::SelectionField;
     use coact_joint_task::NetworkPlan;
     use coact_messages::Destinations;
     use std::path::Path;
@@ -149,8 +56,8 @@ mod tests {
         [(Some(0), [-1.0, 0.2]), (Some(1), [-1.0, 0.26]), (Some(2), [-0.95, 0.5]), (None, [-0.6, 0.15])];
 
     struct Bench {
-        plan: DestinationPlan,
-        field: DestinationField,
+        plan: SelectionPlan,
+        field: SelectionField,
         activity: Vec<f64>,
     }
 
@@ -158,8 +65,8 @@ mod tests {
         fn new() -> Self {
             let task = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config/tasks/toy-vehicle.toml");
             let plan = NetworkPlan::load(&task).unwrap().1.destinations;
-            let field = DestinationField::new(&plan).unwrap();
-            Self { activity: vec![plan.resting; field.input.len()], plan, field }
+            let field = SelectionField::new(&plan).unwrap();
+            Self { activity: vec![plan.resting; field.sites()], plan, field }
         }
 
         /// Goes on for so many ms, nothing being likelier than anything else beforehand; then each kind's signal.
@@ -171,7 +78,7 @@ mod tests {
             let likely = Likely { destinations: told, beforehand: &beforehand };
             for _ in 0..ms {
                 let now = self.activity.clone();
-                self.field.step(1.0, Some(likely), &now, &mut self.activity);
+                self.field.step(1.0, drives(likely), &now, &mut self.activity);
             }
             let signals = signals(&self.plan, &self.activity, likely);
             [signals[0], signals[1], signals[2]]
@@ -182,7 +89,7 @@ mod tests {
             let by_activity =
                 |one: &usize, other: &usize| self.activity[*one].total_cmp(&self.activity[*other]);
             let site = (0..self.activity.len()).max_by(by_activity).unwrap();
-            (self.field.field.lattice().place(site), self.activity[site] > 0.0)
+            (self.plan.grid.place(site), self.activity[site] > 0.0)
         }
     }
 
@@ -205,7 +112,10 @@ mod tests {
             let signals = bench.run(100, &fitting(fits));
             let ([x, y], is_peak) = bench.highest();
             let [expected_x, expected_y] = PLACES[best].1;
-            assert!(is_peak && (x - expected_x).hypot(y - expected_y) < bench.plan.table.spacing, "{x} {y}");
+            assert!(
+                is_peak && (x - expected_x).hypot(y - expected_y) < bench.plan.grid.spacing[0],
+                "{x} {y}"
+            );
             for (kind, signal) in signals.into_iter().enumerate() {
                 assert_eq!(signal > 0.5, kind == best, "{best}: {signals:?}");
             }
@@ -238,7 +148,7 @@ mod tests {
 
     #[test]
     fn wherever_between_sites_they_lie_the_plan_decides_between_places_that_fit_alike() {
-        let spacing = Bench::new().plan.table.spacing;
+        let spacing = Bench::new().plan.grid.spacing[0];
         for quarters in 0..4 {
             let aside = 0.25 * f64::from(quarters) * spacing;
             let places = PLACES[..2].iter().map(|(kind, [x, y])| (*kind, [x + aside, y + aside], 1.0));

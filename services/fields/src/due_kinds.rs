@@ -23,7 +23,7 @@ impl DueKinds {
         Self {
             available: plan.layer(LayerKind::SubgoalsAvailable).populations.clone(),
             kinds: populations.map(|population| population.kind.unwrap_or(MAX_KINDS)).collect(),
-            undue: plan.destinations.undue,
+            undue: plan.undue,
         }
     }
 
@@ -58,7 +58,7 @@ mod tests {
         let (task, plan) = NetworkPlan::load(&task).unwrap();
         let due = DueKinds::of(&plan);
         let mut signal = vec![0.0; plan.populations.len()];
-        let undue = plan.destinations.undue;
+        let undue = plan.undue;
         assert!((0..task.kinds.len()).all(|kind| due.beforehand(&signal).of(Some(kind)) == undue));
         let first = plan.layer(LayerKind::SubgoalsAvailable).populations.start;
         let kind = task.subgoals[0].kind;

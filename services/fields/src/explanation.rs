@@ -93,9 +93,11 @@ mod tests {
             let mut percept: Box<Percept> = bytemuck::zeroed_box();
             percept.act.fill_with(|| random.random_range(0.0..1.0));
             percept.achieved.fill_with(|| random.random_range(0.0..1.0));
-            percept.destinations.grip.fill(1.0);
+            (percept.grips.count, frame.shapes) = (2, plan.grips.grid);
+            percept.grips.fit[..2].copy_from_slice(&[1.0, 0.2]);
+            frame.grip.fill(0.4);
             percept.destinations.push(Some(1), [-1.0, 0.3], 1.0);
-            (frame.table, frame.destination) = (plan.destinations.table, [0.4; MAX_PLACES]);
+            (frame.table, frame.destination) = (plan.destinations.grid, [0.4; MAX_PLACES]);
             let mut signals = vec![0.0; plan.populations.len() + plan.channels.len()];
             let mut strength = vec![0.0; plan.populations.len()];
             let beforehand = DueKinds::of(&plan).beforehand(&frame.signal);

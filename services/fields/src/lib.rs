@@ -10,10 +10,12 @@
 mod destination_field;
 mod due_kinds;
 mod explanation;
+mod grip_field;
 mod likely;
 mod network;
 mod pooled_input;
 mod projections;
+mod selection_field;
 mod share;
 mod sources;
 

@@ -1,7 +1,7 @@
-use crate::destination_field::DestinationField;
-use crate::due_kinds::DueKinds;
+use crate::due_kinds::{Beforehand, DueKinds};
 use crate::likely::Likely;
-use crate::{Projections, sources};
+use crate::selection_field::SelectionField;
+use crate::{Projections, destination_field, grip_field, sources};
 use coact_joint_task::{LayerPlan, NetworkPlan, Synapse};
 use coact_messages::{Decision, FieldFrame, LayerKind, NONE, Percept};
 use coact_neural_field::{Field, ParameterError, forget};
@@ -25,7 +25,8 @@ pub struct Network {
     projections: Projections,
     task: u64,
     seed: u64,
-    destinations: DestinationField,
+    destinations: SelectionField,
+    grips: SelectionField,
     due: DueKinds,
     fields: Vec<Field>,
     /// Signals of all populations, then the values of the percept's channels.
@@ -47,7 +48,8 @@ impl Network {
         };
         let populations = plan.populations.len();
         Ok(Self {
-            destinations: DestinationField::new(&plan.destinations)?,
+            destinations: SelectionField::new(&plan.destinations)?,
+            grips: SelectionField::new(&plan.grips)?,
             due: DueKinds::of(&plan),
             fields: plan.layers.iter().map(field).collect::<Result<_, _>>()?,
             sources: vec![0.0; populations + plan.channels.len()],
@@ -73,7 +75,8 @@ impl Network {
         out.signal.fill(0.0);
         out.since.fill(0);
         out.decision = Decision { action: NONE, reserved: 0, since: 0 };
-        out.destination[..self.plan.destinations.table.used()].fill(self.plan.destinations.resting);
+        out.destination[..self.destinations.sites()].fill(self.plan.destinations.resting);
+        out.grip[..self.grips.sites()].fill(self.plan.grips.resting);
         for layer in &self.plan.layers {
             let SiteRange { first, last } = sites(layer, width);
             out.activity[first..last].fill(layer.resting);
@@ -93,14 +96,15 @@ impl Network {
             found == (expected, layer.populations.start as u32, layer.populations.len() as u32)
         };
         frame.task == self.task
-            && frame.table == self.plan.destinations.table
+            && frame.table == self.plan.destinations.grid
+            && frame.shapes == self.plan.grips.grid
             && table.count as usize == self.plan.layers.len()
             && self.plan.layers.iter().enumerate().all(stands_there)
     }
 
     /// Integrates one period from `previous` into `out`.
     ///
-    /// Costs about 14 multiplications per site of a layer, 20 per site of the destination field, one exponential per site and one
+    /// Costs about 14 multiplications per site of a layer, 20 per site of the fields that select, one exponential per site and one
     /// multiplication per synapse.
     pub fn step(
         &mut self,
@@ -113,9 +117,7 @@ impl Network {
         let percept = percept.filter(|percept| sources::is_fresh(tick, percept));
         let beforehand = self.due.beforehand(&previous.signal);
         sources::collect(&self.plan, percept, previous, &beforehand, &mut self.sources);
-        let told =
-            percept.map(|percept| Likely { destinations: &percept.destinations, beforehand: &beforehand });
-        self.destinations.step(STEP_MS, told, &previous.destination, &mut out.destination);
+        self.select(percept, &beforehand, previous, out);
         self.transmit(tick);
         for index in 0..self.plan.layers.len() {
             self.integrate(index, previous, out);
@@ -132,12 +134,29 @@ impl Network {
         out.seal();
     }
 
+    /// Moves the fields that select on: where the hand goes, and with which grip.
+    fn select(
+        &mut self,
+        percept: Option<&Percept>,
+        beforehand: &Beforehand,
+        previous: &FieldFrame,
+        out: &mut FieldFrame,
+    ) {
+        let likely = percept.map(|percept| Likely { destinations: &percept.destinations, beforehand });
+        let places = likely.into_iter().flat_map(destination_field::drives);
+        self.destinations.step(STEP_MS, places, &previous.destination, &mut out.destination);
+        let told = percept.zip(likely).into_iter();
+        let grips = told.flat_map(|(percept, likely)| grip_field::drives(percept, likely, &self.plan.widths));
+        self.grips.step(STEP_MS, grips, &previous.grip, &mut out.grip);
+    }
+
     /// Fills the parts of the frame that never change.
     fn describe(&self, out: &mut FieldFrame) {
         let width = self.plan.sites_per_population;
         out.task = self.task;
         out.noise_seed = self.seed;
-        out.table = self.plan.destinations.table;
+        out.table = self.plan.destinations.grid;
+        out.shapes = self.plan.grips.grid;
         out.layers.count = self.plan.layers.len() as u32;
         out.layers.reserved = 0;
         for (index, layer) in self.plan.layers.iter().enumerate() {

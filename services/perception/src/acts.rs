@@ -106,7 +106,7 @@ impl Acts {
                 Act::Gesture(gesture) => {
                     (self.gestures.evidence(gesture, tick, movement.as_ref(), state, out), GESTURE)
                 }
-                Act::Grasp { grip, kind } => (self.grasps.evidence(grip, kind, state, out), GRASP),
+                Act::Grasp { kind, .. } => (Grasps::evidence(kind, state, out), GRASP),
             };
             let cycles = if target > out.act[index] { rise } else { fall };
             follow(&mut out.act[index], target, cycles);
@@ -122,7 +122,7 @@ impl Acts {
         out: &mut Percept,
     ) {
         if state.occlusion.is_hidden() {
-            self.grasps.report_hidden(state, places, view, &mut out.destinations);
+            self.grasps.report_hidden(state, places, view, out);
         }
     }
 

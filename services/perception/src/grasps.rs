@@ -1,12 +1,11 @@
 use crate::evidence::smooth_step;
-use crate::grip_resemblance::{UsualGrip, grip_resemblance};
 use crate::objects::{PartTrack, TaskPlaces};
 use crate::perception_state::PerceptionState;
 use crate::present_movement::PresentMovement;
 use crate::preshape::{Classifier, LAST_READ};
 use crate::reaching::{HANDOVER, MovementReader, PLACES};
 use coact_joint_task::{PersonGrip, Task};
-use coact_messages::{ArmSide, Destinations, MAX_GRIPS, MAX_KINDS, MAX_PARTS, PERSON, Percept, SceneView};
+use coact_messages::{ArmSide, MAX_GRIPS, MAX_KINDS, MAX_PARTS, PERSON, Percept, SceneView};
 use nalgebra::{Vector2, Vector3};
 use std::cmp::Ordering;
 
@@ -35,6 +34,8 @@ const TAKES_APART: f64 = -1.0;
 /// How likely it is beforehand that a hand which set out from elsewhere returns to rest, against that it goes for any one part: a logarithm.
 /// Chosen by hand: what it held is put down, and most withdraw then, past whatever lies there.
 const RETURNS: f64 = 2.0;
+/// Evidence from which a part counts as held: the middle.
+const HELD: f64 = 0.5;
 /// Least that a movement leads anywhere: its logarithm is finite.
 const LEAST: f64 = 1e-12;
 /// A part in the robot's hand is offered when it is this near to the handover place, m: chosen by hand.
@@ -58,20 +59,10 @@ impl Grasps {
         }
     }
 
-    /// Evidence in [0, 1] that the hand has taken a part of `kind` with `grip`, to do something with it. What was mounted, and is taken out
-    /// again, may go anywhere: until it is laid down, the grip tells nothing.
-    pub fn evidence(&self, grip: usize, kind: usize, state: &PerceptionState, out: &Percept) -> f64 {
-        let held = out.person_holds[kind];
-        if held > 0.0 && !state.parts.is_taken_out(kind) {
-            held * grip_resemblance(&self.usual(state)[..self.grips.len()], grip, state.grip_pitch(), 1.0)
-        } else {
-            0.0
-        }
-    }
-
-    /// How this person holds the hand in each grip.
-    fn usual(&self, state: &PerceptionState) -> [UsualGrip; MAX_GRIPS] {
-        state.grips.usual(&self.grips)
+    /// Evidence in [0, 1] that the hand has taken a part of `kind`, to do something with it. What was mounted, and is taken out again, may go
+    /// anywhere: until it is laid down, how it is held tells nothing.
+    pub fn evidence(kind: usize, state: &PerceptionState, out: &Percept) -> f64 {
+        if state.parts.is_taken_out(kind) { 0.0 } else { out.person_holds[kind] }
     }
 
     /// Learns how this person holds the hand, from a part that it has taken.
@@ -81,7 +72,7 @@ impl Grasps {
         }
     }
 
-    /// Tells where the present movement may lead. Without one, what was told of the last stands.
+    /// Tells where the present movement may lead, and which grips it may end in. Without one, what was told of the last stands.
     pub fn report(
         &self,
         movement: Option<&PresentMovement>,
@@ -91,7 +82,10 @@ impl Grasps {
         out: &mut Percept,
     ) {
         let held = out.person_holds.iter().copied().fold(0.0, f64::max);
-        let out = &mut out.destinations;
+        if held > HELD {
+            state.grips.tell(&self.grips, state.grip_pitch(), 1.0, &mut out.grips);
+        }
+        let (grips, out) = (&mut out.grips, &mut out.destinations);
         out.told = 0.0;
         let Some(movement) = movement else { return };
         out.count = 0;
@@ -112,9 +106,8 @@ impl Grasps {
             out.push(None, place.into(), sharpness * usual + lead.logarithm(sharpness));
         }
         against_the_best(&mut out.fit[..out.count as usize]);
-        let usual = &self.usual(state)[..self.grips.len()];
-        for (grip, likeness) in out.grip.iter_mut().enumerate().take(self.grips.len()) {
-            *likeness = grip_resemblance(usual, grip, state.hand.pitch_ahead(), trust);
+        if held <= HELD {
+            state.grips.tell(&self.grips, state.hand.pitch_ahead(), trust, grips);
         }
     }
 
@@ -125,14 +118,16 @@ impl Grasps {
         state: &PerceptionState,
         places: &TaskPlaces,
         view: &SceneView,
-        out: &mut Destinations,
+        out: &mut Percept,
     ) {
+        let (grips, out) = (&mut out.grips, &mut out.destinations);
         let parts = state.parts.numbered();
         let takable = parts.filter(|(_, kind, part)| self.is_takable(*kind, part, places));
         let sight = places.sight(view);
         let hidden = |kind: usize, part: &PartTrack| sight.hides(part.position, places.size(kind).height);
         (out.told, out.count) = (1.0, 0);
-        out.grip.fill(0.0);
+        grips.count = self.grips.len().min(MAX_GRIPS) as u32;
+        grips.fit.fill(0.0);
         // Of a hand that went out of sight as it set out no way is known.
         let fit = |index| if state.hand.movement.is_moving() { state.likelihoods.of(index) } else { 1.0 };
         for (index, kind, part) in takable.filter(|(_, kind, part)| hidden(*kind, part)) {

@@ -22,7 +22,6 @@ mod attention;
 mod evidence;
 mod gestures;
 mod grasps;
-mod grip_resemblance;
 mod habit;
 mod hand;
 mod heading;

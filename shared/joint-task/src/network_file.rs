@@ -12,7 +12,9 @@ pub(crate) const LEAST_TAU: f64 = 20.0;
 #[serde(deny_unknown_fields)]
 pub(crate) struct NetworkFile {
     pub sites: SitesEntry,
-    pub destinations: Spanned<DestinationsEntry>,
+    pub undue: Spanned<f64>,
+    pub destinations: Spanned<SelectionEntry>,
+    pub grips: Spanned<SelectionEntry>,
     pub layer: Vec<LayerEntry>,
     pub synapse: Vec<RuleEntry>,
     #[serde(default)]
@@ -29,14 +31,13 @@ pub(crate) struct SitesEntry {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct DestinationsEntry {
+pub(crate) struct SelectionEntry {
     pub tau: f64,
     pub h: f64,
     pub slope: f64,
     pub gain: f64,
-    pub undue: f64,
-    pub spacing: f64,
-    pub input_sigma: f64,
+    pub spacing: [f64; 2],
+    pub input_sigma: [f64; 2],
     pub excitation: ExcitationEntry,
     pub inhibition: f64,
 }
@@ -45,7 +46,7 @@ pub(crate) struct DestinationsEntry {
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExcitationEntry {
     pub strength: f64,
-    pub sigma: f64,
+    pub sigma: [f64; 2],
 }
 
 #[derive(Deserialize)]

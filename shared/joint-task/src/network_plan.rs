@@ -1,4 +1,4 @@
-use crate::{DestinationPlan, Population};
+use crate::{Population, SelectionPlan};
 use coact_messages::LayerKind;
 use coact_neural_field::{Forgetting, Parameters};
 use std::ops::Range;
@@ -9,8 +9,14 @@ use std::ops::Range;
 /// the channels of the percept. A [`Synapse`] names its ends by their place in that row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NetworkPlan {
-    /// The field over the table that stands before the layers.
-    pub destinations: DestinationPlan,
+    /// The field over the table that stands before the layers: a peak is where the person's hand is going.
+    pub destinations: SelectionPlan,
+    /// The field over the hand's pitch, rad, and the width that it opens for, m, that stands beside it: a peak is the grip.
+    pub grips: SelectionPlan,
+    /// Width of each kind of part, m: how wide the hand opens for it.
+    pub widths: Vec<f64>,
+    /// How likely a reach for a part that no available step needs is beforehand, against one for a part that is due, from 0 to 1.
+    pub undue: f64,
     /// All layers, in the order of [`LayerKind`].
     pub layers: Vec<LayerPlan>,
     /// All populations, layer after layer.
@@ -57,13 +63,14 @@ pub struct ChannelPlan {
     pub meaning: Population,
 }
 
-/// Where a channel's value stands in the percept, or, of a destination, in the destination field; the number is the act's, kind's, grip's or
+/// Where a channel's value stands in the percept, or, of a destination, in the fields that select; the number is the act's, kind's, grip's or
 /// subgoal's index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs, reason = "the names are those of the percept's fields")]
 pub enum Channel {
     Always,
     Act(usize),
+    Hold { act: usize, grip: usize, kind: usize },
     Destination { grip: usize, kind: usize },
     BoundFor(usize),
     Seen { workspace: usize, kind: usize },

@@ -16,7 +16,7 @@ pub(crate) fn channels(task: &Task, first: usize) -> (Vec<ChannelPlan>, Vec<(Str
         names.push((name.to_string(), start..first + channels.len()));
     };
     add("always", vec![Population::new(Role::Always, "")], &|_| Channel::Always);
-    add("acts", acts(task), &Channel::Act);
+    add("acts", acts(task), &|act| of_act(task, act));
     let (meanings, channel): (Vec<_>, Vec<_>) = destinations(task).into_iter().unzip();
     add("destinations", meanings, &|index| channel[index]);
     add("bound for", objects(task, Agent::Person), &Channel::BoundFor);
@@ -33,7 +33,15 @@ pub(crate) fn channels(task: &Task, first: usize) -> (Vec<ChannelPlan>, Vec<(Str
     (channels, names)
 }
 
-/// Of each grasp, the destination field's peaks at parts of its kind, as far as the hand looks like its grip.
+/// What is seen of an act; of a grasp, that the hand holds such a part, as far as the grip field's peak stands at that grip.
+fn of_act(task: &Task, act: usize) -> Channel {
+    match task.acts[act] {
+        Act::Grasp { grip, kind } => Channel::Hold { act, grip, kind },
+        _ => Channel::Act(act),
+    }
+}
+
+/// Of each grasp, the destination field's peaks at parts of its kind, as far as the grip field's stands at its grip.
 fn destinations(task: &Task) -> Vec<(Population, Channel)> {
     let of_grasp = |(meaning, act): (Population, &Act)| match *act {
         Act::Grasp { grip, kind } => Some((meaning, Channel::Destination { grip, kind })),

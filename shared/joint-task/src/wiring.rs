@@ -1,10 +1,10 @@
 //! From the network file's rules and a task to layers, populations and synapses.
 
-use crate::destination_field::destination_field;
 use crate::network_file::{KernelEntry, LEAST_TAU, LayerEntry, NetworkFile};
 use crate::network_plan::{LayerPlan, NetworkPlan};
 use crate::percept_channels::channels;
 use crate::population::{Population, populations};
+use crate::selection_fields::{destination_field, grip_field};
 use crate::source_file::SourceFile;
 use crate::synapse_rules::SynapseRules;
 use crate::{Task, TaskError};
@@ -76,13 +76,24 @@ impl Wiring<'_> {
             forgetting: rules.connect("forgetting", &self.file.forgetting)?,
             reasons: self.file.synapse.iter().map(|rule| rule.why.clone()).collect(),
             pools: self.file.synapse.iter().map(|rule| rule.pool).collect(),
+            widths: self.task.kinds.iter().map(|kind| kind.width).collect(),
+            undue: self.undue()?,
             destinations: destination_field(self.source, &self.file.destinations, &self.task.scene)?,
+            grips: grip_field(self.source, &self.file.grips, self.task)?,
             sites_per_population: *self.file.sites.per_population.get_ref(),
             layers,
             populations,
             channels,
             synapses,
         })
+    }
+
+    fn undue(&self) -> Result<f64, TaskError> {
+        let (undue, span) = (*self.file.undue.get_ref(), self.file.undue.span());
+        let problem = "expected a number above 0, at most 1";
+        (undue > 0.0 && undue <= 1.0)
+            .then_some(undue)
+            .ok_or_else(|| self.source.error(span, "undue", problem))
     }
 
     fn layers(&self) -> Result<(Vec<LayerPlan>, Vec<Population>), TaskError> {

@@ -1,9 +1,9 @@
 //! How each message lies in memory, in words: what a recording says of it, and where a byte of it belongs to.
 
 use crate::{
-    ArmPath, Command, Decision, Destinations, DriveReport, FieldFrame, HandPercept, HandView, Header, Heard,
-    JointReading, Keypoint, LayerTable, PathKnot, Percept, PersonArm, Pulse, SceneView, SensorSample,
-    Sighting, Speech, Surface, TableGrid, TrackedPoint, Truth, WorkspacePercept,
+    ArmPath, Command, Decision, Destinations, DriveReport, FieldFrame, Grips, HandPercept, HandView, Header,
+    Heard, JointReading, Keypoint, LayerTable, PathKnot, Percept, PersonArm, Pulse, SceneView, SensorSample,
+    Sighting, SiteGrid, Speech, Surface, TrackedPoint, Truth, WorkspacePercept,
 };
 use std::fmt;
 
@@ -153,19 +153,20 @@ described! {
     Sighting { kind, reserved, confidence, position, orientation }
     Heard { sentences, cycle, length, text }
     Percept {
-        header, arms, hand, act, destinations, workspace, achieved, open, robot_holds, person_holds, lost, state
+        header, arms, hand, act, destinations, grips, workspace, achieved, open, robot_holds, person_holds, lost, state
     }
     PersonArm { shoulder, elbow, wrist, fingertip, age, tracked, reserved }
     TrackedPoint { position, velocity, deviation, age, still }
     HandPercept { aperture, reaching, side, since_onset }
-    Destinations { count, reserved, told, place, kind, fit, grip }
+    Destinations { count, reserved, told, place, kind, fit }
+    Grips { count, reserved, pitch, fit }
     WorkspacePercept { seen, gone, position, orientation }
     FieldFrame {
-        header, task, noise_seed, layers, table, decision, activity, input, resting, signal, since, destination,
-        checksum
+        header, task, noise_seed, layers, table, shapes, decision, activity, input, resting, signal, since, destination,
+        grip, checksum
     }
     LayerTable { count, reserved, kind, first_site, sites, first_population, populations }
-    TableGrid { first, spacing, sites }
+    SiteGrid { first, spacing, sites }
     Decision { action, reserved, since }
     Command {
         header, position, velocity, acceleration, tracking_error, path, action, phase, begun, reaction,

@@ -1,5 +1,5 @@
 use crate::plausible::{fractions, index, optional, places};
-use crate::{Flaw, MAX_DESTINATIONS, MAX_GRIPS, MAX_KINDS, NONE};
+use crate::{Flaw, MAX_DESTINATIONS, MAX_KINDS, NONE};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -20,8 +20,6 @@ pub struct Destinations {
     pub kind: [u32; MAX_DESTINATIONS],
     /// How well movement and shape of the hand fit each, against the one that they fit best, in [0, 1].
     pub fit: [f64; MAX_DESTINATIONS],
-    /// How much the hand looks like each grip rather than the others, in [0, 1].
-    pub grip: [f64; MAX_GRIPS],
 }
 
 impl Destinations {
@@ -48,7 +46,6 @@ impl Destinations {
         fractions("destinations.told", &[self.told])?;
         places("destinations.place", self.place[..count].as_flattened())?;
         self.kind[..count].iter().try_for_each(|kind| optional("destinations.kind", *kind, MAX_KINDS))?;
-        fractions("destinations.fit", &self.fit[..count])?;
-        fractions("destinations.grip", &self.grip)
+        fractions("destinations.fit", &self.fit[..count])
     }
 }

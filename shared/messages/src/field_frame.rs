@@ -1,5 +1,7 @@
 use crate::plausible::{bounded, ensure, index, not_after, optional};
-use crate::{Flaw, Header, MAX_LAYERS, MAX_PLACES, MAX_POPULATIONS, MAX_SITES, Plausible, TableGrid};
+use crate::{
+    Flaw, Header, MAX_GRIP_SITES, MAX_LAYERS, MAX_PLACES, MAX_POPULATIONS, MAX_SITES, Plausible, SiteGrid,
+};
 use bytemuck::{Pod, Zeroable};
 use coact_stage_state::checksum;
 use iceoryx2::prelude::ZeroCopySend;
@@ -22,7 +24,9 @@ pub struct FieldFrame {
     /// Where each layer's sites and populations stand.
     pub layers: LayerTable,
     /// Where the sites of the destination field lie.
-    pub table: TableGrid,
+    pub table: SiteGrid,
+    /// Where the sites of the grip field lie: the hand's pitch, rad, and the width that it opens for, m.
+    pub shapes: SiteGrid,
     /// The chosen action of the action execution layer.
     pub decision: Decision,
     /// Activity u(x, t) of each site (chapter, eq. 1).
@@ -37,6 +41,8 @@ pub struct FieldFrame {
     pub since: [u64; MAX_POPULATIONS],
     /// Activity u(x, y, t) of the destination field, site by site of [`table`](Self::table): a peak is where the person's hand is going.
     pub destination: [f64; MAX_PLACES],
+    /// Activity of the grip field, site by site of [`shapes`](Self::shapes): a peak is how the person's hand takes, or holds, a part.
+    pub grip: [f64; MAX_GRIP_SITES],
     /// Of what the next frame is computed from: see [`FieldFrame::is_whole`].
     pub checksum: u64,
 }
@@ -54,16 +60,17 @@ impl FieldFrame {
 
     fn state_checksum(&self) -> u64 {
         let (sites, populations) = (self.layers.used_sites(), self.layers.used_populations());
-        let rows: [&[u64]; 5] = [
+        let rows: [&[u64]; 6] = [
             bytemuck::cast_slice(&self.destination[..self.table.used()]),
+            bytemuck::cast_slice(&self.grip[..self.shapes.used().min(MAX_GRIP_SITES)]),
             bytemuck::cast_slice(&self.activity[..sites]),
             bytemuck::cast_slice(&self.resting[..populations]),
             bytemuck::cast_slice(&self.signal[..populations]),
             &self.since[..populations],
         ];
-        let [destination, activity, resting, signal, since] = rows.map(checksum);
+        let [destination, grip, activity, resting, signal, since] = rows.map(checksum);
         let [sites, populations] = [sites, populations].map(|count| count as u64);
-        checksum(&[self.task, sites, populations, destination, activity, resting, signal, since])
+        checksum(&[self.task, sites, populations, destination, grip, activity, resting, signal, since])
     }
 
     /// Populations of the first layer of this kind, as indices into [`signal`](Self::signal) and
@@ -171,8 +178,10 @@ const MOST: f64 = 1e6;
 impl Plausible for FieldFrame {
     fn check(&self) -> Result<(), Flaw> {
         self.layers.check()?;
-        self.table.check()?;
+        self.table.check("table", MAX_PLACES)?;
+        self.shapes.check("shapes", MAX_GRIP_SITES)?;
         bounded("destination", &self.destination[..self.table.used()], MOST)?;
+        bounded("grip", &self.grip[..self.shapes.used()], MOST)?;
         let (sites, populations) = (self.layers.used_sites(), self.layers.used_populations());
         bounded("activity", &self.activity[..sites], MOST)?;
         bounded("input", &self.input[..sites], MOST)?;

@@ -49,6 +49,7 @@ mod description;
 mod destinations;
 mod drive_report;
 mod field_frame;
+mod grips;
 mod hand_points;
 mod header;
 mod heard;
@@ -59,10 +60,10 @@ mod plausible;
 mod pulse;
 mod refusal;
 mod sensor_sample;
+mod site_grid;
 mod speech;
 mod stop_state;
 mod surface;
-mod table_grid;
 pub mod topic;
 mod topic_entry;
 mod truth;
@@ -75,6 +76,7 @@ pub use description::{Described, Description};
 pub use destinations::Destinations;
 pub use drive_report::{CommandRefusal, DriveMode, DriveReport, HoldReason};
 pub use field_frame::{Decision, FieldFrame, LayerKind, LayerTable};
+pub use grips::Grips;
 pub use hand_points::HandPoints;
 pub use header::{Header, LAYOUT};
 pub use heard::Heard;
@@ -84,10 +86,10 @@ pub use plausible::{Flaw, Plausible};
 pub use pulse::Pulse;
 pub use refusal::Refusal;
 pub use sensor_sample::{HandView, JointReading, Keypoint, KeypointName, SceneView, SensorSample, Sighting};
+pub use site_grid::SiteGrid;
 pub use speech::Speech;
 pub use stop_state::StopState;
 pub use surface::{Surface, UNMEASURED};
-pub use table_grid::TableGrid;
 pub use topic_entry::TopicEntry;
 pub use truth::{PartnerError, PartnerPhase, Truth};
 pub use world_state::{PartState, WorldState};
@@ -124,6 +126,8 @@ pub const MAX_POPULATIONS: usize = 1216;
 pub const MAX_SITES: usize = 12_160;
 /// Sites of the field over the table.
 pub const MAX_PLACES: usize = 4096;
+/// Sites of the field over the grips.
+pub const MAX_GRIP_SITES: usize = 1024;
 /// Workspaces: index 0 is the robot's, index 1 is the person's.
 pub const WORKSPACES: usize = 2;
 /// The robot's workspace or side.

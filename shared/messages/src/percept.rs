@@ -1,6 +1,7 @@
 use crate::plausible::{ensure, fractions, index, orientations, places};
 use crate::{
-    ArmSide, Destinations, Flaw, Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, PersonArm, Plausible, WORKSPACES,
+    ArmSide, Destinations, Flaw, Grips, Header, MAX_ACTS, MAX_KINDS, MAX_SUBGOALS, PersonArm, Plausible,
+    WORKSPACES,
 };
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
@@ -16,10 +17,13 @@ pub struct Percept {
     pub arms: [PersonArm; 2],
     /// What the hand does with which the person acts.
     pub hand: HandPercept,
-    /// Evidence for each observable act, in the order of `Task::acts`: what drives the action observation layer.
+    /// Evidence for each observable act, in the order of `Task::acts`; of a grasp, that the hand holds such a part, whatever its grip: what drives the
+    /// action observation layer, of a grasp as far as the grip field tells that grip.
     pub act: [f64; MAX_ACTS],
     /// Where the hand's movement may lead: what drives the destination field.
     pub destinations: Destinations,
+    /// Which grips the hand may be in: what drives the grip field.
+    pub grips: Grips,
     /// What lies in each workspace: [`ROBOT`](crate::ROBOT), [`PERSON`](crate::PERSON).
     pub workspace: [WorkspacePercept; WORKSPACES],
     /// Evidence that a subgoal's part is in its place, by subgoal index.
@@ -87,6 +91,7 @@ impl Plausible for Percept {
         self.hand.check()?;
         fractions("act", &self.act)?;
         self.destinations.check()?;
+        self.grips.check()?;
         self.workspace.iter().try_for_each(WorkspacePercept::check)?;
         fractions("achieved", &self.achieved)?;
         fractions("open", &self.open)?;

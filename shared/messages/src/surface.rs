@@ -1,5 +1,5 @@
 use crate::plausible::{bounded, ensure};
-use crate::{Flaw, MAX_PLACES, TableGrid};
+use crate::{Flaw, MAX_PLACES, SiteGrid};
 use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -11,7 +11,7 @@ use iceoryx2::prelude::ZeroCopySend;
 #[derive(Debug, Clone, Copy, Pod, Zeroable, ZeroCopySend)]
 pub struct Surface {
     /// Where the sites lie; none: there is no picture, and nothing is known to be in view.
-    pub grid: TableGrid,
+    pub grid: SiteGrid,
     /// Height of the plane in the world, m: the table top.
     pub level: f64,
     /// Height of what is seen at each site, cm, rounded up; [`UNMEASURED`].
@@ -30,8 +30,9 @@ impl Surface {
     pub fn above(&self, eye: [f64; 3], place: [f64; 3]) -> Option<f64> {
         let shadow = self.shadow(eye, place)?;
         let near = [[-0.5, -0.5], [-0.5, 0.5], [0.5, -0.5], [0.5, 0.5]];
-        let sites =
-            near.map(|side| self.grid.site([0, 1].map(|axis| shadow[axis] + side[axis] * self.grid.spacing)));
+        let sites = near.map(|side| {
+            self.grid.site([0, 1].map(|axis| shadow[axis] + side[axis] * self.grid.spacing[axis]))
+        });
         let highest = sites.into_iter().try_fold(0, |highest, site| {
             let height = *self.height.get(site?)?;
             (height != UNMEASURED).then_some(highest.max(height))
@@ -52,8 +53,12 @@ impl Surface {
     }
 
     pub(crate) fn check(&self) -> Result<(), Flaw> {
-        self.grid.check()?;
-        ensure(self.grid.used() == 0 || self.grid.spacing > 0.0, "surface.grid.spacing", "more than 0")?;
+        self.grid.check("surface.grid", MAX_PLACES)?;
+        ensure(
+            self.grid.used() == 0 || self.grid.spacing.iter().all(|spacing| *spacing > 0.0),
+            "surface.grid.spacing",
+            "more than 0",
+        )?;
         bounded("surface.level", &[self.level], 100.0)
     }
 }
@@ -67,7 +72,7 @@ mod tests {
     /// A plane at 1 m, 1 m square, in view but for a site.
     fn surface(hidden: [f64; 2], height: u8) -> Box<Surface> {
         let mut surface: Box<Surface> = bytemuck::zeroed_box();
-        surface.grid = TableGrid { first: [-0.5, -0.5], spacing: 0.02, sites: [51, 51] };
+        surface.grid = SiteGrid { first: [-0.5, -0.5], spacing: [0.02; 2], sites: [51, 51] };
         surface.level = 1.0;
         let site = surface.grid.site(hidden).unwrap_or_default();
         surface.height[site] = height;

@@ -166,7 +166,7 @@ pub fn hides(scene: &SceneView, task: &Task, part: &Sighting) -> bool {
 #[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 mod tests {
     use super::*;
-    use coact_messages::{TableGrid, UNMEASURED};
+    use coact_messages::{SiteGrid, UNMEASURED};
     use std::path::Path;
 
     fn task() -> Task {
@@ -231,7 +231,7 @@ mod tests {
         let [x, y] = task.scene.table_centre;
         let part = Sighting { position: [x, y, task.scene.table_height], ..sighting(0, 0.0) };
         let (mut seen, mut view) = (SeenParts::none(), frame(33, &[part]));
-        view.surface.grid = TableGrid { first: [x - 0.5, y - 0.5], spacing: 0.02, sites: [51, 51] };
+        view.surface.grid = SiteGrid { first: [x - 0.5, y - 0.5], spacing: [0.02; 2], sites: [51, 51] };
         view.surface.level = task.scene.table_height;
         let mut look = |sightings: u32, frames: u64, height: u8| {
             view.sightings = sightings;
@@ -258,7 +258,7 @@ mod tests {
         let at =
             |aside| Sighting { position: [x, y + aside, task.scene.table_height], ..sighting(single, 0.0) };
         let (mut seen, mut view) = (SeenParts::none(), frame(33, &[at(0.0)]));
-        view.surface.grid = TableGrid { first: [x - 0.5, y - 0.5], spacing: 0.02, sites: [51, 51] };
+        view.surface.grid = SiteGrid { first: [x - 0.5, y - 0.5], spacing: [0.02; 2], sites: [51, 51] };
         view.surface.height.fill(UNMEASURED);
         let mut look = |frames: u64, sightings: &[Sighting]| {
             view.sightings = sightings.len() as u32;
@@ -281,7 +281,7 @@ mod tests {
         let [x, y] = task.scene.table_centre;
         let part = Sighting { position: [x, y, task.scene.table_height + 0.2], ..sighting(0, 0.0) };
         let (mut seen, mut view) = (SeenParts::none(), frame(33, &[part]));
-        view.surface.grid = TableGrid { first: [x - 0.5, y - 0.5], spacing: 0.02, sites: [51, 51] };
+        view.surface.grid = SiteGrid { first: [x - 0.5, y - 0.5], spacing: [0.02; 2], sites: [51, 51] };
         view.surface.height.fill(UNMEASURED);
         seen.see(&view, &task);
         (view.sightings, view.captured_cycle) = (0, 33 + FORGOTTEN);

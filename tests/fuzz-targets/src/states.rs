@@ -51,10 +51,11 @@ pub(crate) fn fields(bytes: &[u8]) -> bool {
 }
 
 /// The bits of what the next frame is computed from.
-fn rows(frame: &FieldFrame) -> [&[u64]; 5] {
+fn rows(frame: &FieldFrame) -> [&[u64]; 6] {
     let (sites, populations) = (frame.layers.used_sites(), frame.layers.used_populations());
     [
         bytemuck::cast_slice(&frame.destination[..frame.table.used()]),
+        bytemuck::cast_slice(&frame.grip[..frame.shapes.used()]),
         bytemuck::cast_slice(&frame.activity[..sites]),
         bytemuck::cast_slice(&frame.resting[..populations]),
         bytemuck::cast_slice(&frame.signal[..populations]),

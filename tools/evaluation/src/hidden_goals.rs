@@ -34,7 +34,7 @@ pub(crate) fn hidden_goals(
 mod tests {
     use super::*;
     use bytemuck::Zeroable;
-    use coact_messages::{Sighting, TableGrid};
+    use coact_messages::{Sighting, SiteGrid};
     use std::path::Path;
 
     #[test]
@@ -52,7 +52,7 @@ mod tests {
         };
         let goals = |parts: &[Sighting], achieved: u64, before_them: u8| {
             let mut scene: Box<SceneView> = bytemuck::zeroed_box();
-            scene.surface.grid = TableGrid { first: [x - 0.8, y - 0.8], spacing: 0.04, sites: [40, 40] };
+            scene.surface.grid = SiteGrid { first: [x - 0.8, y - 0.8], spacing: [0.04; 2], sites: [40, 40] };
             scene.surface.level = task.scene.table_height;
             scene.surface.height.fill(before_them);
             (scene.captured_cycle, scene.sightings) = (33, parts.len() as u32);

@@ -102,7 +102,8 @@ fn remove_anticipation(plan: &mut NetworkPlan) {
 /// Weight with which perception's evidence drives an act.
 fn evidence(plan: &NetworkPlan, act: usize) -> f64 {
     let from_acts = |synapse: &&Synapse| {
-        synapse.to == act && matches!(channel_of(plan, synapse.from), Some(Channel::Act(_)))
+        synapse.to == act
+            && matches!(channel_of(plan, synapse.from), Some(Channel::Act(_) | Channel::Hold { .. }))
     };
     plan.synapses.iter().filter(from_acts).map(|synapse| synapse.weight).sum()
 }

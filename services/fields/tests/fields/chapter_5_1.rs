@@ -75,8 +75,7 @@ fn side_grip_means_a_handover_and_the_robot_prepares_to_receive() {
     robot.run(300);
     robot.act("rest", 0.0);
     robot.act("idle", 0.0);
-    robot.act("side grip: wheel", 1.0);
-    robot.bound_for("wheel");
+    robot.reaches_for("wheel", "side");
     robot.run(150);
     assert_eq!(robot.intention().as_deref(), Some("hand over: wheel on the robot's side"));
     assert_eq!(robot.decision().as_deref(), Some("receive: wheel on the robot's side"));

@@ -99,6 +99,20 @@ impl Harness {
         let destinations = &mut self.percept.destinations;
         (destinations.told, destinations.count) = (1.0, 0);
         destinations.push(Some(kind), middle, 1.0);
+        // Of its grip nothing is seen.
+        self.percept.grips.count = self.task.grips.len() as u32;
+        self.percept.grips.fit.fill(0.0);
+    }
+
+    /// The hand is on its way to a part of this kind, and looks like this grip.
+    pub fn reaches_for(&mut self, kind: &str, grip: &str) {
+        self.bound_for(kind);
+        let grip = self.task.grips.iter().position(|own| own.name == grip).unwrap();
+        let grips = &mut self.percept.grips;
+        for (pitch, own) in grips.pitch.iter_mut().zip(&self.task.grips) {
+            *pitch = own.pitch;
+        }
+        grips.fit[grip] = 1.0;
     }
 
     pub fn achieve(&mut self, subgoal: &str) {

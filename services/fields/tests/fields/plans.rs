@@ -114,8 +114,7 @@ fn of_places_that_are_alike_the_person_s_goal_is_one_at_any_time() {
         robot.act("rest", 1.0);
         robot.run(SETTLED);
         robot.act("rest", 0.0);
-        robot.act("top grip: wheel", 1.0);
-        robot.bound_for("wheel");
+        robot.reaches_for("wheel", "top");
         let mut stood = 0;
         for _ in 0..SETTLED {
             robot.run(1);

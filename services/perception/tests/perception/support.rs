@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use coact_joint_task::{Act, Scene, Task};
-use coact_messages::{ArmSide, Keypoint, KeypointName, Percept, SensorSample, Sighting, Surface, TableGrid};
+use coact_messages::{ArmSide, Keypoint, KeypointName, Percept, SensorSample, Sighting, SiteGrid, Surface};
 use coact_perception::{Perception, PreshapeModel};
 use std::path::PathBuf;
 
@@ -181,9 +181,19 @@ impl Stage {
     pub fn act(&self, act: Act) -> f64 {
         let shown = self.percept.act[self.task.acts.iter().position(|own| *own == act).unwrap()];
         match act {
-            Act::Grasp { grip, kind } => shown + self.on_the_way(kind) * self.percept.destinations.grip[grip],
+            Act::Grasp { grip, kind } => (shown + self.on_the_way(kind)) * self.looks_like(grip),
             _ => shown,
         }
+    }
+
+    /// By how much more than mere chance the hand looks like a grip; 1 where nothing tells them apart.
+    pub fn looks_like(&self, grip: usize) -> f64 {
+        let grips = &self.percept.grips;
+        if grips.count == 0 {
+            return 1.0;
+        }
+        let (all, chance) = (grips.iter().map(|(_, _, fit)| fit).sum::<f64>(), 1.0 / f64::from(grips.count));
+        ((grips.fit[grip] / all.max(f64::MIN_POSITIVE) - chance) / (1.0 - chance)).max(0.0)
     }
 
     /// By how much more than mere chance the hand's movement leads to parts of a kind, as far as it tells anything.
@@ -265,7 +275,7 @@ pub fn bare_table(task: &Task, surface: &mut Surface) {
     let beyond = 0.1;
     let sites = [length, width].map(|size| ((size + 2.0 * beyond) / spacing) as u32 + 1);
     let first = [x - 0.5 * length - beyond, y - 0.5 * width - beyond];
-    surface.grid = TableGrid { first, spacing, sites };
+    surface.grid = SiteGrid { first, spacing: [spacing; 2], sites };
     surface.level = table_height;
     surface.height.fill(0);
 }

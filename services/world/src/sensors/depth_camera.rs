@@ -2,7 +2,7 @@
 
 use super::lines_of_sight::LinesOfSight;
 use coact_joint_task::Scene;
-use coact_messages::{MAX_PLACES, Surface, TableGrid};
+use coact_messages::{MAX_PLACES, SiteGrid, Surface};
 use coact_person::box_before;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -38,11 +38,11 @@ pub(crate) fn picture<R: Rng>(sight: &LinesOfSight, scene: &Scene, rng: &mut R, 
 }
 
 /// Sites over the table top, as fine as there is room for.
-fn grid(scene: &Scene) -> TableGrid {
+fn grid(scene: &Scene) -> SiteGrid {
     let size = scene.table_size.map(|size| size + 2.0 * BEYOND);
     let spacing = FINEST.max((size[0] * size[1] / (0.9 * MAX_PLACES as f64)).sqrt());
     let first = [0, 1].map(|axis| scene.table_centre[axis] - 0.5 * size[axis]);
-    TableGrid { first, spacing, sites: size.map(|size| (size / spacing) as u32) }
+    SiteGrid { first, spacing: [spacing; 2], sites: size.map(|size| (size / spacing) as u32) }
 }
 
 /// Raises the sites in whose direction something is met, whose least and greatest `corners` are these.
@@ -67,7 +67,8 @@ fn shadow(eye: [f64; 3], out: &Surface, [low, high]: [[f64; 3]; 2]) -> [Range<us
         let on_plane =
             |side: f64, z: f64| eye[axis] + (side - eye[axis]) * (eye[2] - out.level) / (eye[2] - z);
         let ends = heights.map(|z| [on_plane(low[axis], z), on_plane(high[axis], z)]);
-        let ends = ends.as_flattened().iter().map(|end| (end - out.grid.first[axis]) / out.grid.spacing);
+        let ends =
+            ends.as_flattened().iter().map(|end| (end - out.grid.first[axis]) / out.grid.spacing[axis]);
         let (least, most) =
             (ends.clone().fold(f64::INFINITY, f64::min), ends.fold(f64::NEG_INFINITY, f64::max));
         let sites = f64::from(out.grid.sites[axis]);

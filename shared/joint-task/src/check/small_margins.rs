@@ -87,7 +87,7 @@ fn percept(examined: &ExaminedTask, state: &PlanState, person: PersonActivity, c
     };
     let yes = match channel {
         Channel::Always => true,
-        Channel::Act(act) => match (task.acts[act], person) {
+        Channel::Act(act) | Channel::Hold { act, .. } => match (task.acts[act], person) {
             (Act::Rest, PersonActivity::Rests | PersonActivity::Idles)
             | (Act::Idle, PersonActivity::Idles) => true,
             (Act::Reach, PersonActivity::Shows(chain)) => matches!(task.chains[chain].act, Act::Grasp { .. }),

@@ -169,26 +169,41 @@ fn time_scale_too_short_for_the_step_is_refused() {
 }
 
 #[test]
-fn destination_field_that_cannot_be_is_refused() {
+fn fields_that_cannot_select_are_refused() {
     for (key, wrong, expected) in [
         ("tau = 20", "tau = 5", "destinations.tau: 5 is too little; expected a number of at least 20"),
         (
-            "spacing = 0.025",
-            "spacing = 0.001",
+            "spacing = [0.025, 0.025]",
+            "spacing = [0.025, 0.001]",
             "destinations.spacing: 0.001 is too little; expected a number of at least 0.01",
         ),
-        ("spacing = 0.025", "spacing = nan", "destinations.spacing: NaN is too little"),
+        ("spacing = [0.025,", "spacing = [nan,", "destinations.spacing: NaN is too little"),
         (
-            "spacing = 0.025",
-            "spacing = 0.01",
-            "destinations.spacing: 0.01 m is too fine for a table on which hands go to places ",
+            "spacing = [0.025, 0.025]",
+            "spacing = [0.01, 0.01]",
+            "destinations.spacing: 0.01 x 0.01 is too fine for a field that reaches ",
         ),
-        ("undue = 0.3", "undue = 0", "destinations.undue: expected a number above 0, at most 1"),
-        ("input_sigma = 0.025", "input_sigma = 0.001", "destinations.input_sigma: 0.001 is too little"),
+        ("undue = 0.3", "undue = 0", "undue: expected a number above 0, at most 1"),
+        ("input_sigma = [0.025,", "input_sigma = [0.001,", "destinations.input_sigma: 0.001 is too little"),
         ("h = -2.0", "h = 1.0", "destinations.h: expected a resting level below 0"),
         ("inhibition = 1.0", "inhibition = -1", "destinations.inhibition: -1 is too little"),
-        ("sigma = 0.025 }", "sigma = 0 }", "destinations.excitation.sigma: 0 is too little"),
-        ("sigma = 0.025 }", "sigma = 1e9 }", "destinations.excitation.sigma: sigma is 1000000000"),
+        (
+            "sigma = [0.025, 0.025] }",
+            "sigma = [0, 0.025] }",
+            "destinations.excitation.sigma: 0 is too little",
+        ),
+        (
+            "spacing = [12, 0.012]",
+            "spacing = [1, 0.001]",
+            "grips.spacing: 1 x 0.001 is too fine for a field that ",
+        ),
+        ("spacing = [12, 0.012]", "spacing = [0.5, 0.012]", "grips.spacing: 0.5 is too little"),
+        ("input_sigma = [12, 0.012]", "input_sigma = [11, 0.012]", "grips.input_sigma: 11 is too little"),
+        (
+            "sigma = [0.025, 0.025] }",
+            "sigma = [1e9, 1e9] }",
+            "destinations.excitation.sigma: sigma is 1000000000",
+        ),
     ] {
         let error = error_after(NETWORK, key, wrong);
         assert!(error.contains(expected), "{wrong}: {error}");
@@ -199,7 +214,7 @@ fn destination_field_that_cannot_be_is_refused() {
 fn table_too_large_for_the_network_s_field_names_both_files() {
     let error = error_after(TASK, "min = [-1.17, 0.00]", "min = [-5.0, 0.00]");
     assert!(error.contains("joint-action.toml"), "{error}");
-    assert!(error.contains("destinations.spacing: 0.025 m is too fine"), "{error}");
+    assert!(error.contains("destinations.spacing: 0.025 x 0.025 is too fine"), "{error}");
     assert!(error.ends_with("(the network of tasks/toy-vehicle.toml)"), "{error}");
 }
 

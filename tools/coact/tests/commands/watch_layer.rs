@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coact_messages::{
-    FieldFrame, LAYOUT, LayerKind, MAX_LAYERS, MAX_PLACES, MAX_POPULATIONS, MAX_SITES, NONE,
+    FieldFrame, LAYOUT, LayerKind, MAX_GRIP_SITES, MAX_LAYERS, MAX_PLACES, MAX_POPULATIONS, MAX_SITES, NONE,
 };
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -17,7 +17,7 @@ fn the_python_client_has_the_constants_of_the_messages() {
     for line in [
         format!("LAYOUT = {LAYOUT}"),
         format!(
-            "MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, MAX_PLACES = {MAX_LAYERS}, {MAX_POPULATIONS}, {MAX_SITES}, {MAX_PLACES}"
+            "MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, MAX_PLACES, MAX_GRIP_SITES = {MAX_LAYERS}, {MAX_POPULATIONS}, {MAX_SITES}, {MAX_PLACES}, {MAX_GRIP_SITES}"
         ),
         format!("NONE = 0x{:04X}_{:04X}", NONE >> 16, NONE & 0xFFFF),
         // On its command line a layer is one word.
