@@ -32,6 +32,7 @@ use std::process::ExitCode;
   coact evaluate --partner random:changes=0.5         who changes the mind in mid-reach
   coact evaluate --layout random                      parts lie elsewhere in each
   coact evaluate --movement recorded                  the hand reaches as recorded people did
+  coact evaluate --person mine.toml                   people hold the hand as that file says
   coact evaluate --world physics --trials 20          with contact forces; takes longer
   coact evaluate --task a.toml b.toml --trials 20     ten of each task
 
@@ -76,6 +77,9 @@ pub struct Args {
     /// recorded:DIR, left-arm:FILE or right-arm:FILE
     #[arg(long, default_value = "random")]
     partner: String,
+    /// How simulated people show grips and gestures, and how much they differ [default: rt-config/person.toml]
+    #[arg(long, value_name = "FILE")]
+    person: Option<PathBuf>,
     /// Evaluate another robot with the same seeds, and compare
     #[arg(long, value_enum)]
     baseline: Option<Baseline>,
@@ -164,6 +168,7 @@ struct Evaluation {
     movement: Moved,
     world: WorldMode,
     partner: String,
+    person: PathBuf,
     seed: u64,
     trials: u64,
     report: EvaluationReport,
@@ -215,6 +220,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         movement: args.movement,
         world: args.world,
         partner: settings.partner.clone(),
+        person: settings.person.clone(),
         seed: args.seed,
         trials: args.trials,
         report: EvaluationReport::new(&network, &trials),
@@ -267,6 +273,7 @@ fn settings(args: &Args) -> Result<RunSettings> {
         seed: args.seed,
         partner: partner::setting(&args.partner, &reaches),
         world: args.world,
+        person: args.person.clone().unwrap_or(shipped.person),
         ..shipped
     })
 }

@@ -28,6 +28,8 @@ pub(crate) struct PartTracks {
     pub captured: u64,
     /// The robot's palm at the newest frame: place, m, and quaternion x, y, z, w; zeros: not known.
     palm: [f64; 7],
+    /// No track from this index on is in use: most scenes have few parts, and they are gone through many times in each cycle.
+    used: u64,
     tracks: [PartTrack; MAX_PARTS],
 }
 
@@ -39,8 +41,12 @@ impl PartTracks {
 
     /// The same, each with the index of its track.
     pub fn numbered(&self) -> impl Iterator<Item = (usize, usize, &PartTrack)> + Clone {
-        let all = self.tracks.iter().enumerate();
+        let all = self.in_use().iter().enumerate();
         all.filter_map(|(index, track)| Some((index, track.believed_kind()?, track)))
+    }
+
+    fn in_use(&self) -> &[PartTrack] {
+        &self.tracks[..(self.used as usize).min(MAX_PARTS)]
     }
 
     /// The part in the robot's hand: index of its track and kind.
@@ -75,6 +81,9 @@ impl PartTracks {
         ensure(self.seen > 0 || self.captured == 0, "parts.captured", "0 before the first frame")?;
         cycle("parts.captured", self.captured)?;
         bounded("parts.palm", &self.palm, FARTHEST)?;
+        let others = self.tracks.get(self.used as usize..);
+        let unused = others.is_some_and(|others| others.iter().all(|track| track.kind().is_none()));
+        ensure(unused, "parts.used", "no track in use from this index on")?;
         self.tracks.iter().try_for_each(PartTrack::check)
     }
 
@@ -96,6 +105,8 @@ impl PartTracks {
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;
         self.associate(view, cycles, places);
+        self.used =
+            self.tracks.iter().rposition(|track| track.kind().is_some()).map_or(0, |last| last as u64 + 1);
         self.follow_robot(around.palm);
         self.miss(sight, cycles, places);
         let counted = (0..places.kinds()).filter_map(|kind| Some((kind, places.count(kind)?)));

@@ -14,6 +14,7 @@ pub(super) fn print(evaluation: &Evaluation) {
         movement,
         world,
         partner,
+        person,
         seed,
         trials,
         report,
@@ -28,7 +29,8 @@ pub(super) fn print(evaluation: &Evaluation) {
     let lacks = without.unwrap_or_default();
     let (layout, movement, world) = (layout.told(), movement.told(), world.name());
     println!(
-        "{task}: {trials} assemblies with {partner} in the {world} world{layout}{movement}, seeds from {seed}; 95 % intervals"
+        "{task}: {trials} assemblies with {partner}, people as in {}, in the {world} world{layout}{movement}, seeds from {seed}; 95 % intervals",
+        person.display()
     );
     let mut table = Table::new();
     table.load_style(UTF8_HORIZONTAL_ONLY);

@@ -16,9 +16,9 @@ const COLUMNS: [&str; 14] = [
     "60 %",
     "80 %",
     "100 %",
-    "lead p5 p50 p95",
+    "goal lead p5 p50 p95",
     "answered",
-    "lead p5 p50 p95",
+    "answer lead p5 p50 p95",
     "onset p5 p50 p95",
 ];
 
@@ -41,7 +41,7 @@ pub(super) fn print(measured: &Measured, unseen: &str) {
     println!("{table}");
     println!(
         "right: goal decided before contact (IL), of all reaches. 20 % ...: right goal standing at that part of movement time.\n\
-         answered: right action decided before contact (AEL). lead: contact minus right decision, ms. onset: perception's\n\
+         answered: right action decided before contact (AEL). lead: contact minus it, ms. onset: perception's\n\
          minus the label, ms."
     );
     for RealTimeMetrics { participant, cycles, missed, end_to_end_p99_ns, report, .. } in real_time {
