@@ -18,6 +18,9 @@ fn step(criterion: &mut Criterion) {
     for (kind, fit) in [1.0, 0.5, 0.2, 0.1].into_iter().enumerate() {
         percept.destinations.push(Some(kind), [-1.0, 0.1 * kind as f64], fit);
     }
+    percept.grips.count = 2;
+    percept.grips.pitch[..2].copy_from_slice(&[-1.3, -0.2]);
+    percept.grips.fit[..2].copy_from_slice(&[1.0, 0.3]);
     let (mut now, mut next): (Box<FieldFrame>, Box<FieldFrame>) =
         (bytemuck::zeroed_box(), bytemuck::zeroed_box());
     network.rest(&mut now);

@@ -116,7 +116,8 @@ impl Perception {
             }
         }
         if state.parts.is_news(tick, &sample.scene) {
-            let around = hands(tick, &state.hand, self.robot.as_ref(), &sample.joints);
+            let rests = self.acts.is_from_rest(state.acting(), state.hand.shape().wrist);
+            let around = hands(tick, (&state.hand, rests), self.robot.as_ref(), &sample.joints);
             let held = state.parts.is_any_with_the_person();
             let sight = self.places.sight(&sample.scene);
             state.parts.observe(&sight, &around, &self.places);
@@ -162,12 +163,18 @@ fn may_reach(acts: &Acts, state: &PerceptionState) -> bool {
     }
 }
 
-/// Both hands at `tick`.
-fn hands(tick: u64, hand: &TrackedHand, robot: Option<&Robot>, joints: &JointReading) -> Hands {
+/// Both hands at `tick`; `rests`: the person's lies where it rests.
+fn hands(
+    tick: u64,
+    (hand, rests): (&TrackedHand, bool),
+    robot: Option<&Robot>,
+    joints: &JointReading,
+) -> Hands {
     let person = hand.is_tracked(tick).then(|| PersonHand {
         centre: hand.centre(),
         aperture: hand.shape().aperture(),
         speed: hand.movement.speed,
+        rests,
     });
     let palm = robot.map(|robot| robot.palm(&joints.position));
     let hand_axis = robot.zip(palm).map(|(Robot { hand, .. }, palm)| {

@@ -26,4 +26,6 @@ pub(crate) struct PersonHand {
     pub aperture: f64,
     /// Wrist speed, m/s.
     pub speed: f64,
+    /// Whether it lies where it rests.
+    pub rests: bool,
 }

@@ -52,6 +52,8 @@ impl PartTrack {
     pub(super) fn watch_fingers(&mut self, size: PartSize, around: &Hands, time: f64) {
         self.set_widest(match around.person {
             Some(hand) if self.away_from(size, &hand) > ABOUT => 0.0,
+            // One that comes back to sight where it rests has taken nothing: it would have gone with it.
+            Some(hand) if hand.rests && self.widest().is_infinite() => hand.aperture,
             Some(hand) => hand.aperture.max(self.widest() - CLOSES * time),
             None if around.unseen => f64::INFINITY,
             None => 0.0,

@@ -1,7 +1,7 @@
 //! Parts, places and hands: seen, gone, or out of view.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::support::{self, Stage, stands_before};
+use crate::support::{self, Hand, Stage, smooth, stands_before};
 use coact_messages::{JOINTS, PERSON, ROBOT};
 use coact_robot::Robot;
 
@@ -280,4 +280,28 @@ fn a_part_that_falls_when_the_robot_lets_it_go_is_lost_and_one_that_is_taken_is_
     assert!(lost_after_opening(|_, _| {}) < 0.1, "somebody has it");
     let taken_away = |stage: &mut Stage, part: usize| stage.things[part].visible = false;
     assert!(lost_after_opening(taken_away) < 0.1, "a hand hides it");
+}
+
+#[test]
+fn a_resting_hand_that_comes_back_to_sight_over_a_part_has_not_taken_it() {
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("nut"), stage.kind("nut"));
+    let [x, y, z] = stage.hand.centre;
+    stage.things[part].position = [x, y, z - 0.5 * stage.task.kinds[kind].shape.height()];
+    stage.run(1000, |_, _| {});
+    stage.tracking = false;
+    stage.run(600, |_, _| {});
+    stage.tracking = true;
+    stage.run(1000, |_, _| {});
+    assert_eq!(stage.percept.person_holds[kind], 0.0);
+    // What goes with it, it has.
+    let away = Hand { centre: [x + 0.2, y + 0.1, z + 0.1], ..stage.hand };
+    let start = stage.hand;
+    for time in 1..=600 {
+        stage.hand = start.towards(&away, smooth(f64::from(time) / 600.0));
+        let [x, y, z] = stage.hand.centre;
+        stage.things[part].position = [x, y, z - 0.5 * stage.task.kinds[kind].shape.height()];
+        stage.run(1, |_, _| {});
+    }
+    assert!(stage.percept.person_holds[kind] > 0.9, "{}", stage.percept.person_holds[kind]);
 }
