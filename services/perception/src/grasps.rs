@@ -1,5 +1,6 @@
 use crate::evidence::smooth_step;
 use crate::objects::{PartTrack, TaskPlaces};
+use crate::perception::HELD;
 use crate::perception_state::PerceptionState;
 use crate::present_movement::PresentMovement;
 use crate::preshape::{Classifier, LAST_READ};
@@ -34,8 +35,6 @@ const TAKES_APART: f64 = -1.0;
 /// How likely it is beforehand that a hand which set out from elsewhere returns to rest, against that it goes for any one part: a logarithm.
 /// Chosen by hand: what it held is put down, and most withdraw then, past whatever lies there.
 const RETURNS: f64 = 2.0;
-/// Evidence from which a part counts as held: the middle.
-const HELD: f64 = 0.5;
 /// Least that a movement leads anywhere: its logarithm is finite.
 const LEAST: f64 = 1e-12;
 /// A part in the robot's hand is offered when it is this near to the handover place, m: chosen by hand.

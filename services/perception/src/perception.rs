@@ -13,7 +13,7 @@ use coact_stage_state::StageState;
 use nalgebra::Point3;
 
 /// Evidence from which a part counts as held by the person: the middle.
-const HELD: f64 = 0.5;
+pub(crate) const HELD: f64 = 0.5;
 
 /// Sensor samples become a percept: what the person's hand does, what lies where, how far the construction is.
 #[derive(Debug, Clone)]

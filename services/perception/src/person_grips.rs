@@ -28,13 +28,14 @@ impl PersonGrips {
     pub fn tell(&self, grips: &[PersonGrip], pitch: Option<f64>, trust: f64, out: &mut Grips) {
         out.count = 0;
         let Some(pitch) = pitch.filter(|_| grips.len() > 1) else { return };
-        let likelihood = |index: usize| self.usual(grips, index).likelihood(pitch);
         let count = grips.len().min(MAX_GRIPS);
-        let likeliest = (0..count).map(likelihood).fold(f64::NEG_INFINITY, f64::max);
         for index in 0..count {
-            out.pitch[index] = self.usual(grips, index).pitch;
-            out.fit[index] = (trust * (likelihood(index) - likeliest)).exp();
+            let usual = self.usual(grips, index);
+            (out.pitch[index], out.fit[index]) = (usual.pitch, usual.likelihood(pitch));
         }
+        let fit = &mut out.fit[..count];
+        let likeliest = fit.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        fit.iter_mut().for_each(|fit| *fit = (trust * (*fit - likeliest)).exp());
         out.count = count as u32;
     }
 
