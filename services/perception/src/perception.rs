@@ -91,9 +91,7 @@ impl Perception {
         }
         self.state.loss.report(tick, self.places.kinds(), &mut self.percept);
         self.report_hand(tick);
-        let header = out.header;
-        *out = *self.percept;
-        out.header = header;
+        out.tell_as(&self.percept);
         self.state.store(&mut out.state);
     }
 

@@ -70,6 +70,12 @@ pub struct WorkspacePercept {
 }
 
 impl Percept {
+    /// Tells the same as `other`; header and state stay.
+    pub fn tell_as(&mut self, other: &Self) {
+        let told = size_of::<Header>()..std::mem::offset_of!(Self, state);
+        bytemuck::bytes_of_mut(self)[told.clone()].copy_from_slice(&bytemuck::bytes_of(other)[told]);
+    }
+
     /// The arm of the hand with which the person acts.
     pub fn acting_arm(&self) -> &PersonArm {
         &self.arms[self.acting() as usize]

@@ -52,7 +52,7 @@ impl Person {
             }
             self.aim(state, around.parts.centre(part, around.task));
         }
-        state.hand = self.reaching_pose(state, around.tick).unwrap_or(state.hand);
+        state.hand = self.reaching_pose(state, around.tick);
     }
 
     /// The fingers close on the part, or the gesture is fully shown.

@@ -24,7 +24,7 @@ impl Person {
         let (stops, from, stands) =
             (rng.random_bool(hesitates), rng.random_range(STANDS_AT), rng.random_range(STANDS));
         let then = self.covered(state, around.tick + Hesitation::STOPPING);
-        if !stops || !then.is_some_and(|then| (from..=*STANDS_AT.end()).contains(&then)) {
+        if !stops || !(from..=*STANDS_AT.end()).contains(&then) {
             return;
         }
         state.hesitation = Hesitation { begun: around.tick.max(1), stands };

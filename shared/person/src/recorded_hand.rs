@@ -6,7 +6,7 @@ use crate::{ActivityPhase, HandModel, HandMovement, HandPose, Person, PersonStat
 use coact_messages::{Keypoint, KeypointName};
 use coact_period::{PERIOD_S, cycles, seconds};
 use coact_stage_state::Slot;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::time::Duration;
 
 /// How long after the grasp it leaves it again, cycles: half of the time in which it takes the hand over.
@@ -24,44 +24,43 @@ impl Person {
         index.get().and_then(|index| recorded.reaches.get(index))
     }
 
-    /// The hand that makes a movement as `reach` was made, `None` where it has begun or ended outside the recording.
+    /// The hand that makes a movement as `reach` was made.
     pub(crate) fn recorded_pose(
         &self,
         reach: &RecordedReach,
         arm: &HandModel,
         movement: &HandMovement,
         now: f64,
-    ) -> Option<HandPose> {
-        let frame = reach.at(movement.since_onset(now))?;
+    ) -> HandPose {
+        let frame = reach.at(movement.since_onset(now));
         let mut pose = movement.pose_at(now);
         let (from, to) = (movement.from.wrist(), movement.to.wrist());
         let along = frame.progress.clamp(0.0, 1.0);
         let arch = movement.arch * 16.0 * along * along * (1.0 - along) * (1.0 - along);
         let detour = frame.detour * arm.thumb_side(&pose);
         pose.wrist = (from + frame.progress * (to - from) + detour + arch * DVec3::Z).into();
-        Some(pose)
+        pose
     }
 
     /// What a tracker of the recorded person would report at `tick`; `None` when the model alone shapes the hand.
     pub fn recorded_keypoints(&self, state: &PersonState, tick: u64) -> Option<[Keypoint; 9]> {
         let (frame, fraction) = self.recorded_frame(state, tick)?;
-        let Some(frame) = frame else { return Some([Keypoint::default(); 9]) };
-        let places = self.shaped(state, &frame, fraction);
+        let places = self.shaped(state, &frame.reported, fraction);
         Some(std::array::from_fn(|joint| match frame.confidence[joint] {
             confidence if confidence > 0.0 => Keypoint { position: places[joint].into(), confidence },
             _ => Keypoint::default(),
         }))
     }
 
-    /// Where the recorded person's joints are at `tick`, seen or not: those that the recording has lost are where it has seen them last against the
-    /// wrist. `None` when the model alone shapes the hand.
+    /// Where the recorded person's joints are at `tick`, seen or not: those that the recording has lost are between where it saw them last and
+    /// where it sees them next, against the wrist. `None` when the model alone shapes the hand.
     pub fn recorded_joints(&self, state: &PersonState, tick: u64) -> Option<[DVec3; 9]> {
         let (frame, fraction) = self.recorded_frame(state, tick)?;
-        Some(self.shaped(state, &frame?, fraction))
+        Some(self.shaped(state, &frame.shape, fraction))
     }
 
-    /// What the recording has of the hand at `tick`, if anything, and how much of its shape is the recorded one's.
-    fn recorded_frame(&self, state: &PersonState, tick: u64) -> Option<(Option<RecordedFrame>, f64)> {
+    /// What the recording has of the hand at `tick`, and how much of its shape is the recorded one's.
+    fn recorded_frame(&self, state: &PersonState, tick: u64) -> Option<(RecordedFrame, f64)> {
         let reach = self.recording(state)?;
         let begins = state.movement.onset;
         let turned = state.turn.begun > 0;
@@ -75,7 +74,7 @@ impl Person {
             return None;
         }
         let frame = match state.phase() {
-            ActivityPhase::Reach if turned => self.turning_frame(state, tick),
+            ActivityPhase::Reach if turned => self.turning_frame(state, tick)?,
             _ => reach.at((state.hesitation.time(tick) - onset as f64) * PERIOD_S),
         };
         Some((frame, fraction))
@@ -91,26 +90,17 @@ impl Person {
         let left = seconds(state.movement.end.saturating_sub(tick));
         let coming = second.at(seconds(second.movement_time) - left);
         let along = minimum_jerk(state.movement.time(now));
-        match (going, coming) {
-            (Some(going), Some(coming)) => Some(going.mixed_with(&coming, along)),
-            (going, coming) => {
-                if along < 0.5 {
-                    going
-                } else {
-                    coming
-                }
-            }
-        }
+        Some(going.mixed_with(&coming, along))
     }
 
     /// The recorded shape of the hand in the plane of its pose, mixed with the model's: this `fraction` is recorded.
-    fn shaped(&self, state: &PersonState, frame: &RecordedFrame, fraction: f64) -> [DVec3; 9] {
+    fn shaped(&self, state: &PersonState, shape: &[DVec2; 9], fraction: f64) -> [DVec3; 9] {
         let (arm, pose) = (self.arm(state), &state.hand);
         let modelled = arm.keypoints(pose);
         let (ahead, aside, wrist) = (arm.direction(pose), arm.thumb_side(pose), pose.wrist());
         std::array::from_fn(|joint| {
             let on_arm = joint == KeypointName::Shoulder as usize || joint == KeypointName::Elbow as usize;
-            let shown = wrist + frame.shape[joint].x * ahead + frame.shape[joint].y * aside;
+            let shown = wrist + shape[joint].x * ahead + shape[joint].y * aside;
             if on_arm { modelled[joint] } else { modelled[joint].lerp(shown, fraction.min(1.0)) }
         })
     }

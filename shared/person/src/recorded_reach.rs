@@ -11,6 +11,10 @@ pub(crate) const LEAD: u64 = cycles(Duration::from_millis(300));
 const SHORTEST: f64 = 10.0;
 /// Frames further apart than this have lost frames between them, s: more than two frames of 60 Hz.
 const LOST: f64 = 0.04;
+/// Frames of which the median is taken: in single ones the detector is mistaken.
+const STEADY: usize = 5;
+/// No wrist goes faster, and no joint against its wrist, m/s: more than twice as fast as the recorded reaches are.
+const FASTEST: f64 = 3.0;
 
 /// One recorded reach, apart from where it began and ended.
 #[derive(Debug, Clone)]
@@ -33,59 +37,69 @@ pub(crate) struct RecordedFrame {
     pub progress: f64,
     /// How far it is off the straight line, m, towards the thumb's side.
     pub detour: f64,
-    /// Keypoints against the wrist: along the hand (wrist to knuckles), and across it (towards the thumb), m.
+    /// Joints against the wrist: along the hand (wrist to knuckles), and across it (towards the thumb), m.
     pub shape: [DVec2; 9],
+    /// The same as the detector reports it, who is mistaken now and then.
+    pub reported: [DVec2; 9],
     pub confidence: [f64; 9],
 }
 
 impl RecordedReach {
     /// `None` when the wrist cannot be followed from before the onset to the grasp.
     pub fn new(reach: &Reach, scale: f64) -> Option<Self> {
-        let wrists = followed(reach)?;
+        let frames = &reach.frames;
+        let wrist = KeypointName::Wrist as usize;
+        let wrists = steady(frames, FASTEST / scale, |frame| seen(&frames[frame], wrist))?;
         let at_time = |time: f64| {
-            let distance = |index: &usize| (reach.frames[*index].time - time).abs();
-            (0..reach.frames.len()).min_by(|one, other| distance(one).total_cmp(&distance(other)))
+            let distance = |index: &usize| (frames[*index].time - time).abs();
+            (0..frames.len()).min_by(|one, other| distance(one).total_cmp(&distance(other)))
         };
         let (start, end) = (at_time(-PERIOD_S * LEAD as f64)?, at_time(reach.movement_time)?);
         let displacement = wrists[end] - wrists[start];
-        let (ahead, across) = hand_axes(&reach.frames[end], wrists[end])?;
+        let (ahead, across) = hand_axes(&frames[end], wrists[end])?;
         if displacement.length() < SHORTEST {
             return None;
         }
         // The thumb's side of the path is where the thumb's side of the hand is at the end of it.
         let normal = displacement.perp();
         let side = if normal.dot(across) > 0.0 { normal } else { -normal }.normalize();
-        let mut shape = [DVec2::ZERO; 9];
-        let frames: Vec<_> = (0..reach.frames.len())
-            .map(|index| {
-                let (frame, moved) = (&reach.frames[index], wrists[index] - wrists[start]);
-                see_joints(frame, wrists[index], (ahead, across), scale, &mut shape);
-                RecordedFrame {
-                    time: frame.time,
-                    progress: moved.dot(displacement) / displacement.length_squared(),
-                    detour: scale * moved.dot(side),
-                    shape,
-                    confidence: frame.joints.map(|joint| joint.confidence.clamp(0.0, 1.0)),
-                }
-            })
-            .collect();
-        let tips = &frames[end].shape;
-        let centre = 0.5 * (tips[KeypointName::ThumbTip as usize] + tips[KeypointName::IndexTip as usize]);
-        let movement_time = (reach.movement_time * CYCLES_PER_SECOND as f64).round() as u64;
-        Some(Self { width: reach.size.width(), movement_time, centre, frames })
+        let reported = |frame: usize, joint: usize| {
+            let reached = seen(&frames[frame], joint)? - wrists[frame];
+            Some(scale * DVec2::new(reached.dot(ahead), reached.dot(across)))
+        };
+        let shapes = shapes(frames, reported);
+        let recorded = |index: usize| {
+            let moved = wrists[index] - wrists[start];
+            RecordedFrame {
+                time: frames[index].time,
+                progress: moved.dot(displacement) / displacement.length_squared(),
+                detour: scale * moved.dot(side),
+                shape: std::array::from_fn(|joint| shapes[joint][index]),
+                reported: std::array::from_fn(|joint| reported(index, joint).unwrap_or(shapes[joint][index])),
+                confidence: frames[index].joints.map(|joint| joint.confidence.clamp(0.0, 1.0)),
+            }
+        };
+        let [thumb, finger] =
+            [KeypointName::ThumbTip, KeypointName::IndexTip].map(|tip| shapes[tip as usize][end]);
+        Some(Self {
+            width: reach.size.width(),
+            movement_time: (reach.movement_time * CYCLES_PER_SECOND as f64).round() as u64,
+            centre: 0.5 * (thumb + finger),
+            frames: (0..frames.len()).map(recorded).collect(),
+        })
     }
 
-    /// The hand `time` s after onset, between the recording's frames; where frames are lost, no joint is seen. `None` before the first frame and
-    /// after the last.
-    pub fn at(&self, time: f64) -> Option<RecordedFrame> {
+    /// The hand `time` s after onset, between the recording's frames. Where frames are lost, before the first one and after the last, no joint
+    /// is seen; the hand is as in the nearest ones.
+    pub fn at(&self, time: f64) -> RecordedFrame {
         let next = self.frames.partition_point(|frame| frame.time <= time);
-        let before = self.frames.get(next.checked_sub(1)?)?;
-        let after = self.frames.get(next)?;
+        let (before, after) =
+            (&self.frames[next.saturating_sub(1)], &self.frames[next.min(self.frames.len() - 1)]);
         let gap = after.time - before.time;
         let along = ((time - before.time) / gap.max(1e-9)).clamp(0.0, 1.0);
         let mixed = before.mixed_with(after, along);
-        let confidence = if gap > LOST { [0.0; 9] } else { mixed.confidence };
-        Some(RecordedFrame { time, confidence, ..mixed })
+        let is_seen = 0.0 < gap && gap <= LOST;
+        RecordedFrame { time, confidence: if is_seen { mixed.confidence } else { [0.0; 9] }, ..mixed }
     }
 }
 
@@ -98,49 +112,63 @@ impl RecordedFrame {
             progress: mix(self.progress, other.progress),
             detour: mix(self.detour, other.detour),
             shape: std::array::from_fn(|joint| self.shape[joint].lerp(other.shape[joint], along)),
+            reported: std::array::from_fn(|joint| self.reported[joint].lerp(other.reported[joint], along)),
             confidence: if along < 0.5 { self.confidence } else { other.confidence },
         }
     }
 }
 
-/// The wrist in every frame, pixels; where it is lost, where it was last seen.
-fn followed(reach: &Reach) -> Option<Vec<DVec2>> {
-    let seen = |frame: &Frame| {
-        let wrist = frame.joints[KeypointName::Wrist as usize];
-        (wrist.confidence > 0.0).then(|| DVec2::new(wrist.x, wrist.y))
+/// Where a frame shows a joint, pixels.
+fn seen(frame: &Frame, joint: usize) -> Option<DVec2> {
+    let joint = frame.joints[joint];
+    (joint.confidence > 0.0).then(|| DVec2::new(joint.x, joint.y))
+}
+
+/// Each joint against the wrist in all frames, from where the detector reports it; one that is never seen is at the wrist.
+fn shapes(frames: &[Frame], reported: impl Fn(usize, usize) -> Option<DVec2>) -> [Vec<DVec2>; 9] {
+    let at_wrist = || vec![DVec2::ZERO; frames.len()];
+    let mut shapes: [_; 9] = std::array::from_fn(|joint| {
+        steady(frames, FASTEST, |frame| reported(frame, joint)).unwrap_or_else(at_wrist)
+    });
+    shapes[KeypointName::Wrist as usize] = at_wrist();
+    shapes
+}
+
+/// Where something is in all frames of which some show it: the median of the [`STEADY`] around that do, no farther from one to the next than it
+/// can go at so many units a second; where it is lost, on the way from where it was last to where it is next. `None` for what is never shown.
+fn steady(frames: &[Frame], fastest: f64, shown: impl Fn(usize) -> Option<DVec2>) -> Option<Vec<DVec2>> {
+    let shown: Vec<(f64, DVec2)> =
+        (0..frames.len()).filter_map(|index| Some((frames[index].time, shown(index)?))).collect();
+    let last = shown.len().checked_sub(1)?;
+    let mut known: Vec<(f64, DVec2)> = Vec::with_capacity(shown.len());
+    for (index, (time, _)) in shown.iter().enumerate() {
+        let beside = (STEADY / 2).min(index).min(last - index);
+        let around = &shown[index - beside..=index + beside];
+        let place = DVec2::new(median(around, |place| place.x), median(around, |place| place.y));
+        let (before, from) = *known.last().unwrap_or(&(*time, place));
+        known.push((*time, from + (place - from).clamp_length_max(fastest * (time - before))));
+    }
+    let at = |frame: &Frame| {
+        let next = known.partition_point(|(time, _)| *time < frame.time);
+        let ((from, before), (to, after)) = (known[next.saturating_sub(1)], known[next.min(last)]);
+        before.lerp(after, ((frame.time - from) / (to - from).max(1e-9)).clamp(0.0, 1.0))
     };
-    let mut last = reach.frames.iter().find_map(seen)?;
-    let follow = |frame: &Frame| {
-        last = seen(frame).unwrap_or(last);
-        last
-    };
-    Some(reach.frames.iter().map(follow).collect())
+    Some(frames.iter().map(at).collect())
+}
+
+fn median(around: &[(f64, DVec2)], coordinate: impl Fn(DVec2) -> f64) -> f64 {
+    let mut all: Vec<f64> = around.iter().map(|(_, place)| coordinate(*place)).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    all[all.len() / 2]
 }
 
 /// Directions on the image: from the wrist to the middle of the knuckles, and across it to the thumb's side.
 fn hand_axes(frame: &Frame, wrist: DVec2) -> Option<(DVec2, DVec2)> {
-    let point = |name: KeypointName| {
-        let joint = frame.joints[name as usize];
-        (joint.confidence > 0.0).then(|| DVec2::new(joint.x, joint.y))
-    };
+    let point = |name: KeypointName| seen(frame, name as usize);
     let (index, little) = (point(KeypointName::IndexKnuckle)?, point(KeypointName::LittleKnuckle)?);
     point(KeypointName::ThumbTip)?;
     point(KeypointName::IndexTip)?;
     let ahead = (0.5 * (index + little) - wrist).try_normalize()?;
     let across = if (index - little).dot(ahead.perp()) > 0.0 { ahead.perp() } else { -ahead.perp() };
     Some((ahead, across))
-}
-
-/// Corrects the shape of the hand by the joints that are seen in this frame; lost ones stay where they were last seen.
-fn see_joints(
-    frame: &Frame,
-    wrist: DVec2,
-    (ahead, across): (DVec2, DVec2),
-    scale: f64,
-    shape: &mut [DVec2; 9],
-) {
-    for (place, joint) in shape.iter_mut().zip(&frame.joints).filter(|(_, joint)| joint.confidence > 0.0) {
-        let reached = DVec2::new(joint.x, joint.y) - wrist;
-        *place = scale * DVec2::new(reached.dot(ahead), reached.dot(across));
-    }
 }

@@ -71,3 +71,35 @@ impl RecordedReaches {
         (0..self.reaches.len()).filter(move |&index| distance(&self.reaches[index]) <= nearest + 1e-9)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recorded_reach::RecordedFrame;
+    use coact_period::PERIOD_S;
+
+    #[test]
+    fn no_hand_leaps_where_the_detector_is_mistaken() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/reaches");
+        let (mut believed, mut all) = (0, 0);
+        for participant in 1..=6 {
+            for reach in RecordedReaches::load_participant(&folder, participant).unwrap().reaches {
+                let hand: Vec<_> = (-1000..1500).map(|tick| reach.at(f64::from(tick) * PERIOD_S)).collect();
+                for (tick, (before, after)) in hand.iter().zip(&hand[1..]).enumerate() {
+                    let gone = |joint: usize| before.shape[joint].distance(after.shape[joint]) / PERIOD_S;
+                    let fastest = (0..9).map(gone).fold(0.0, f64::max);
+                    assert!(fastest < 3.001, "{participant}: {fastest} m/s in {tick}");
+                }
+                let near = |frame: &&RecordedFrame| {
+                    (0..9).all(|joint| {
+                        frame.confidence[joint] == 0.0
+                            || frame.shape[joint].distance(frame.reported[joint]) < 0.03
+                    })
+                };
+                believed += hand.iter().filter(near).count();
+                all += hand.len();
+            }
+        }
+        assert!(10 * believed > 9 * all, "{believed} of {all} as reported, within 3 cm");
+    }
+}

@@ -30,8 +30,8 @@ impl Person {
         }
         let mut rng = self.random.at(Stream::ChangeOfMind, state.movement.start);
         let (turns, from) = (rng.random_bool(changes), rng.random_range(TURNS_AT));
-        let due = self.covered(state, around.tick).is_some_and(|now| now >= from && now <= *TURNS_AT.end());
-        if !turns || !due {
+        let covered = self.covered(state, around.tick);
+        if !turns || covered < from || covered > *TURNS_AT.end() {
             return;
         }
         let mut rng = self.random.at(Stream::ChangeOfMind, around.tick);
@@ -40,12 +40,12 @@ impl Person {
         }
     }
 
-    /// Fraction of the way that the hand has covered in a movement that has neither turned nor stood; `None` while the recording shows nothing.
-    pub(crate) fn covered(&self, state: &PersonState, tick: u64) -> Option<f64> {
+    /// Fraction of the way that the hand has covered in a movement that has neither turned nor stood.
+    pub(crate) fn covered(&self, state: &PersonState, tick: u64) -> f64 {
         let now = tick as f64;
         match self.recording(state) {
-            None => Some(minimum_jerk(state.movement.time(now))),
-            Some(reach) => reach.at(state.movement.since_onset(now)).map(|frame| frame.progress),
+            None => minimum_jerk(state.movement.time(now)),
+            Some(reach) => reach.at(state.movement.since_onset(now)).progress,
         }
     }
 
@@ -74,20 +74,20 @@ impl Person {
         state.error = error(state, around);
     }
 
-    /// The hand of a reach at `tick`, where one movement or two drive it; `None` while the recording shows nothing.
-    pub(crate) fn reaching_pose(&self, state: &PersonState, tick: u64) -> Option<HandPose> {
+    /// The hand of a reach at `tick`, where one movement or two drive it.
+    pub(crate) fn reaching_pose(&self, state: &PersonState, tick: u64) -> HandPose {
         let now = state.hesitation.time(tick);
         let recorded = |recording: Slot, movement: &HandMovement| match self.recording_at(recording) {
-            None => Some(movement.pose_at(now)),
+            None => movement.pose_at(now),
             Some(reach) => self.recorded_pose(reach, self.arm(state), movement, now),
         };
         match state.turn.first() {
             None => recorded(state.recording, &state.movement),
             Some(first) => {
                 let goes_on = !first.is_over(tick);
-                let going = if goes_on { recorded(state.turn.recording, first) } else { Some(first.to) };
+                let going = if goes_on { recorded(state.turn.recording, first) } else { first.to };
                 let (second, from) = (state.movement.pose(tick), state.movement.from);
-                going.map(|hand| hand.moved_by(&from, &second))
+                going.moved_by(&from, &second)
             }
         }
     }

@@ -14,11 +14,11 @@ const STALLED: u64 = cycles(Duration::from_secs(60));
 #[derive(Debug, Clone)]
 pub struct Campaign<'a> {
     /// Task, robot, model, partner; the seed is that of the first assembly, the next ones follow. A random layout is drawn anew for
-    /// each, by its seed.
+    /// each. All of an assembly follows from its seed, so that any of them can be looked at alone.
     pub settings: &'a RunSettings,
-    /// Tasks that the assemblies take in turn; without any it is that of the settings.
+    /// Tasks that the seeds take in turn; without any it is that of the settings.
     pub tasks: &'a [PathBuf],
-    /// Who moves the partner's hand: all with each of the tasks, in turn; without any it is as the settings say.
+    /// Who moves the partner's hand: all with each of the tasks, in turn with the seeds; without any it is as the settings say.
     pub people: &'a [RecordedPerson],
     /// The robot's network.
     pub network: &'a NetworkVariant,
@@ -77,9 +77,9 @@ fn settings(campaign: &Campaign, index: u64) -> RunSettings {
         Layout::Random(_) => Layout::Random(seed),
     };
     let turns = tasks.len().max(1) as u64;
-    let task = tasks.get((index % turns) as usize).unwrap_or(&settings.task).clone();
+    let task = tasks.get((seed % turns) as usize).unwrap_or(&settings.task).clone();
     let own = RunSettings { task, seed, layout, ..settings.clone() };
-    let person = people.get((index / turns % people.len().max(1) as u64) as usize).cloned();
+    let person = people.get((seed / turns % people.len().max(1) as u64) as usize).cloned();
     match person {
         Some(RecordedPerson { movement, model }) => RunSettings { movement, model, ..own },
         None => own,
@@ -109,17 +109,19 @@ mod tests {
         let taken = [0, 1, 2].map(|index| settings(&campaign, index));
         assert_eq!(
             taken.each_ref().map(|settings| settings.task.clone()),
-            ["a.toml", "b.toml", "a.toml"].map(PathBuf::from)
+            ["b.toml", "a.toml", "b.toml"].map(PathBuf::from)
         );
         assert_eq!(taken.each_ref().map(|settings| settings.seed), [7, 8, 9]);
         assert_eq!(taken.each_ref().map(|settings| settings.layout), [7, 8, 9].map(Layout::Random));
+        let alone = RunSettings { seed: 8, ..own.clone() };
+        assert_eq!(settings(&Campaign { settings: &alone, ..campaign }, 0), taken[1]);
         let without = Campaign { tasks: &[], ..campaign };
         assert_eq!(settings(&without, 1).task, own.task);
     }
 
     #[test]
     fn each_person_moves_the_hand_in_each_task_read_by_who_does_not_know_them() {
-        let own = RunSettings::shipped("rt-config".as_ref());
+        let own = RunSettings { seed: 8, ..RunSettings::shipped("rt-config".as_ref()) };
         let people = [1, 2].map(|participant| RecordedPerson {
             movement: Movement::Recorded { folder: "reaches".into(), participant },
             model: format!("without-{participant}.toml").into(),

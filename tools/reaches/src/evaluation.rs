@@ -1,9 +1,8 @@
-use crate::extraction::{LabelledReach, extract};
 use crate::inference_trace::InferenceTrace;
+use crate::parallel::in_parallel;
 use crate::reach_outcome::ReachOutcome;
 use crate::subject::Subject;
-use crate::training::fit;
-use anyhow::Context;
+use crate::training::leave_one_out;
 use coact_fields::Network;
 use coact_joint_task::{NetworkPlan, Task};
 use coact_perception::{Perception, PreshapeModel};
@@ -35,21 +34,19 @@ impl Evaluation<'_> {
     /// When no model can be made of the other people.
     pub fn subjects(&self, reaches: &[Reach]) -> anyhow::Result<Vec<Subject>> {
         let people = self.order.people(reaches);
-        let labelled = match self.model {
-            Some(_) => Vec::new(),
-            None => in_parallel(&people, |person| Ok(extract(self.task, self.robot, person)?))?,
+        let models = match self.model {
+            Some(model) => vec![model.clone(); people.len()],
+            None => {
+                let made = leave_one_out(self.task, self.robot, reaches, self.order)?;
+                made.into_iter().map(|(_, model)| model).collect()
+            }
         };
-        let subject = |person: &Vec<&Reach>| {
-            let participant = person[0].participant;
-            let model = match self.model {
-                Some(model) => model.clone(),
-                None => all_but(participant, &labelled)?,
-            };
+        let subject = |(person, model): (&Vec<&Reach>, PreshapeModel)| {
             let replay = Replay::new(self.task, self.robot, person, |reach| has_part_for(self.task, reach));
-            Ok(Subject { participant, model, replay })
+            Subject { participant: person[0].participant, model, replay }
         };
-        let subjects: anyhow::Result<Vec<_>> = people.iter().map(subject).collect();
-        Ok(subjects?.into_iter().filter(|subject| !subject.replay.reaches().is_empty()).collect())
+        let subjects = people.iter().zip(models).map(subject);
+        Ok(subjects.filter(|subject| !subject.replay.reaches().is_empty()).collect())
     }
 
     /// Plays each subject's reaches through perception and the field network in lockstep, and judges what was decided:
@@ -58,8 +55,9 @@ impl Evaluation<'_> {
     /// # Errors
     /// The network's parameters are refused.
     pub fn in_lockstep(&self, subjects: &[Subject]) -> anyhow::Result<Vec<ReachOutcome>> {
-        let outcomes =
-            in_parallel(subjects, |subject| Ok(self.play(subject)?.judge(self.task, &subject.replay)))?;
+        let outcomes = in_parallel(subjects, |subject| {
+            self.play(subject).map(|trace| trace.judge(self.task, &subject.replay))
+        })?;
         Ok(outcomes.into_iter().flatten().collect())
     }
 
@@ -85,25 +83,4 @@ impl Evaluation<'_> {
         }
         Ok(trace)
     }
-}
-
-/// A model of all people but one.
-fn all_but(participant: u32, labelled: &[Vec<LabelledReach>]) -> anyhow::Result<PreshapeModel> {
-    let others = labelled.iter().flatten().filter(|reach| reach.participant != participant);
-    let others: Vec<LabelledReach> = others.cloned().collect();
-    fit(&others).with_context(|| format!("leaving out participant {participant}"))
-}
-
-/// Does `work` for every one of `items` at the same time, and gathers the results in their order.
-fn in_parallel<I: Sync, T: Send>(
-    items: &[I],
-    work: impl Fn(&I) -> anyhow::Result<T> + Sync,
-) -> anyhow::Result<Vec<T>> {
-    std::thread::scope(|scope| {
-        let threads: Vec<_> = items.iter().map(|item| scope.spawn(|| work(item))).collect();
-        threads
-            .into_iter()
-            .map(|thread| thread.join().map_err(|_| anyhow::anyhow!("a replay panicked"))?)
-            .collect()
-    })
 }

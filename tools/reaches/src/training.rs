@@ -1,6 +1,8 @@
 use crate::extraction::{LabelledReach, USUAL_TEMPO, extract};
 use crate::level_fit::{PersonFeatures, level, rounded};
 use crate::movement_fit::movement;
+use crate::parallel::in_parallel;
+use anyhow::Context;
 use coact_joint_task::Task;
 use coact_perception::{
     CLASSES, CURVE_BEGINS, FEATURES, PreshapeModel, READ, ReachRecord, SNAPSHOTS, SingularModel, WHOLE,
@@ -38,15 +40,41 @@ pub fn train(
     reaches: &[Reach],
     order: Order,
 ) -> Result<PreshapeModel, TrainError> {
-    let mut labelled = Vec::new();
-    for person in order.people(reaches) {
-        labelled.extend(extract(task, robot, &person)?);
-    }
-    fit(&labelled)
+    fit(&extract_each(task, robot, &order.people(reaches))?)
+}
+
+/// For each of these people the model that the recordings of all others make. Repeatable bit by bit.
+///
+/// # Errors
+/// The others' recordings do not suffice.
+pub fn leave_one_out(
+    task: &Task,
+    robot: &Robot,
+    reaches: &[Reach],
+    order: Order,
+) -> anyhow::Result<Vec<(u32, PreshapeModel)>> {
+    let people = order.people(reaches);
+    let labelled = extract_each(task, robot, &people)?;
+    let of_others = |person: &Vec<&Reach>| {
+        let participant = person[0].participant;
+        let others = labelled.iter().filter(|reach| reach.participant != participant);
+        let model = fit(&others.cloned().collect::<Vec<_>>())
+            .with_context(|| format!("leaving out participant {participant}"))?;
+        Ok((participant, model))
+    };
+    people.iter().map(of_others).collect()
+}
+
+fn extract_each(
+    task: &Task,
+    robot: &Robot,
+    people: &[Vec<&Reach>],
+) -> Result<Vec<LabelledReach>, TrainError> {
+    Ok(in_parallel(people, |person| extract(task, robot, person))?.concat())
 }
 
 /// The model that these reaches make.
-pub(crate) fn fit(labelled: &[LabelledReach]) -> Result<PreshapeModel, TrainError> {
+fn fit(labelled: &[LabelledReach]) -> Result<PreshapeModel, TrainError> {
     let mut people: Vec<u32> = labelled.iter().map(|reach| reach.participant).collect();
     people.sort_unstable();
     people.dedup();

@@ -3,11 +3,15 @@
 use anyhow::Context;
 use coact::installation::Installation;
 use coact_joint_task::Task;
+use coact_perception::PreshapeModel;
 use coact_reaches::{model_file, train};
 use coact_recordings::{Order, Reach, read_folder};
 use coact_robot::Robot;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+/// In which order perception is shown each person's reaches.
+pub const ORDER: Order = Order::Trial { seed: 1 };
 
 /// Trains the model of preshaping that perception reads.
 ///
@@ -50,19 +54,14 @@ pub fn run(args: Args) -> anyhow::Result<ExitCode> {
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     }
-    write_model((&task, &robot), &reaches, &args.source, &out)?;
+    let model = train(&task, &robot, &reaches, ORDER)?;
+    write_model(&model, &reaches, &args.source, &out)?;
     println!("{}: {} reaches", out.display(), reaches.len());
     Ok(ExitCode::SUCCESS)
 }
 
-/// Trains a model on these reaches, as perception sees them in this task, and writes it; `source` is what the file names as theirs.
-pub fn write_model(
-    (task, robot): (&Task, &Robot),
-    reaches: &[Reach],
-    source: &str,
-    out: &Path,
-) -> anyhow::Result<()> {
-    let model = train(task, robot, reaches, Order::Trial { seed: 1 })?;
-    let text = model_file(&model, reaches, source)?;
+/// Writes a model that was made of these reaches; `source` is what the file names as theirs.
+pub fn write_model(model: &PreshapeModel, reaches: &[Reach], source: &str, out: &Path) -> anyhow::Result<()> {
+    let text = model_file(model, reaches, source)?;
     std::fs::write(out, text).with_context(|| out.display().to_string())
 }
