@@ -73,6 +73,7 @@ impl RecordedReaches {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 mod tests {
     use super::*;
     use crate::recorded_reach::RecordedFrame;
