@@ -1,3 +1,6 @@
+/// Evidence from which a part counts as held by the person: the middle.
+pub(crate) const HELD: f64 = 0.5;
+
 /// Moves `value` one cycle towards 1 or 0, as `holds` says, at the rate that takes `cycles` from end to end.
 pub(crate) fn approach(value: &mut f64, holds: bool, cycles: f64) {
     follow(value, if holds { 1.0 } else { 0.0 }, cycles);

@@ -1,6 +1,5 @@
-use crate::evidence::smooth_step;
+use crate::evidence::{HELD, smooth_step};
 use crate::objects::{PartTrack, TaskPlaces};
-use crate::perception::HELD;
 use crate::perception_state::PerceptionState;
 use crate::present_movement::PresentMovement;
 use crate::preshape::{Classifier, LAST_READ};

@@ -1,5 +1,6 @@
 use crate::acts::Acts;
 use crate::attention::attend;
+use crate::evidence::HELD;
 use crate::hand::TrackedHand;
 use crate::objects::{Hands, PersonHand, TaskPlaces};
 use crate::perception_state::{PerceptionState, ResumeError};
@@ -11,9 +12,6 @@ use coact_messages::{HandPercept, JointReading, Percept, SensorSample};
 use coact_robot::Robot;
 use coact_stage_state::StageState;
 use nalgebra::Point3;
-
-/// Evidence from which a part counts as held by the person: the middle.
-pub(crate) const HELD: f64 = 0.5;
 
 /// Sensor samples become a percept: what the person's hand does, what lies where, how far the construction is.
 #[derive(Debug, Clone)]

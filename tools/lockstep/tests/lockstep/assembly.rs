@@ -16,7 +16,7 @@ const LONGEST: u64 = cycles(Duration::from_secs(180));
 fn vehicle_is_built_with_every_partner_in_an_order_that_the_plan_allows() {
     let left_handed = "random:goal=0,request=0,means=0,hidden=0,words=0,left=1";
     let mut by_left = false;
-    for (seed, partner) in [(1, "synthetic"), (2, "synthetic"), (4, left_handed)] {
+    for (seed, partner) in (1..=4).map(|seed| (seed, "synthetic")).chain([(4, left_handed)]) {
         let mut stages = Lockstep::new(&settings(seed, partner)).unwrap();
         let mut before = 0;
         while !stages.complete() && stages.ticks() < LONGEST {
