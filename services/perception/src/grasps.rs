@@ -103,9 +103,11 @@ impl Grasps {
         }
         let usual = mean(targets().map(|target| fit[target.kind]));
         let offered = targets().any(|target| target.offered);
-        let mounted = self.mounted(movement, state, places);
-        for (place, lead) in self.elsewhere(movement, state, offered).chain(mounted) {
+        for (place, lead) in self.elsewhere(movement, state, offered) {
             out.push(None, place.into(), sharpness * usual + lead.logarithm(heading));
+        }
+        for (kind, place, lead) in self.mounted(movement, state, places) {
+            out.push(None, place.into(), sharpness * fit[kind] + lead.logarithm(heading));
         }
         against_the_best(&mut out.fit[..out.count as usize]);
         if held <= HELD {
@@ -162,20 +164,23 @@ impl Grasps {
         self.handover.xy() + SHORT_OF_IT * nearer as f64 * back.normalize()
     }
 
-    /// Parts that are mounted: a hand that goes there takes nothing that lies on its way.
+    /// Parts that are mounted, each with its kind: a hand that goes there takes nothing that lies on its way. One that is still in the robot's hand is not:
+    /// the person can take it.
     fn mounted<'a>(
         &'a self,
         movement: &'a PresentMovement,
         state: &'a PerceptionState,
         places: &'a TaskPlaces,
-    ) -> impl Iterator<Item = (Vector2<f64>, Lead)> + 'a {
+    ) -> impl Iterator<Item = (usize, Vector2<f64>, Lead)> + 'a {
         let parts = state.parts.numbered();
-        let mounted = parts.filter(|(_, kind, part)| places.is_mounted(*kind, part.position));
+        let mounted = parts.filter(|(_, kind, part)| {
+            places.is_mounted(*kind, part.position) && !self.is_takable(*kind, part, places)
+        });
         mounted.map(|(index, kind, part)| {
             let centre = part.centre(places.size(kind));
             let likely = if movement.phase.is_some() { state.likelihoods.of(index) } else { 0.0 };
             let lead = Lead { heads: movement.heading.leads_to(centre), likely: likely + TAKES_APART };
-            (centre.xy(), lead)
+            (kind, centre.xy(), lead)
         })
     }
 

@@ -1,3 +1,4 @@
+use super::hand_movement::extent;
 use super::tracked_joint::{LONGEST_GAP, SHORTEST_GAP, TrackedJoint};
 use super::{HandMovement, ViewFrame};
 use crate::plausible_cycle::cycle;
@@ -102,6 +103,8 @@ pub(crate) struct TrackedHand {
     frames: u64,
     /// The newest frames, newest last.
     recent: [ViewFrame; FRAMES],
+    /// Bit i set: the frame that came i before the newest one shows thumb and index tip itself.
+    centred: u64,
     /// The present movement.
     pub movement: HandMovement,
 }
@@ -123,10 +126,11 @@ impl TrackedHand {
             self.merge(view, &ARM);
             return None;
         }
-        let before = self.joints[WRIST];
+        let (before, lay) = (self.joints[WRIST], self.point(KeypointName::Wrist));
         if !self.merge(view, &ALL) {
             return None;
         }
+        self.take_along(view, self.point(KeypointName::Wrist) - lay);
         let gap = view.captured_cycle.saturating_sub(self.captured);
         let time = seconds(gap).max(SHORTEST_GAP);
         let pitch = self.raw_pitch();
@@ -139,8 +143,14 @@ impl TrackedHand {
             self.start_over(found);
         }
         self.remember();
-        let wrist = self.averaged(2).wrist.into();
-        Some(self.movement.advance(wrist, self.steady_speed(), self.captured))
+        Some(self.movement.advance(self.newest_place(), self.steady_speed(), self.captured))
+    }
+
+    /// Where wrist and centre are, averaged over two frames, m; no centre where one of them does not show it.
+    fn newest_place(&self) -> (Vector3<f64>, Option<Vector3<f64>>) {
+        let newest = self.averaged(2);
+        let shown = self.shows_centre(0) && self.shows_centre(1);
+        (newest.wrist.into(), shown.then(|| newest.centre()))
     }
 
     /// Puts each of these keypoints that the frame has found in its place. False before wrist and finger tips are all known,
@@ -168,10 +178,21 @@ impl TrackedHand {
         any && needed.iter().all(|name| self.is_known(*name))
     }
 
+    /// What a frame does not show of the hand has come along with its wrist.
+    fn take_along(&mut self, view: &HandView, moved: Vector3<f64>) {
+        let hand = KeypointName::PalmBase as usize..=KeypointName::LittleKnuckle as usize;
+        for index in hand.filter(|index| self.found[*index] <= view.captured_cycle) {
+            let along = Vector3::from(self.keypoint[index]) + moved;
+            if along.iter().all(|value| value.abs() < FARTHEST) {
+                self.keypoint[index] = along.into();
+            }
+        }
+    }
+
     fn start_over(&mut self, found: Vector3<f64>) {
         self.joints[WRIST] = TrackedJoint::standing_at(found, self.captured);
         self.pitch_rate = 0.0;
-        self.frames = 0;
+        (self.frames, self.centred) = (0, 0);
         self.movement = HandMovement::still_at(found);
     }
 
@@ -188,6 +209,8 @@ impl TrackedHand {
             index: self.point(KeypointName::IndexTip).into(),
             middle: self.point(KeypointName::MiddleTip).into(),
         };
+        let centre = [KeypointName::ThumbTip, KeypointName::IndexTip];
+        self.centred = self.centred << 1 | u64::from(centre.iter().all(|name| self.is_shown(*name)));
     }
 
     /// Mean of the newest frames' points; `cycle` is the newest one's. Zeros before the first frame.
@@ -217,12 +240,16 @@ impl TrackedHand {
         self.averaged(AVERAGED)
     }
 
-    /// Wrist speed over all frames that are kept, m/s; `None` while they are too few.
+    /// Speed of the hand over all frames that are kept, m/s; `None` while they are too few.
     pub fn steady_speed(&self) -> Option<f64> {
         let (first, last) = (self.recent[0], self.recent[FRAMES - 1]);
         let time = seconds(last.cycle.saturating_sub(first.cycle));
         let full = self.frames as usize == FRAMES && time > 0.0;
-        full.then(|| (Vector3::from(last.wrist) - Vector3::from(first.wrist)).norm() / time)
+        let shown = self.shows_centre(0) && self.shows_centre(FRAMES - 1);
+        full.then(|| {
+            let wrist = Vector3::from(last.wrist) - Vector3::from(first.wrist);
+            extent(wrist, shown.then(|| last.centre() - first.centre())) / time
+        })
     }
 
     /// Velocity of the middle between thumb and index tip over the newest frames, m/s.
@@ -334,6 +361,16 @@ impl TrackedHand {
     /// Whether a keypoint has been found at least once.
     pub(super) fn is_known(&self, name: KeypointName) -> bool {
         self.found[name as usize] > 0
+    }
+
+    /// Whether the frame that came so many before the newest one shows the hand's centre itself.
+    fn shows_centre(&self, before: usize) -> bool {
+        self.centred >> before & 1 == 1
+    }
+
+    /// Whether the newest frame shows a keypoint.
+    fn is_shown(&self, name: KeypointName) -> bool {
+        self.found[name as usize] > self.captured
     }
 
     /// Cycles since a keypoint was found last; `None`: it never was.

@@ -6,7 +6,7 @@ use coact_stage_state::{Implausible, ensure};
 use nalgebra::Vector2;
 
 /// Frames that are kept: a second at 60 Hz, longer than a reach.
-const FRAMES: usize = 64;
+const FRAMES: usize = 60;
 /// Weight of a new frame in the place where the hand lies still. Chosen by hand; not sensitive.
 const SETTLING: f64 = 0.25;
 /// A place is no farther from where the hand lay, m: an arm's length and some.

@@ -5,6 +5,15 @@ use crate::support::{self, Hand, Stage, resting, stands_before};
 use coact_joint_task::Act;
 use coact_messages::{Keypoint, KeypointName};
 
+/// Keypoints of the hand but its wrist.
+const HAND: [KeypointName; 6] = [
+    KeypointName::PalmBase,
+    KeypointName::ThumbTip,
+    KeypointName::IndexKnuckle,
+    KeypointName::IndexTip,
+    KeypointName::MiddleTip,
+    KeypointName::LittleKnuckle,
+];
 const TOP: usize = 0;
 const SIDE: usize = 1;
 
@@ -32,15 +41,73 @@ fn a_clean_reach_grows_into_the_right_grasp_and_no_other() {
 }
 
 #[test]
-fn evidence_is_graded() {
+fn a_hand_that_turns_about_its_wrist_to_what_lies_beside_reaches_for_it() {
     let mut stage = Stage::new();
-    let act = Act::Grasp { grip: TOP, kind: stage.kind("wheel") };
-    let end = stage.grasping(stage.part("wheel"), TOP);
-    let mut levels = std::collections::BTreeSet::new();
-    stage.move_to(end, 600, |stage| {
-        levels.insert((stage.act(act) * 20.0) as u32);
+    let lay = stage.sample.hands[0].keypoints;
+    let [x, y, _] = lay[KeypointName::Wrist as usize].position;
+    let turned = |keypoint: Keypoint, angle: f64| {
+        let (sine, cosine) = angle.sin_cos();
+        let (ahead, aside) = (keypoint.position[0] - x, keypoint.position[1] - y);
+        let position =
+            [x + cosine * ahead - sine * aside, y + sine * ahead + cosine * aside, keypoint.position[2]];
+        Keypoint { position, ..keypoint }
+    };
+    let (part, column) = (stage.part("column 1"), stage.kind("column 1"));
+    let [thumb, index] =
+        [KeypointName::ThumbTip, KeypointName::IndexTip].map(|name| turned(lay[name as usize], 1.2).position);
+    let middle: [f64; 3] = std::array::from_fn(|axis| 0.5 * (thumb[axis] + index[axis]));
+    stage.things[part].position = [middle[0], middle[1], stage.task.scene.table_height];
+    stage.run(500, |_, _| {});
+    let (mut reach, mut way) = (0.0_f64, 0.0_f64);
+    for time in 1..=600 {
+        let angle = 1.2 * support::smooth(f64::from(time) / 600.0);
+        stage.wrong = HAND.map(|name| (name, turned(lay[name as usize], angle))).to_vec();
+        stage.run(1, |_, _| {});
+        reach = reach.max(stage.act(Act::Reach));
+        way = way.max(stage.on_the_way(column));
+    }
+    assert!(reach > 0.9, "{reach}");
+    assert!(way > 0.9, "{way}");
+}
+
+#[test]
+fn what_the_robot_still_holds_in_its_place_is_there_to_be_taken() {
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("wheel"), stage.kind("wheel"));
+    let handover = stage.task.scene.handover;
+    let away = |place: [f64; 3]| (0..3).map(|axis| (place[axis] - handover[axis]).powi(2)).sum::<f64>();
+    let sockets = stage.task.subgoals.iter().filter(|goal| goal.kind == kind).map(|goal| goal.socket);
+    let socket = sockets.min_by(|one, other| away(*one).total_cmp(&away(*other))).unwrap();
+    let lay = stage.things[part].position;
+    stage.run(1500, |stage, time| {
+        let (up, along) = (support::smooth(time as f64 / 500.0), support::smooth(time as f64 / 1000.0 - 0.5));
+        let [x, y, z]: [f64; 3] = std::array::from_fn(|axis| lay[axis] + along * (socket[axis] - lay[axis]));
+        stage.things[part].position = [x, y, z + 0.2 * (up - along)];
+        stage.sample.joints.touch = 5.0;
     });
-    assert!(levels.len() > 10, "only {} of 20 levels were passed through", levels.len());
+    assert!(stage.percept.robot_holds[kind] > 0.9);
+    let end = stage.grasping(part, TOP);
+    stage.move_to(end, 600, |_| {});
+    let there = |place: [f64; 2]| (place[0] - socket[0]).hypot(place[1] - socket[1]) < 0.01;
+    let kinds: Vec<_> =
+        stage.percept.destinations.iter().filter(|(_, place, _)| there(*place)).map(|own| own.0).collect();
+    assert_eq!(kinds, [Some(kind)]);
+}
+
+#[test]
+fn evidence_is_graded() {
+    let mut levels = std::collections::BTreeSet::new();
+    // Frames come at other phases of the reach in each.
+    for later in [0, 4, 8, 12] {
+        let mut stage = Stage::new();
+        let act = Act::Grasp { grip: TOP, kind: stage.kind("wheel") };
+        let end = stage.grasping(stage.part("wheel"), TOP);
+        stage.run(later, |_, _| {});
+        stage.move_to(end, 600, |stage| {
+            levels.insert((stage.act(act) * 20.0) as u32);
+        });
+    }
+    assert!(levels.len() > 14, "only {} of 20 levels were passed through", levels.len());
 }
 
 #[test]
