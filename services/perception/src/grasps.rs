@@ -107,7 +107,8 @@ impl Grasps {
             out.push(None, place.into(), sharpness * usual + lead.logarithm(heading));
         }
         for (kind, place, lead) in self.mounted(movement, state, places) {
-            out.push(None, place.into(), sharpness * fit[kind] + lead.logarithm(heading));
+            // What is mounted is hardly ever taken: the hand's shape can speak against it, and not for it.
+            out.push(None, place.into(), sharpness * fit[kind].min(usual) + lead.logarithm(heading));
         }
         against_the_best(&mut out.fit[..out.count as usize]);
         if held <= HELD {
