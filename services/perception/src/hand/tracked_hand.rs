@@ -1,4 +1,5 @@
 use super::hand_movement::extent;
+use super::keypoints::{ALL, BELIEVED, Keypoints, shown};
 use super::tracked_joint::{LONGEST_GAP, SHORTEST_GAP, TrackedJoint};
 use super::{HandMovement, ViewFrame};
 use crate::plausible_cycle::cycle;
@@ -14,15 +15,6 @@ const FRAMES: usize = 6;
 /// Frames that are averaged for what the hand's shape is read from: less of the tracker's scatter, at the price of one
 /// frame's delay.
 const AVERAGED: usize = 3;
-/// Confidence above which a keypoint is believed.
-///
-/// Of 540 378 keypoints of the recorded reaches, 3.5 % have a confidence above 0 and up to this one. They lie 3.3 pixels
-/// (median) off the line between their sure neighbours in time, the last sure ones 1.8: what was seen before is nearer. From
-/// 0.2 to 0.3 both are about equal (2.3, 1.9), above that the new one is nearer (1.3, 1.5). With this threshold 84.0 % of the
-/// reaches are understood before contact, with none 82.9 %. The simulated tracker says 0, or 0.7 to 0.95.
-pub(crate) const BELIEVED: f64 = 0.2;
-/// How far a keypoint may lie from the origin, m: no hand beyond it concerns the robot, the tracker is mistaken.
-const FARTHEST: f64 = 10.0;
 /// Age up to which the newest frame tells where the hand is now: nine frames at 60 Hz, so that dropped ones are bridged.
 pub(crate) const USABLE: u64 = cycles(Duration::from_millis(150));
 /// The joints of the arm that are followed each by itself.
@@ -41,10 +33,6 @@ const MOST_PITCH_AHEAD: f64 = 0.5;
 /// By how much the index finger is longer than the middle one when it is stretched out alone, m: several times the tracker's scatter.
 /// Chosen by hand.
 const ALONE: f64 = 0.02;
-/// Keypoints of a frame.
-const KEYPOINTS: usize = 9;
-/// Difference in height, m, below which keypoints are those of a flat image: recordings of one camera have none.
-const FLAT: f64 = 1e-6;
 
 /// What must be found of a hand of which a part may be hidden.
 const WHOLE_HAND: [KeypointName; 5] = [
@@ -58,28 +46,6 @@ const WHOLE_HAND: [KeypointName; 5] = [
 /// What a hand that is hidden leaves in sight, and binds it: how far the hand may be away is known from the shoulder, and from the wrist
 /// where that is seen.
 const ARM: [KeypointName; 3] = [KeypointName::Shoulder, KeypointName::Elbow, KeypointName::Wrist];
-const ALL: [KeypointName; KEYPOINTS] = [
-    KeypointName::Shoulder,
-    KeypointName::Elbow,
-    KeypointName::Wrist,
-    KeypointName::PalmBase,
-    KeypointName::ThumbTip,
-    KeypointName::IndexKnuckle,
-    KeypointName::IndexTip,
-    KeypointName::MiddleTip,
-    KeypointName::LittleKnuckle,
-];
-
-/// The tip of the finger that reaches farthest from the wrist, m: the middle one, unless the index is stretched out alone.
-fn fingertip(view: &HandView) -> [f64; 3] {
-    let [wrist, index, middle] = [KeypointName::Wrist, KeypointName::IndexTip, KeypointName::MiddleTip]
-        .map(|name| view.keypoints[name as usize]);
-    let reach = |tip: [f64; 3]| (Vector3::from(tip) - Vector3::from(wrist.position)).norm();
-    let known = wrist.confidence > BELIEVED && index.confidence > BELIEVED;
-    let plausible = index.position.iter().all(|value| value.abs() < FARTHEST);
-    let alone = known && plausible && reach(index.position) > reach(middle.position) + ALONE;
-    if alone { index.position } else { middle.position }
-}
 
 /// The tracked hand.
 #[repr(C)]
@@ -89,10 +55,8 @@ pub(crate) struct TrackedHand {
     seen: u64,
     /// Cycle at which it was captured.
     pub captured: u64,
-    /// Cycle at which each keypoint was found last, plus one; 0: never.
-    found: [u64; KEYPOINTS],
-    /// Where each keypoint was found last, m.
-    keypoint: [[f64; 3]; KEYPOINTS],
+    /// Where each keypoint of its arm was found.
+    keypoints: Keypoints,
     /// Shoulder, elbow, wrist and fingertip.
     joints: [TrackedJoint; JOINTS.len()],
     /// How fast the hand's pitch changes, rad/s, filtered.
@@ -130,7 +94,7 @@ impl TrackedHand {
         if !self.merge(view, &ALL) {
             return None;
         }
-        self.take_along(view, self.point(KeypointName::Wrist) - lay);
+        self.keypoints.take_along(self.point(KeypointName::Wrist) - lay, view.captured_cycle);
         let gap = view.captured_cycle.saturating_sub(self.captured);
         let time = seconds(gap).max(SHORTEST_GAP);
         let pitch = self.raw_pitch();
@@ -153,40 +117,17 @@ impl TrackedHand {
         (newest.wrist.into(), shown.then(|| newest.centre()))
     }
 
-    /// Puts each of these keypoints that the frame has found in its place. False before wrist and finger tips are all known,
-    /// or when the frame holds none of them.
+    /// Takes in these keypoints of a frame. False before wrist and finger tips are all known, or when the frame holds none of them.
     fn merge(&mut self, view: &HandView, names: &[KeypointName]) -> bool {
-        let mut any = false;
-        for index in names.iter().map(|name| *name as usize) {
-            let point = &view.keypoints[index];
-            let plausible = point.position.iter().all(|value| value.abs() < FARTHEST);
-            if plausible && point.confidence > BELIEVED {
-                self.keypoint[index] = point.position;
-                self.found[index] = view.captured_cycle.saturating_add(1);
-                let place =
-                    if index == KeypointName::MiddleTip as usize { fingertip(view) } else { point.position };
-                for (joint, name) in self.joints.iter_mut().zip(JOINTS) {
-                    if name as usize == index {
-                        joint.observe(place.into(), view.captured_cycle);
-                    }
-                }
-                any = true;
+        for (joint, name) in self.joints.iter_mut().zip(JOINTS).filter(|(_, name)| names.contains(name)) {
+            if let Some(place) = shown(view, name) {
+                let place = if name == KeypointName::MiddleTip { fingertip(view, place) } else { place };
+                joint.observe(place.into(), view.captured_cycle);
             }
         }
         let needed =
             [KeypointName::Wrist, KeypointName::ThumbTip, KeypointName::IndexTip, KeypointName::MiddleTip];
-        any && needed.iter().all(|name| self.is_known(*name))
-    }
-
-    /// What a frame does not show of the hand has come along with its wrist.
-    fn take_along(&mut self, view: &HandView, moved: Vector3<f64>) {
-        let hand = KeypointName::PalmBase as usize..=KeypointName::LittleKnuckle as usize;
-        for index in hand.filter(|index| self.found[*index] <= view.captured_cycle) {
-            let along = Vector3::from(self.keypoint[index]) + moved;
-            if along.iter().all(|value| value.abs() < FARTHEST) {
-                self.keypoint[index] = along.into();
-            }
-        }
+        self.keypoints.take_in(view, names) && needed.iter().all(|name| self.is_known(*name))
     }
 
     fn start_over(&mut self, found: Vector3<f64>) {
@@ -210,7 +151,8 @@ impl TrackedHand {
             middle: self.point(KeypointName::MiddleTip).into(),
         };
         let centre = [KeypointName::ThumbTip, KeypointName::IndexTip];
-        self.centred = self.centred << 1 | u64::from(centre.iter().all(|name| self.is_shown(*name)));
+        self.centred = self.centred << 1
+            | u64::from(centre.iter().all(|name| self.age_of(*name, self.captured) == Some(0)));
     }
 
     /// Mean of the newest frames' points; `cycle` is the newest one's. Zeros before the first frame.
@@ -265,7 +207,7 @@ impl TrackedHand {
 
     /// Middle between thumb and index tip, m: what the hand grasps lies there.
     pub fn centre(&self) -> Vector3<f64> {
-        (self.point(KeypointName::ThumbTip) + self.point(KeypointName::IndexTip)) * 0.5
+        0.5 * (self.point(KeypointName::ThumbTip) + self.point(KeypointName::IndexTip))
     }
 
     /// Distance of thumb and index tip, m.
@@ -291,12 +233,9 @@ impl TrackedHand {
     /// Direction from wrist to the knuckles' middle against the table plane, rad; `None` while it cannot be seen,
     /// because knuckles were never found or because the keypoints are those of a flat image.
     pub fn pitch(&self) -> Option<f64> {
-        let spread = self.keypoint.iter().fold(0.0, |spread: f64, point| {
-            spread.max((point[2] - self.keypoint[KeypointName::Wrist as usize][2]).abs())
-        });
         let knuckles = [KeypointName::IndexKnuckle, KeypointName::LittleKnuckle];
         let known = knuckles.iter().all(|name| self.is_known(*name));
-        (known && spread > FLAT).then_some(self.pitch)
+        (known && !self.keypoints.are_flat()).then_some(self.pitch)
     }
 
     /// The pitch that the hand is turning to, rad.
@@ -333,8 +272,7 @@ impl TrackedHand {
 
     /// Refuses what is no state of a hand.
     pub fn check(&self) -> Result<(), Implausible> {
-        let near = self.keypoint.as_flattened().iter().all(|value| value.abs() < FARTHEST);
-        ensure(near, "hand.keypoint", "positions near the robot")?;
+        self.keypoints.check()?;
         ensure(self.frames as usize <= FRAMES, "hand.frames", "no more frames than are kept")?;
         cycle("hand.captured", self.captured)?;
         self.joints.iter().try_for_each(TrackedJoint::check)?;
@@ -360,7 +298,7 @@ impl TrackedHand {
 
     /// Whether a keypoint has been found at least once.
     pub(super) fn is_known(&self, name: KeypointName) -> bool {
-        self.found[name as usize] > 0
+        self.keypoints.age_of(name, self.captured).is_some()
     }
 
     /// Whether the frame that came so many before the newest one shows the hand's centre itself.
@@ -368,18 +306,22 @@ impl TrackedHand {
         self.centred >> before & 1 == 1
     }
 
-    /// Whether the newest frame shows a keypoint.
-    fn is_shown(&self, name: KeypointName) -> bool {
-        self.found[name as usize] > self.captured
-    }
-
     /// Cycles since a keypoint was found last; `None`: it never was.
     pub(super) fn age_of(&self, name: KeypointName, tick: u64) -> Option<u64> {
-        self.found[name as usize].checked_sub(1).map(|cycle| tick.saturating_sub(cycle))
+        self.keypoints.age_of(name, tick)
     }
 
-    /// Where a keypoint was found last, m.
+    /// Where a keypoint was found last, and the wrist has taken it since, m.
     pub fn point(&self, name: KeypointName) -> Vector3<f64> {
-        self.keypoint[name as usize].into()
+        self.keypoints.place(name)
     }
+}
+
+/// The tip of the finger that reaches farthest from the wrist, m: the middle one's, which a frame shows there, unless the index is stretched out
+/// alone.
+fn fingertip(view: &HandView, middle: [f64; 3]) -> [f64; 3] {
+    let [wrist, index] = [KeypointName::Wrist, KeypointName::IndexTip].map(|name| shown(view, name));
+    let (Some(wrist), Some(index)) = (wrist, index) else { return middle };
+    let reach = |tip: [f64; 3]| (Vector3::from(tip) - Vector3::from(wrist)).norm();
+    if reach(index) > reach(middle) + ALONE { index } else { middle }
 }
