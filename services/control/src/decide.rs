@@ -64,7 +64,7 @@ impl Control {
         let seen = found.and_then(|kind| Some((kind, inputs.sighting(kind, &grasp_point, IN_HAND)?.1)));
         if let Some((kind, frame)) = seen {
             let in_palm = self.model.robot.palm(&posture).inverse() * frame;
-            (hand.held, hand.in_palm) = (Slot::of(kind), in_palm.into());
+            (hand.held, hand.in_palm, hand.refused) = (Slot::of(kind), in_palm.into(), 0);
         }
     }
 

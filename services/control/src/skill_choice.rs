@@ -29,7 +29,8 @@ impl SkillChoice {
     /// From the decision and what is held. A decision that was carried out is not carried out again.
     ///
     /// A held part that the decision does not concern stays in the hand, as long as the hand is not needed: then it
-    /// is put back first. It is put back, too, when nothing has been decided for long.
+    /// is put back first. It is put back, too, when nothing has been decided for long, and when it cannot go where it belongs as it is held: then it is
+    /// taken anew.
     pub fn of(state: &ControlState, inputs: &Inputs, actions: &[Action]) -> Self {
         let (held, decisions) = (state.hand.held(), &state.decisions);
         let decision = inputs.decision().filter(|decision| !is_finished(&decisions.finished, decision));
@@ -38,10 +39,12 @@ impl SkillChoice {
             let moves = !matches!(action.action_type, ActionType::Speak | ActionType::Report);
             moves.then_some((decision.action as usize, action))
         });
+        let unfit = state.hand.is_unfit();
+        let fits = |skill: &Skill| !(unfit && matches!(skill, Skill::Insert | Skill::Give));
         match decided {
-            None if decisions.unneeded > PUT_BACK_AFTER => held.map_or(Self::PARK, Self::put_back),
+            None if unfit || decisions.unneeded > PUT_BACK_AFTER => held.map_or(Self::PARK, Self::put_back),
             None => Self::PARK,
-            Some((index, action)) => match Self::skill(action, held) {
+            Some((index, action)) => match Self::skill(action, held).filter(fits) {
                 Some(skill) => Self { skill, action: Slot::of(index), kind: action.kind.into() },
                 None => held.map_or(Self::PARK, Self::put_back),
             },

@@ -77,6 +77,7 @@ impl Control {
             grip: self.state.hand.grip,
             from_table: Flag::from(skill.skill == Skill::Pick),
             picked_at: frame.translation.vector.into(),
+            refused: 0,
         };
         self.state.decisions.misses = 0;
         self.state.skill.enter(SkillPhase::Idle);

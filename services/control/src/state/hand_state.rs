@@ -18,7 +18,13 @@ pub(crate) struct HandState {
     pub from_table: Flag,
     /// Where the held part was when the fingers closed on it, m.
     pub picked_at: [f64; 3],
+    /// How often no movement was found to where the part belongs, with it as it is held.
+    pub refused: u64,
 }
+
+/// An action that was refused so often is not tried again with the part as it is held. Chosen by hand: at the first time somebody may have
+/// stood in the way.
+const MOST_REFUSED: u64 = 2;
 
 impl HandState {
     /// Kind of the held part.
@@ -29,6 +35,11 @@ impl HandState {
     /// Whether nothing is held.
     pub fn is_empty(&self) -> bool {
         self.held == Slot::EMPTY
+    }
+
+    /// Whether the part must be taken otherwise before it can go where it belongs.
+    pub fn is_unfit(&self) -> bool {
+        self.refused >= MOST_REFUSED
     }
 
     pub fn check(&self) -> Result<(), Implausible> {

@@ -308,6 +308,24 @@ fn a_part_that_cannot_be_put_back_upright_is_laid_down() {
 }
 
 #[test]
+fn a_part_that_cannot_be_inserted_as_it_is_held_is_laid_down_and_taken_otherwise() {
+    let mut world = KinematicWorld::new();
+    let part = lay_down(&mut world, COLUMN_3);
+    let insert = world.action(ActionType::Insert, COLUMN_3);
+    world.decide(Some(insert));
+    world.until(5.0, "taken", |world| world.held().is_some());
+    world.decide(None);
+    world.until(4.0, "at rest", |world| world.phase() == MotionPhase::Rest);
+    // Held so, its underside to the palm, it would need the hand below the table.
+    world.give(part, Isometry3::translation(0.0, 0.0, 0.08));
+    world.control = KinematicWorld::new().control;
+    world.command.state.fill(0.0);
+    world.run(1.0);
+    world.decide(Some(insert));
+    world.until(40.0, "mounted", |world| matches!(world.parts[part].holder, Holder::Socket(_)));
+}
+
+#[test]
 fn a_lost_part_is_noticed_and_taken_again() {
     let mut world = KinematicWorld::new();
     world.decide(Some(world.action(ActionType::Insert, NUT)));
