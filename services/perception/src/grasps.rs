@@ -18,10 +18,6 @@ const SHAPES: (f64, f64) = (0.6, 1.1);
 const SHARPENS: (f64, f64) = (1.0, 1.4);
 /// The exponent that is reached then. Chosen by hand: large enough that the best of two that are nearly alike decides.
 const SHARPNESS: f64 = 6.0;
-/// The exponent of where a reach from rest heads now, before: all its way so far tells that as well, and people set out in directions of their
-/// own. Chosen among 0, 0.4 and 1 on simulated people with recorded reaches (seeds 91008 to 91115): with 1 the first goal that stood was wrong in
-/// 11 of 666, with 0.4 in 5 of 661, as early; with 0 in 7 of 665, 30 ms later.
-const SETS_OUT: f64 = 0.4;
 /// Phases between which the pitch of the hand becomes that of the grip. Chosen by hand.
 const TURNS: (f64, f64) = (0.25, 0.80);
 /// From one place where an empty hand may be shown to the next, nearer to the person, m: it is held out short of where parts change
@@ -273,7 +269,8 @@ struct Reading {
     gate: f64,
     /// How much the best kind is preferred.
     sharpness: f64,
-    /// How much that is to which the hand heads now.
+    /// How much that is to which the hand heads now: on the first part of a reach from rest nothing, for all its way so far tells that better, and
+    /// people set out in directions of their own.
     heading: f64,
     /// Logarithm of how well the hand's shape fits each kind.
     fit: [f64; MAX_KINDS],
@@ -304,7 +301,7 @@ fn reading(
         trust: smooth_step(phase, TURNS.0, TURNS.1),
         gate: smooth_step(best.lead.heads, LEADS.0, LEADS.1),
         sharpness: 1.0 + (SHARPNESS - 1.0) * sharpens,
-        heading: SETS_OUT + (SHARPNESS - SETS_OUT) * sharpens,
+        heading: SHARPNESS * sharpens,
         fit: size_fit(state, classifier).map(|fit| shaped * fit),
     }
 }

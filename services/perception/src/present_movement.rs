@@ -24,7 +24,8 @@ impl PresentMovement {
         let from_rest = reach.is_of(&hand.movement);
         let phase = classifier.phase(&state.preshape, tick);
         let phase = (from_rest && phase < OVER).then_some(phase);
-        let heading = Heading { centre: hand.centre(), velocity: hand.centre_velocity() };
+        let (centre, velocity) = hand.steady_centre();
+        let heading = Heading { centre, velocity };
         (phase.is_some() || hand.movement.is_moving()).then_some(Self { heading, phase })
     }
 }

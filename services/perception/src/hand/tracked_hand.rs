@@ -194,15 +194,23 @@ impl TrackedHand {
         })
     }
 
-    /// Velocity of the middle between thumb and index tip over the newest frames, m/s.
-    pub fn centre_velocity(&self) -> Vector3<f64> {
-        let frames = self.frames as usize;
-        if frames < AVERAGED {
-            return Vector3::zeros();
+    /// Where the middle between thumb and index tip is, m, and its velocity, m/s: as the filtered wrist, and against that as the newest frames show it
+    /// on average. Single frames show fingers centimetres from where they are.
+    pub fn steady_centre(&self) -> (Vector3<f64>, Vector3<f64>) {
+        let frames = self.recent();
+        if frames.len() < AVERAGED {
+            return (self.centre(), Vector3::zeros());
         }
-        let (first, last) = (&self.recent[frames - AVERAGED], &self.recent[frames - 1]);
-        let time = seconds(last.cycle.saturating_sub(first.cycle));
-        (last.centre() - first.centre()) / time.max(SHORTEST_SPAN)
+        let against = |frame: &ViewFrame| frame.centre() - Vector3::from(frame.wrist);
+        let mean = |frames: &[ViewFrame]| {
+            frames.iter().map(against).sum::<Vector3<f64>>() / frames.len().max(1) as f64
+        };
+        let half = frames.len() / 2;
+        let (early, late) = (&frames[..half], &frames[frames.len() - half..]);
+        let time = seconds(late[0].cycle.saturating_sub(early[0].cycle)).max(SHORTEST_SPAN);
+        let turning = (mean(late) - mean(early)) / time;
+        let wrist = &self.joints[WRIST];
+        (wrist.at(self.captured) + mean(late), wrist.velocity() + turning)
     }
 
     /// Middle between thumb and index tip, m: what the hand grasps lies there.

@@ -9,6 +9,8 @@ use nalgebra::Vector2;
 const FRAMES: usize = 60;
 /// Weight of a new frame in the place where the hand lies still. Chosen by hand; not sensitive.
 const SETTLING: f64 = 0.25;
+/// How far off the middle between its neighbours a frame shows no hand, m: at 60 Hz, and 20 m/s² of the hand, 3 mm, and as much again of scatter.
+const MISTAKEN: f32 = 0.015;
 /// A place is no farther from where the hand lay, m: an arm's length and some.
 const FARTHEST: f32 = 10.0;
 
@@ -88,6 +90,16 @@ impl HandPath {
         let time = seconds(frame.cycle.saturating_sub(self.begins)) as f32;
         self.frame[self.frames as usize] = PathFrame { time, moved: [moved.x as f32, moved.y as f32] };
         self.frames += 1;
+        self.correct();
+    }
+
+    /// A frame that lies farther off the middle between its neighbours than a hand can go is mistaken: the hand was there.
+    fn correct(&mut self) {
+        let Some([.., before, frame, after]) = self.frame.get_mut(..self.frames as usize) else { return };
+        let middle: [f32; 2] = std::array::from_fn(|axis| 0.5 * (before.moved[axis] + after.moved[axis]));
+        if (frame.moved[0] - middle[0]).hypot(frame.moved[1] - middle[1]) > MISTAKEN {
+            frame.moved = middle;
+        }
     }
 
     /// The path of a hand that lay at `start`, and was seen at these times (s) so far from there (m).

