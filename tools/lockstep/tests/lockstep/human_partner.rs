@@ -50,7 +50,7 @@ fn undone(settings: &RunSettings) -> u32 {
 #[test]
 fn what_the_person_takes_apart_is_built_again() {
     let partner = "random:undoes=0.3";
-    assert!(undone(&settings(1, partner)) > 0);
+    assert!(undone(&settings(2, partner)) > 0);
     let physics = RunSettings { world: WorldMode::Physics, ..settings(3, partner) };
     assert!(undone(&physics) > 0);
 }
