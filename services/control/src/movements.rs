@@ -153,7 +153,7 @@ impl Control {
             planning.waited = 0;
             planning.refusals = planning.refusals.saturating_add(1);
             if planning.refusals >= MOST_REFUSALS && !self.state.skill.is_parking() {
-                if matches!(self.state.skill.skill, Skill::Insert | Skill::Give) {
+                if self.state.skill.skill.brings_part() {
                     self.state.hand.refused = self.state.hand.refused.saturating_add(1);
                 }
                 self.give_up();

@@ -40,7 +40,7 @@ impl SkillChoice {
             moves.then_some((decision.action as usize, action))
         });
         let unfit = state.hand.is_unfit();
-        let fits = |skill: &Skill| !(unfit && matches!(skill, Skill::Insert | Skill::Give));
+        let fits = |skill: &Skill| !(unfit && skill.brings_part());
         match decided {
             None if unfit || decisions.unneeded > PUT_BACK_AFTER => held.map_or(Self::PARK, Self::put_back),
             None => Self::PARK,

@@ -23,3 +23,10 @@ pub(crate) enum Skill {
     /// Point to a part.
     Point = 8,
 }
+
+impl Skill {
+    /// Whether it brings the held part where it belongs: into its place, or to the person.
+    pub fn brings_part(self) -> bool {
+        matches!(self, Self::Insert | Self::Give)
+    }
+}

@@ -286,19 +286,24 @@ fn an_unwanted_part_is_kept_for_a_while_and_then_put_back_where_it_was() {
     assert!((place.x - from[0]).hypot(place.y - from[1]) < 0.01, "{place}, taken from {from:?}");
 }
 
-#[test]
-fn a_part_that_cannot_be_put_back_upright_is_laid_down() {
+/// A world in which a control that knows nothing finds column 3 between the fingers, pushed in by somebody with its underside to the palm: to
+/// stand, or to go into its hole, it would need the hand below the table. Tells the column's index as well.
+fn held_upside_down() -> (KinematicWorld, usize) {
     let mut world = KinematicWorld::new();
     let part = lay_down(&mut world, COLUMN_3);
     world.decide(Some(world.action(ActionType::Insert, COLUMN_3)));
     world.until(5.0, "taken", |world| world.held().is_some());
     world.decide(None);
     world.until(4.0, "at rest", |world| world.phase() == MotionPhase::Rest);
-    // To a new control that knows nothing, somebody has pushed the column into the fingers with its underside to the palm:
-    // to stand, it would need the hand below the table.
     world.give(part, Isometry3::translation(0.0, 0.0, 0.08));
     world.control = KinematicWorld::new().control;
     world.command.state.fill(0.0);
+    (world, part)
+}
+
+#[test]
+fn a_part_that_cannot_be_put_back_upright_is_laid_down() {
+    let (mut world, _) = held_upside_down();
     world.run(3.0);
     assert!(world.held().is_some(), "kept");
     world.until(20.0, "laid down", |world| world.held().is_none());
@@ -309,19 +314,9 @@ fn a_part_that_cannot_be_put_back_upright_is_laid_down() {
 
 #[test]
 fn a_part_that_cannot_be_inserted_as_it_is_held_is_laid_down_and_taken_otherwise() {
-    let mut world = KinematicWorld::new();
-    let part = lay_down(&mut world, COLUMN_3);
-    let insert = world.action(ActionType::Insert, COLUMN_3);
-    world.decide(Some(insert));
-    world.until(5.0, "taken", |world| world.held().is_some());
-    world.decide(None);
-    world.until(4.0, "at rest", |world| world.phase() == MotionPhase::Rest);
-    // Held so, its underside to the palm, it would need the hand below the table.
-    world.give(part, Isometry3::translation(0.0, 0.0, 0.08));
-    world.control = KinematicWorld::new().control;
-    world.command.state.fill(0.0);
+    let (mut world, part) = held_upside_down();
     world.run(1.0);
-    world.decide(Some(insert));
+    world.decide(Some(world.action(ActionType::Insert, COLUMN_3)));
     world.until(40.0, "mounted", |world| matches!(world.parts[part].holder, Holder::Socket(_)));
 }
 

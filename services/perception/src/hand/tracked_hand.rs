@@ -202,9 +202,8 @@ impl TrackedHand {
             return (self.centre(), Vector3::zeros());
         }
         let against = |frame: &ViewFrame| frame.centre() - Vector3::from(frame.wrist);
-        let mean = |frames: &[ViewFrame]| {
-            frames.iter().map(against).sum::<Vector3<f64>>() / frames.len().max(1) as f64
-        };
+        let mean =
+            |frames: &[ViewFrame]| frames.iter().map(against).sum::<Vector3<f64>>() / frames.len() as f64;
         let half = frames.len() / 2;
         let (early, late) = (&frames[..half], &frames[frames.len() - half..]);
         let time = seconds(late[0].cycle.saturating_sub(early[0].cycle)).max(SHORTEST_SPAN);

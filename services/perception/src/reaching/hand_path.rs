@@ -9,7 +9,8 @@ use nalgebra::Vector2;
 const FRAMES: usize = 60;
 /// Weight of a new frame in the place where the hand lies still. Chosen by hand; not sensitive.
 const SETTLING: f64 = 0.25;
-/// How far off the middle between its neighbours a frame shows no hand, m: at 60 Hz, and 20 m/s² of the hand, 3 mm, and as much again of scatter.
+/// How far off the middle between its neighbours a frame shows no hand, m: several times the 3 mm that a hand goes off it at 60 Hz with 20 m/s², and
+/// the tracker's scatter. Chosen by hand.
 const MISTAKEN: f32 = 0.015;
 /// A place is no farther from where the hand lay, m: an arm's length and some.
 const FARTHEST: f32 = 10.0;
