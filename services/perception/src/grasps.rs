@@ -125,7 +125,7 @@ impl Grasps {
         let parts = state.parts.numbered();
         let takable = parts.filter(|(_, kind, part)| self.is_takable(*kind, part, places));
         let sight = places.sight(view);
-        let hidden = |kind: usize, part: &PartTrack| sight.hides(part.position, places.size(kind).height);
+        let hidden = |kind: usize, part: &PartTrack| sight.hides(part.upper_face(places.size(kind)));
         (out.told, out.count) = (1.0, 0);
         grips.count = self.grips.len().min(MAX_GRIPS) as u32;
         grips.fit.fill(0.0);

@@ -170,6 +170,7 @@ fn hands(
         centre: hand.centre(),
         aperture: hand.shape().aperture(),
         speed: hand.movement.speed,
+        velocity: hand.steady_centre().1,
         rests,
     });
     let palm = robot.map(|robot| robot.palm(&joints.position));

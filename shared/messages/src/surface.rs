@@ -40,10 +40,9 @@ impl Surface {
         Some(0.01 * f64::from(highest?) - (place[2] - self.level))
     }
 
-    /// Whether the eye may not see what stands at `place` and is so high, m: something higher is seen in the direction of its upper face, or
-    /// the picture does not tell.
-    pub fn hides(&self, eye: [f64; 3], [x, y, z]: [f64; 3], height: f64) -> bool {
-        self.above(eye, [x, y, z + height]).is_none_or(|above| above > SCATTER)
+    /// Whether the eye may not see `place`, m: something higher is seen in its direction, or the picture does not tell.
+    pub fn hides(&self, eye: [f64; 3], place: [f64; 3]) -> bool {
+        self.above(eye, place).is_none_or(|above| above > SCATTER)
     }
 
     /// Where the line of sight through `place` meets the plane, m; `None` for a place that is not below the eye.

@@ -32,7 +32,7 @@ use coact_joint_task::Task;
 use coact_messages::{MAX_PARTS, SceneView, Sighting};
 use coact_period::cycles;
 use coact_stage_state::{Implausible, ensure};
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use std::time::Duration;
 
 /// All parts that are seen, or were and may still be there. Words of a stage's state.
@@ -159,7 +159,9 @@ fn lies(task: &Task, part: &Sighting) -> bool {
 /// Whether the eye may not see such a part where it was. Where there is no depth camera, nothing tells: it is forgotten in time.
 pub fn hides(scene: &SceneView, task: &Task, part: &Sighting) -> bool {
     let height = task.kinds.get(part.kind as usize).map_or(0.0, |kind| kind.shape.height());
-    scene.surface.grid.used() > 0 && scene.surface.hides(task.scene.eye(), part.position, height)
+    let face = frame_of(part).map(|frame| frame * Point3::new(0.0, 0.0, height));
+    let hides = |face: Point3<f64>| scene.surface.hides(task.scene.eye(), face.coords.into());
+    scene.surface.grid.used() > 0 && face.is_none_or(hides)
 }
 
 #[cfg(test)]

@@ -47,10 +47,8 @@ impl Player {
 
     pub fn wait_for(&mut self, what: &str, expression: &str) {
         let there = format!("typeof coact !== 'undefined' && ({expression})");
-        wait_within(PATIENCE, what, || {
-            std::thread::sleep(Duration::from_millis(30));
-            self.browser.value(&there).as_bool().filter(|is_so| *is_so)
-        });
+        let is_there = |player: &mut Self| player.browser.value(&there).as_bool() == Some(true);
+        assert!(self.sees(PATIENCE, is_there), "timed out: {what}: {}", self.state());
     }
 
     fn rest(&mut self) -> DVec2 {
@@ -70,7 +68,8 @@ impl Player {
     /// What the page shows, for whoever reads why a test has failed.
     fn state(&mut self) -> Value {
         self.browser.value(
-            "({...coact.state(), events: coact.state().events.slice(-4), parts: [...coact.picture().parts].map((n) => +n.toFixed(2))})",
+            "typeof coact !== 'undefined' && {...coact.state(), events: coact.state().events.slice(-4), now: coact.picture()?.state, \
+             parts: [...coact.picture()?.parts ?? []].map((n) => +n.toFixed(2))}",
         )
     }
 

@@ -26,6 +26,8 @@ pub(crate) struct PersonHand {
     pub aperture: f64,
     /// Wrist speed, m/s.
     pub speed: f64,
+    /// Velocity of the centre, m/s: so does what it holds move.
+    pub velocity: Vector3<f64>,
     /// Whether it lies where it rests.
     pub rests: bool,
 }

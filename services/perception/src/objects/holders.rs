@@ -48,6 +48,11 @@ impl PartTrack {
         self.above_underside(0.5 * size.height)
     }
 
+    /// The middle of its upper face, m: whoever does not see that does not see the part.
+    pub fn upper_face(&self, size: PartSize) -> Vector3<f64> {
+        self.above_underside(size.height)
+    }
+
     /// Follows how wide the person's fingers are about the part, `time` s after the last frame. Of a hand that is out of sight it is not known.
     pub(super) fn watch_fingers(&mut self, size: PartSize, around: &Hands, time: f64) {
         self.set_widest(match around.person {

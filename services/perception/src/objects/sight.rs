@@ -1,4 +1,5 @@
 use coact_messages::SceneView;
+use nalgebra::Vector3;
 
 /// How much higher than a hand what is seen in its direction must be to hide it, m: its own back is as high above its middle.
 const BACK: f64 = 0.05;
@@ -13,10 +14,9 @@ pub(crate) struct Sight<'a> {
 }
 
 impl Sight<'_> {
-    /// Whether the eye may not see what stands at `place` and is so high, m: something higher is seen in its direction, or the picture does not
-    /// tell.
-    pub fn hides(&self, place: [f64; 3], height: f64) -> bool {
-        self.view.surface.hides(self.eye, place, height)
+    /// Whether the eye may not see a part whose upper face is there, m: something higher is seen in its direction, or the picture does not tell.
+    pub fn hides(&self, face: Vector3<f64>) -> bool {
+        self.view.surface.hides(self.eye, face.into())
     }
 
     /// Whether something is seen before a hand at `place`.

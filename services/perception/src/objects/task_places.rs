@@ -141,7 +141,7 @@ impl TaskPlaces {
             place.orientation[kind] = part.orientation.map(f64::from);
         }
         let last = self.last_place(side, place.position[kind]);
-        let is_bare = || !sight.hides(last, self.size(kind).height);
+        let is_bare = || !sight.hides(Vector3::from(last) + Vector3::z() * self.size(kind).height);
         let gone = nearest.is_none() && (is_bare() || self.are_all_seen(tick, kind, parts));
         approach(&mut place.seen[kind], seen, RAMP);
         approach(&mut place.gone[kind], gone, RAMP);
@@ -173,14 +173,14 @@ impl TaskPlaces {
         followed: bool,
         out: &mut Percept,
     ) {
-        let Subgoal { kind, socket, .. } = self.subgoals[goal];
+        let Subgoal { kind, socket, axis, .. } = self.subgoals[goal];
         let away = |part: &PartTrack| (Vector3::from(socket) - Vector3::from(part.position)).norm();
         let own = parts.parts().filter(|(own, _)| *own == kind);
         let mounted = |part: &PartTrack| away(part) < IN_PLACE && part.has_settled(followed);
         let achieved = own.clone().find(|(_, part)| mounted(part));
         let rise = if achieved.is_some_and(|(_, part)| !part.is_put_by_robot()) { ACHIEVES } else { RAMP };
-        let empty =
-            !own.clone().any(|(_, part)| away(part) < EMPTY) && !sight.hides(socket, self.size(kind).height);
+        let face = Vector3::from(socket) + Vector3::from(axis) * self.size(kind).height;
+        let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !sight.hides(face);
         approach(&mut out.achieved[goal], achieved.is_some(), rise);
         approach(&mut out.open[goal], empty, RAMP);
     }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::support::{self, Hand, Stage, smooth, stands_before};
+use coact_joint_task::Subgoal;
 use coact_messages::{JOINTS, PERSON, ROBOT};
 use coact_robot::Robot;
 
@@ -139,6 +140,38 @@ fn what_is_covered_is_forgotten_once_all_of_its_kind_are_seen_elsewhere() {
         let evidence = [robot.seen[kind], robot.gone[kind], person.seen[kind], person.gone[kind]];
         assert_eq!(evidence.map(|own| own > 0.9), [true, false, false, true], "{at_once}: {evidence:?}");
         assert!(evidence.iter().all(|own| !(0.1..0.9).contains(own)), "{evidence:?}");
+    }
+}
+
+#[test]
+fn a_part_that_is_mounted_on_its_side_is_hidden_where_its_upper_face_is() {
+    // In sight there, and beside it where the face of an upright one would be; then the other way round.
+    for (hidden_at_its_face, stays) in [(true, true), (false, false)] {
+        let mut stage = Stage::new();
+        let (part, kind) = (stage.part("wheel"), stage.kind("wheel"));
+        let goal = stage.task.subgoals.iter().rposition(|goal| goal.kind == kind).unwrap();
+        let Subgoal { socket, axis, .. } = stage.task.subgoals[goal];
+        assert_eq!(axis, [1.0, 0.0, 0.0], "across the lines of sight");
+        let height = stage.task.kinds[kind].shape.height();
+        let quarter = std::f64::consts::FRAC_1_SQRT_2;
+        stage.things[part].position = socket;
+        stage.things[part].orientation = [0.0, quarter, 0.0, quarter];
+        stage.run(700, |_, _| {});
+        assert!(stage.percept.achieved[goal] > 0.9);
+        let (eye, surface) = (stage.task.scene.eye(), &mut stage.sample.scene.surface);
+        // The sites around the direction of each face: of its own, and of the one that it would have if it stood upright.
+        let [face, upright] = [axis, [0.0, 0.0, 1.0]].map(|up| {
+            let shadow = surface.shadow(eye, [0, 1, 2].map(|i| socket[i] + height * up[i])).unwrap();
+            let [along, across] = surface.grid.spacing.map(|spacing| 0.5 * spacing);
+            let corners = [[-along, -across], [-along, across], [along, -across], [along, across]];
+            corners.map(|[x, y]| surface.grid.site([shadow[0] + x, shadow[1] + y]).unwrap())
+        });
+        let (hidden, seen) = if hidden_at_its_face { (face, upright) } else { (upright, face) };
+        hidden.into_iter().for_each(|site| surface.height[site] = 30);
+        seen.into_iter().for_each(|site| surface.height[site] = 0);
+        stage.run(1500, |stage, _| stage.things[part].visible = false);
+        assert_eq!(stage.percept.achieved[goal] > 0.9, stays);
+        assert_eq!(stage.percept.open[goal] > 0.9, !stays);
     }
 }
 

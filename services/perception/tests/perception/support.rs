@@ -79,6 +79,7 @@ pub fn smooth(time: f64) -> f64 {
 pub struct Thing {
     pub kind: usize,
     pub position: [f64; 3],
+    pub orientation: [f64; 4],
     pub visible: bool,
 }
 
@@ -116,6 +117,7 @@ impl Stage {
         let things = task.parts.iter().map(|part| Thing {
             kind: part.kind,
             position: [part.at[0], part.at[1], task.scene.table_height],
+            orientation: [0.0, 0.0, 0.0, 1.0],
             visible: true,
         });
         let mut sample: Box<SensorSample> = bytemuck::zeroed_box();
@@ -261,7 +263,7 @@ impl Stage {
                 reserved: 0,
                 confidence: 0.9,
                 position: thing.position,
-                orientation: [0.0, 0.0, 0.0, 1.0],
+                orientation: thing.orientation,
             };
             scene.sightings += 1;
         }

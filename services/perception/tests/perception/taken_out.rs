@@ -4,10 +4,16 @@
 use crate::support::{self, Hand, Stage, resting};
 use coact_joint_task::Act;
 
+/// Puts a part into the first socket of its kind.
+fn put_into_socket(stage: &mut Stage, part: usize) {
+    let kind = stage.things[part].kind;
+    stage.things[part].position = stage.task.subgoals.iter().find(|goal| goal.kind == kind).unwrap().socket;
+}
+
 /// Puts the first part of a kind into the first socket of its kind; its index.
 fn mount(stage: &mut Stage, name: &str) -> usize {
-    let (part, kind) = (stage.part(name), stage.kind(name));
-    stage.things[part].position = stage.task.subgoals.iter().find(|goal| goal.kind == kind).unwrap().socket;
+    let part = stage.part(name);
+    put_into_socket(stage, part);
     part
 }
 
@@ -19,16 +25,28 @@ fn take(stage: &mut Stage, part: usize) {
     stage.run(200, |_, _| {});
 }
 
-/// Carries it there, and lets it go.
-fn carry(stage: &mut Stage, part: usize, place: [f64; 3]) {
+/// Carries it there in so many ticks; before each, `change` is told how far along it is.
+fn carry(
+    stage: &mut Stage,
+    part: usize,
+    place: [f64; 3],
+    ticks: u32,
+    mut change: impl FnMut(&mut Stage, f64),
+) {
     let (hand, from) = (stage.hand, stage.things[part].position);
     let shift: [f64; 3] = std::array::from_fn(|axis| place[axis] - from[axis]);
-    for time in 1..=800 {
-        let along = support::smooth(f64::from(time) / 800.0);
+    for time in 1..=ticks {
+        let along = support::smooth(f64::from(time) / f64::from(ticks));
         stage.hand.centre = std::array::from_fn(|axis| hand.centre[axis] + along * shift[axis]);
         stage.things[part].position = std::array::from_fn(|axis| from[axis] + along * shift[axis]);
+        change(stage, along);
         stage.run(1, |_, _| {});
     }
+}
+
+/// Carries it there, and lets it go.
+fn lay_down(stage: &mut Stage, part: usize, place: [f64; 3]) {
+    carry(stage, part, place, 800, |_, _| {});
     let open = Hand { aperture: stage.hand.aperture + 0.07, ..stage.hand };
     stage.move_to(open, 150, |_| {});
     let rest = resting(&stage.task);
@@ -46,10 +64,34 @@ fn what_is_taken_out_of_its_socket_tells_no_grasp_until_it_has_been_laid_down() 
     assert!(stage.percept.person_holds[kind] > 0.9);
     assert!(stage.percept.act[act] < 0.1, "{}", stage.percept.act[act]);
     let on_the_table = [-1.0, 0.3, stage.task.scene.table_height];
-    carry(&mut stage, part, on_the_table);
+    lay_down(&mut stage, part, on_the_table);
     assert!(stage.percept.person_holds[kind] < 0.1);
     take(&mut stage, part);
     assert!(stage.percept.person_holds[kind] > 0.9 && stage.percept.act[act] > 0.9);
+}
+
+#[test]
+fn what_is_carried_out_of_sight_past_a_mounted_part_of_its_kind_is_not_taken_for_it() {
+    let mut stage = Stage::new();
+    let (carried, kind) = (stage.part("wheel"), stage.kind("wheel"));
+    let mounted = stage.things.iter().rposition(|thing| thing.kind == kind).unwrap();
+    put_into_socket(&mut stage, mounted);
+    stage.run(700, |_, _| {});
+    take(&mut stage, carried);
+    let [x, y, z] = stage.things[mounted].position;
+    carry(&mut stage, carried, [x - 0.03, y + 0.1, z + 0.03], 700, |_, _| {});
+    carry(&mut stage, carried, [x - 0.03, y - 0.1, z + 0.03], 300, |stage, along| {
+        stage.things[carried].visible = !(0.2..0.5).contains(&along);
+        stage.things[mounted].visible = !(0.5..0.75).contains(&along);
+    });
+    stage.things[mounted].visible = true;
+    stage.run(200, |_, _| {});
+    let act = stage.task.acts.iter().position(|act| *act == Act::Grasp { grip: 0, kind }).unwrap();
+    assert!(
+        stage.percept.person_holds[kind] > 0.9 && stage.percept.act[act] > 0.9,
+        "{:?}",
+        stage.percept.act
+    );
 }
 
 #[test]
