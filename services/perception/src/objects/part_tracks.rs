@@ -104,11 +104,10 @@ impl PartTracks {
         let cycles = view.captured_cycle - self.captured;
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;
-        let carried = around.person.map_or(Vector3::zeros(), |hand| hand.velocity * seconds(cycles));
-        self.associate(view, cycles, places, carried);
+        let carries = around.person.map_or(Vector3::zeros(), |hand| hand.velocity);
+        self.associate(view, cycles, places, carries);
         self.used =
             self.tracks.iter().rposition(|track| track.kind().is_some()).map_or(0, |last| last as u64 + 1);
-        self.follow_person(carried);
         self.follow_robot(around.palm);
         self.miss(sight, cycles, places);
         let counted = (0..places.kinds()).filter_map(|kind| Some((kind, places.count(kind)?)));
@@ -151,14 +150,14 @@ impl PartTracks {
     }
 
     /// Gives every sighting to the nearest track of its kind, those of what lies still first; what is left, to a part that it may be another
-    /// sight of, or to a new track. What the person holds was `carried` on since the last frame.
-    fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces, carried: Vector3<f64>) {
+    /// sight of, or to a new track. The person `carries` what she holds so fast, m/s.
+    fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces, carries: Vector3<f64>) {
         let mut left = [None; MAX_PARTS];
         let plausible = view.sightings().iter().filter(|sighting| is_plausible(sighting, places));
         left.iter_mut().zip(plausible).for_each(|(left, sighting)| *left = Some(sighting));
         for within in [MOVED, GATE] {
             for left in &mut left {
-                let found = left.and_then(|one| Some((one, self.nearest(one, within, carried)?)));
+                let found = left.and_then(|one| Some((one, self.nearest(one, within, carries)?)));
                 if let Some((sighting, index)) = found {
                     self.tracks[index].follow(sighting, self.captured, cycles);
                     *left = None;
@@ -186,23 +185,18 @@ impl PartTracks {
     }
 
     /// The track of the sighting's kind that lies nearest to it, within so many m, and has no sighting in this frame yet.
-    fn nearest(&self, sighting: &Sighting, within: f64, carried: Vector3<f64>) -> Option<usize> {
+    /// One that the person holds is looked for where her hand has carried it since it was seen.
+    fn nearest(&self, sighting: &Sighting, within: f64, carries: Vector3<f64>) -> Option<usize> {
         let away = |track: &PartTrack| {
-            let gone = if track.is_with_the_person() { carried } else { Vector3::zeros() };
-            (Vector3::from(track.position) + gone - Vector3::from(sighting.position)).norm()
+            let carried = carries * seconds(self.captured.saturating_sub(track.seen));
+            let carried = if track.is_with_the_person() { carried } else { Vector3::zeros() };
+            (Vector3::from(track.position) + carried - Vector3::from(sighting.position)).norm()
         };
         let waiting = |track: &PartTrack| {
             track.kind() == Some(sighting.kind as usize) && track.seen < self.captured && away(track) < within
         };
         let all = self.tracks.iter().enumerate().filter(|(_, track)| waiting(track));
         all.min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b))).map(|(index, _)| index)
-    }
-
-    /// What the person holds goes where her hand goes, seen or not.
-    fn follow_person(&mut self, carried: Vector3<f64>) {
-        let moved = Isometry3::translation(carried.x, carried.y, carried.z);
-        let unseen = |track: &&mut PartTrack| track.is_with_the_person() && track.seen < self.captured;
-        self.tracks.iter_mut().filter(unseen).for_each(|track| track.go_along(&moved));
     }
 
     /// What the robot holds goes where its palm goes, seen or not.

@@ -9,8 +9,8 @@ const SEEN: f64 = 0.003;
 /// recorded cubes near their middle, and what perception takes for the middle of a part scatters as well.
 const GRASPED: f64 = 0.008;
 /// Length of a reach from which on its ways vary in proportion to it, m: on shorter ones what hand and fingers do by themselves counts. Chosen
-/// by hand, half of the recorded reaches' length.
-const ALIKE: f64 = 0.15;
+/// by hand, a little less than the recorded reaches' length: with half of it, parts beside the resting hand lost against others farther on.
+const ALIKE: f64 = 0.25;
 /// Durations that are tried, and how far they go, in standard deviations.
 const DURATIONS: usize = 9;
 const WIDEST: f64 = 2.2;
