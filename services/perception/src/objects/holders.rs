@@ -136,7 +136,7 @@ impl PartTrack {
     /// Distance of `point` from the part's axis, between its underside and its top, m.
     pub fn distance_to_axis(&self, size: PartSize, point: Vector3<f64>) -> f64 {
         let foot = Vector3::from(self.position);
-        let axis = self.above_underside(size.height) - foot;
+        let axis = self.upper_face(size) - foot;
         let along = ((point - foot).dot(&axis) / axis.norm_squared().max(1e-12)).clamp(0.0, 1.0);
         (foot + axis * along - point).norm()
     }

@@ -145,7 +145,7 @@ fn what_is_covered_is_forgotten_once_all_of_its_kind_are_seen_elsewhere() {
 
 #[test]
 fn a_part_that_is_mounted_on_its_side_is_hidden_where_its_upper_face_is() {
-    // In sight there, and beside it where the face of an upright one would be; then the other way round.
+    // Hidden there, and in sight where the face of an upright one would be; then the other way round.
     for (hidden_at_its_face, stays) in [(true, true), (false, false)] {
         let mut stage = Stage::new();
         let (part, kind) = (stage.part("wheel"), stage.kind("wheel"));
