@@ -39,7 +39,7 @@ impl<T: Message> StandIn<T> {
     /// # Errors
     /// As [`Input::refresh`].
     pub fn sent_by_other(&mut self, tick: Tick) -> Result<Option<Header>, PortError> {
-        let is_dead = self.silent >= TAKEN_FOR_DEAD && self.silent % HURRIES_FOR != 0;
+        let is_dead = self.silent >= TAKEN_FOR_DEAD && !self.silent.is_multiple_of(HURRIES_FOR);
         if !self.has(tick.cycle)? && self.waits && !is_dead {
             // An event for the standby would cost the stage time in each cycle; this costs the standby some where the stage is
             // on another core.
