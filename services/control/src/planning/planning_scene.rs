@@ -47,7 +47,7 @@ impl PlanningScene {
     }
 
     /// All that the arm keeps clear of now, besides the person.
-    pub fn without_person(&self, query: &PlanningQuery, goals: &[GripGoal]) -> Scene {
+    pub fn without_person(&self, query: &PlanningQuery, model: &CollisionModel, goals: &[GripGoal]) -> Scene {
         let mut obstacles = self.fixtures.clone();
         obstacles.extend(self.parts(query));
         obstacles.extend(self.awaited(query));
@@ -55,7 +55,7 @@ impl PlanningScene {
             let edges = 2.0 * Vector3::new(*half_x, *half_y, *half_z);
             obstacles.push(Obstacle::new("obstacle", Solid::Box(edges), &Isometry3::translation(*x, *y, *z)));
         }
-        let allowed_leaving = self.allowed_leaving(query, &obstacles);
+        let allowed_leaving = self.allowed_leaving(query, model, &obstacles);
         let allowed_at_goal = allowed_at_goal(query, goals, &obstacles);
         Scene { obstacles, allowed_leaving, allowed_at_goal }
     }
@@ -80,15 +80,20 @@ impl PlanningScene {
         model: &CollisionModel,
         person: &[Capsule],
     ) -> (f64, Vector3<f64>) {
-        let posture = query.start.map(|state| state.position);
-        let mut links = Vec::new();
-        model.moving_bounding_capsules(&self.mechanism, &posture, &mut links);
+        let links = self.links(query, model);
         let pairs = links.iter().flat_map(|link| person.iter().map(move |limb| (link, limb)));
         let gaps = pairs.map(|(link, limb)| (link.distance(limb), link.nearest(limb)));
         let nearest = gaps.min_by(|one, other| one.0.total_cmp(&other.0));
         nearest.map_or((f64::INFINITY, Vector3::z()), |(gap, (own, theirs))| {
             (gap, (own - theirs).try_normalize(1e-6).unwrap_or_else(Vector3::z))
         })
+    }
+
+    /// Capsules around arm, hand and held part where the movement begins.
+    fn links(&self, query: &PlanningQuery, model: &CollisionModel) -> Vec<Capsule> {
+        let mut links = Vec::new();
+        model.moving_bounding_capsules(&self.mechanism, &query.start.map(|state| state.position), &mut links);
+        links
     }
 
     /// The person as obstacles, inflated so that paths and goals keep so much farther away than the guard's protective separation; by
@@ -136,9 +141,15 @@ impl PlanningScene {
         Some(coact_workplace::upright(AWAITED, *self.shapes.get(kind)?, &query.place))
     }
 
-    /// What the hand may touch where it leaves: what lies around it, and what it stands on. A hand that is still coming does not stand
-    /// there yet: it would turn round within the base.
-    fn allowed_leaving(&self, query: &PlanningQuery, obstacles: &[Obstacle]) -> Vec<String> {
+    /// What the hand may touch where it leaves: what lies around it, what it stands on, and parts that seem to touch it: beside parts that lie
+    /// close together the scatter of their estimates is more than the clearance with which it came there, and it would never leave again. A
+    /// hand that is still coming does not stand there yet: it would turn round within the base.
+    fn allowed_leaving(
+        &self,
+        query: &PlanningQuery,
+        model: &CollisionModel,
+        obstacles: &[Obstacle],
+    ) -> Vec<String> {
         if query.leave.is_none() {
             return Vec::new();
         }
@@ -146,7 +157,13 @@ impl PlanningScene {
         let lifts_from = query.held.map(|_| Fixture::TABLE);
         let stands_on = (!query.is_in_motion()).then_some(Fixture::PLATFORM);
         let ground = [PERSON].into_iter().chain(stands_on).chain(lifts_from);
-        ground.map(str::to_owned).chain(around(&(palm * self.mechanism.grasp_point()), obstacles)).collect()
+        let around = around(&(palm * self.mechanism.grasp_point()), obstacles);
+        let links = self.links(query, model);
+        let touches = |part: &&Obstacle| {
+            links.iter().any(|link| link.distance(&part.bounding_capsule) < ESTIMATE_ERROR)
+        };
+        let touched = parts_of(obstacles).filter(touches).map(|part| part.name.clone());
+        ground.map(str::to_owned).chain(around).chain(touched).collect()
     }
 }
 
@@ -172,9 +189,12 @@ fn is_same(kind: usize, frame: &Isometry3<f64>, other: Option<&(usize, Isometry3
 
 /// Names of the parts that lie near a place.
 fn around(place: &Point3<f64>, obstacles: &[Obstacle]) -> Vec<String> {
-    let parts = obstacles.iter().filter(|obstacle| obstacle.name.starts_with(PART));
-    let near = parts.filter(|part| {
+    let near = parts_of(obstacles).filter(|part| {
         part.bounding_capsule.distance_of_line(place) - part.bounding_capsule.radius < NEIGHBOURS
     });
     near.map(|part| part.name.clone()).collect()
+}
+
+fn parts_of(obstacles: &[Obstacle]) -> impl Iterator<Item = &Obstacle> {
+    obstacles.iter().filter(|obstacle| obstacle.name.starts_with(PART))
 }

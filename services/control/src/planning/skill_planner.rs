@@ -87,7 +87,7 @@ impl SkillPlanner {
         let goals = self.goals.of(query);
         let person = self.scene.person(query, &self.goals);
         let (separation, away) = self.scene.separation(query, &still, &person);
-        let alone = self.scene.without_person(query, &goals);
+        let alone = self.scene.without_person(query, &still, &goals);
         let clear_of = |beyond, separation| alone.with(self.scene.inflated(&person, separation, beyond));
         let withdrawing = |beyond| {
             let mut scene = clear_of(beyond, f64::INFINITY);

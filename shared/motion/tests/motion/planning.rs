@@ -310,3 +310,25 @@ fn what_only_passing_fingers_would_touch_counts_on_the_reach_alone() {
     assert_eq!(segments.map(|segment| near(&between, segment)), [false, true, false]);
     assert_eq!(segments.map(|segment| near(&open, segment)), [false, true, true]);
 }
+
+/// A hand that had let a part go near the end of its reach could not rise straight by 15 cm: it was refused every movement, and stood for ever.
+#[test]
+fn a_hand_that_cannot_leave_as_far_as_it_is_asked_to_leaves_less_far() {
+    let scene = Scene::default();
+    let there = problem(&scene, parked(), grip_at(-0.4, 0.55, 0.8)).plan().unwrap().end();
+    let start = there.map(MotionState::at_rest);
+    let leaving = |distance: f64| {
+        let leave = Some((Vector3::z(), distance));
+        Problem { leave, goal: Goal::Posture(AROS.0.park), ..problem(&scene, start, grip_at(-0.4, 0.55, 0.8)) }
+            .plan()
+    };
+    let farthest = (1..40).map(|step| 0.05 * f64::from(step)).find(|distance| {
+        let left = leaving(*distance).unwrap();
+        let end = left.segments[0].1;
+        let risen = grasp_point(&left.at(end).map(|state| state.position)).z - grasp_point(&there).z;
+        risen < 0.9 * distance
+    });
+    assert!(farthest.is_some_and(|distance| distance < 1.5), "{farthest:?}");
+    let refusal = leaving(9.0).unwrap_err();
+    assert!(matches!(refusal, Refusal::OutOfReach { .. }), "{refusal}");
+}
