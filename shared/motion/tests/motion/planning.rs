@@ -319,8 +319,12 @@ fn a_hand_that_cannot_leave_as_far_as_it_is_asked_to_leaves_less_far() {
     let start = there.map(MotionState::at_rest);
     let leaving = |distance: f64| {
         let leave = Some((Vector3::z(), distance));
-        Problem { leave, goal: Goal::Posture(AROS.0.park), ..problem(&scene, start, grip_at(-0.4, 0.55, 0.8)) }
-            .plan()
+        Problem {
+            leave,
+            goal: Goal::Posture(AROS.0.park),
+            ..problem(&scene, start, grip_at(-0.4, 0.55, 0.8))
+        }
+        .plan()
     };
     let farthest = (1..40).map(|step| 0.05 * f64::from(step)).find(|distance| {
         let left = leaving(*distance).unwrap();
