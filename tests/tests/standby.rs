@@ -1,7 +1,7 @@
 //! A stage that has a standby may die or hang: its readers get their message in every cycle all the same.
 #![allow(clippy::unwrap_used)]
 
-use coact_run_records::{Event, FaultEvent, OutageReport, SupervisorEventKind};
+use coact_run_records::{Event, FaultEvent, SupervisorEventKind};
 use coact_table_edit::TableEdit;
 use coact_tests::{Finished, Launched, alone, checkout, coact, left_behind};
 use rand::{RngExt, SeedableRng};
@@ -11,9 +11,6 @@ use std::process::Command;
 
 /// Cycles of a busy test machine's own that may fall into one recovery, in which everybody misses some.
 const OF_THE_MACHINE: u64 = 3;
-/// One command in so many may be late beyond the percepts that are, whatever is struck: with two standbys on one core of a slow machine
-/// it was one in 220 to 570 in runs without faults, and one in 70 to 40 while standbys looked more often for their stages.
-const LATE_BY_ITSELF: u64 = 200;
 /// So many cycles go without output, about, where no standby takes over.
 const RECOVERY: u64 = 20;
 
@@ -32,31 +29,31 @@ fn faults(finished: &Finished) -> impl Iterator<Item = &FaultEvent> {
 }
 
 /// When the first stage is struck, ms of the run.
-const FIRST_FAULT_MS: usize = 3000;
+const FIRST_FAULT_MS: u64 = 3000;
 
-/// Whether the machine withheld more than one cycle in 100 from perception, which nobody strikes, while nobody recovered.
-fn machine_is_late(finished: &Finished) -> bool {
-    let outage = without_percept(finished);
-    let in_recoveries: u64 = faults(finished).map(|fault| missed(fault, "perception")).sum();
-    outage.without_output.saturating_sub(in_recoveries) > outage.due / 100
-}
-
-/// The cycles for which perception had no output.
-fn without_percept(finished: &Finished) -> OutageReport {
-    finished.summary().processes["perception"].outage
+/// For how long in the first `ms` of a run, in which nothing was struck, control had nothing to go by, ms: where that is more than a
+/// hundredth, the machine keeps stages from their cycles so often that nothing is to be seen of what a fault does.
+fn without_output_before(finished: &Finished, ms: u64) -> u64 {
+    let blind = finished.events.iter().filter_map(|event| match event {
+        Event::Blind { from_ms, until_ms } if *from_ms < ms => Some(until_ms - from_ms),
+        _ => None,
+    });
+    blind.sum()
 }
 
 /// Stages of which one is struck after the other, and in what ways.
 const STAGES: [&str; 4] = ["fields", "control", "fields-standby", "control-standby"];
 const KINDS: [&str; 4] = ["kill", "stop", "kill", "abort"];
-/// How often all are struck at most: where the machine is late in more than half of the recoveries, nothing is to be seen of the faults in that run.
+/// How often all are struck: where the machine is late in more than half of the recoveries, nothing is to be seen of the faults in that run.
 const RUNS: usize = 3;
 
 /// A run in which each stage is struck in each way.
 fn struck() -> Finished {
     let folder = tempfile::tempdir().unwrap();
     let table = with_standby(folder.path());
-    let spec = |(index, (kind, stage))| format!("--inject={stage}:{kind}@{}ms", FIRST_FAULT_MS + 700 * index);
+    let spec = |(index, (kind, stage))| {
+        format!("--inject={stage}:{kind}@{}ms", FIRST_FAULT_MS as usize + 700 * index)
+    };
     let pairs = KINDS.iter().flat_map(|kind| STAGES.iter().map(move |stage| (kind, stage)));
     let injections: Vec<String> = pairs.enumerate().map(spec).collect();
     let mut arguments = vec!["--pipeline", &table, "--world", "kinematic", "--duration", "16"];
@@ -86,20 +83,17 @@ fn undisturbed(finished: &Finished) -> Vec<&FaultEvent> {
 fn whatever_happens_to_a_stage_or_its_standby_no_cycle_goes_without_output() {
     let _alone = alone();
     let struck_often = (STAGES.len() * KINDS.len()) as u64;
+    let late_by_itself = |run: &Finished| without_output_before(run, FIRST_FAULT_MS);
+    let is_late = |run: &Finished| late_by_itself(run) > FIRST_FAULT_MS / 100;
     let is_seen = |run: &Finished| undisturbed(run).len() as u64 > struck_often / 2;
-    let mut runs = Vec::new();
-    while runs.len() < RUNS && !runs.last().is_some_and(is_seen) {
-        runs.push(struck());
-    }
-    let Some(finished) = runs.last().filter(|run| is_seen(run)) else {
-        assert!(
-            runs.iter().all(machine_is_late),
-            "stages that nobody struck missed cycles in half of the recoveries"
-        );
-        println!("not judged: the machine was late in all of {RUNS} runs");
+    let mut runs = (0..RUNS).map(|_| struck());
+    let found = runs.find(|run| is_late(run) || is_seen(run));
+    let finished = found.expect("a run in which the machine was in time in half of the recoveries");
+    if is_late(&finished) {
+        println!("not judged: {} ms without output before anything was struck", late_by_itself(&finished));
         return;
-    };
-    let undisturbed = undisturbed(finished);
+    }
+    let undisturbed = undisturbed(&finished);
     let of_the_other = |fault: &&FaultEvent| {
         let other = match fault.process.strip_suffix("-standby") {
             Some(stage) => stage.to_owned(),
@@ -111,27 +105,16 @@ fn whatever_happens_to_a_stage_or_its_standby_no_cycle_goes_without_output() {
     let as_without = undisturbed.iter().any(|fault| of_the_other(fault) >= RECOVERY);
     assert!(many.len() <= 1 && !as_without, "{many:?}");
     let summary = finished.summary();
+    let (missing, most) = (summary.command_outage.without_output, OF_THE_MACHINE * struck_often);
     // Each time that the machine was late it was so by its longest at most, and the cycles of that time are missing.
     let machine = summary.environment.machine.unwrap_or_default();
     let late = machine.late * machine.longest_ns.div_ceil(coact_period::PERIOD_NS);
-    let in_recoveries: u64 = faults(finished).map(|fault| of_the_other(&fault)).sum();
-    let most = OF_THE_MACHINE * struck_often;
-    assert!(
-        in_recoveries <= most + late,
-        "{in_recoveries} in recoveries, {late} of the machine's at most\n{}",
-        finished.stderr
-    );
     // Nobody struck perception: what it missed the machine withheld, and without a percept there is no command in time.
-    let (missing, percepts) = (summary.command_outage.without_output, without_percept(finished));
-    let own = percepts.due / LATE_BY_ITSELF;
-    println!(
-        "without a command {missing}, {in_recoveries} of them in recoveries; without a percept {}, the machine late {late}",
-        percepts.without_output
-    );
+    let without_percept = summary.processes["perception"].outage.without_output;
+    println!("without a command {missing}, without a percept {without_percept}, the machine late {late}");
     assert!(
-        missing <= most + late + percepts.without_output + own,
-        "{missing} cycles without a command, {} without a percept, {late} of the machine's at most\n{}",
-        percepts.without_output,
+        missing <= most + late + without_percept,
+        "{missing} cycles without a command, {without_percept} without a percept, {late} of the machine's at most\n{}",
         finished.stderr
     );
 }

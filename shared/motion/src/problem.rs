@@ -37,8 +37,8 @@ pub struct Problem<'a> {
 /// A direction, unit, world, and a distance, m.
 type Leave = (Vector3<f64>, f64);
 
-/// Fractions of the distance that the hand leaves straight, tried one after the other. Chosen by hand: a third of the 15 cm by which it leaves
-/// what it has put down is as high as the part.
+/// Fractions of the distance that the hand leaves straight, tried one after the other. Chosen by hand: the
+/// farther, the less the reach must keep clear of what the hand has let go.
 const LEAVING: [f64; 4] = [1.0, 0.7, 0.5, 0.35];
 /// Postures that a search may look at. A trade-off: so many take about a second at a laid table, and a search that has not
 /// found a path by then rarely finds one.
@@ -81,7 +81,7 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// The constraint that binds, as far as the search came.
     pub fn plan_within(&self, postures: u32) -> Result<Plan, Refusal> {
-        let (leave, left) = self.left()?;
+        let (leave, left) = self.left()?.unzip();
         let problem = &Self { leave, ..self.clone() };
         let from = left.unwrap_or_else(|| self.start.map(|state| state.position));
         let targets = self.targets(&from)?;
@@ -104,22 +104,21 @@ impl<'a> Problem<'a> {
 
     /// How far the hand leaves straight, and the posture after that; none when it is not to leave first. Where the arm cannot reach as far as
     /// it is asked to, less far.
-    fn left(&self) -> Result<(Option<Leave>, Option<Posture>), Refusal> {
+    fn left(&self) -> Result<Option<(Leave, Posture)>, Refusal> {
         let posture = self.start.map(|state| state.position);
         let clearance = self.clearance(SegmentKind::Leave);
         if let Some(near) = clearance.nearest(&posture, 0.0) {
             let (link, other) = clearance.names(&near);
             return Err(Refusal::Start { link, other, short: -near.distance });
         }
-        let Some((direction, distance)) = self.leave else { return Ok((None, None)) };
+        let Some((direction, distance)) = self.leave else { return Ok(None) };
         let palm = self.mechanism.arm.palm(&posture);
         let solver = NumericalIk { clearance, from: &posture, min_clearance: 0.0 };
         let goal = |leave: &Leave| self.mechanism.goal_of(&(Translation3::from(leave.0 * leave.1) * palm));
         let leaves = LEAVING.map(|fraction| (direction, fraction * distance));
-        let left = leaves
-            .iter()
-            .find_map(|leave| Some((Some(*leave), Some(solver.solve(&goal(leave), 0.0, 0.0, &posture)?))));
-        left.ok_or_else(|| Refusal::OutOfReach { point: goal(&leaves[0]).point.coords.into() })
+        let left =
+            leaves.iter().find_map(|leave| Some((*leave, solver.solve(&goal(leave), 0.0, 0.0, &posture)?)));
+        left.map(Some).ok_or_else(|| Refusal::OutOfReach { point: goal(&leaves[0]).point.coords.into() })
     }
 
     fn targets(&self, from: &Posture) -> Result<Vec<Target>, Refusal> {

@@ -40,12 +40,14 @@ impl<T: Message> StandIn<T> {
     /// As [`Input::refresh`].
     pub fn sent_by_other(&mut self, tick: Tick) -> Result<Option<Header>, PortError> {
         let is_dead = self.silent >= TAKEN_FOR_DEAD && !self.silent.is_multiple_of(HURRIES_FOR);
-        if !self.has(tick.cycle)? && self.waits && !is_dead {
+        let mut has_sent = self.has(tick.cycle)?;
+        if !has_sent && self.waits && !is_dead {
             // An event for the standby would cost the stage time in each cycle; this costs the standby some where the stage is
             // on another core.
             std::thread::sleep(PATIENCE);
+            has_sent = self.has(tick.cycle)?;
         }
-        self.silent = if self.has(tick.cycle)? { 0 } else { self.silent.wrapping_add(1) };
+        self.silent = if has_sent { 0 } else { self.silent.wrapping_add(1) };
         // The pulse that tells of this cycle is this process's own, and of nothing before the cycle began.
         let generation = self.output.generation;
         let sent = self.newest.header().filter(|header| header.cycle >= tick.cycle);
