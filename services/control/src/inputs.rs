@@ -1,11 +1,14 @@
 use crate::person::PersonCapsules;
-use coact_messages::{ARM_JOINTS, Decision, FieldFrame, Percept, PersonArm, ROBOT, SceneView, SensorSample};
+use coact_messages::{
+    ARM_JOINTS, Decision, FieldFrame, Header, Percept, PersonArm, ROBOT, SceneView, SensorSample,
+};
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
 use coact_robot::HAND_JOINTS;
 use coact_safety::{SafetyLimits, StaleLimits};
 use coact_seen_parts::{SHORTEST, SeenParts, frame_of};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
+use std::time::Duration;
 
 /// Touch below this is nothing, N. Chosen by hand: above a sensor's noise, and fingers that are closed on a part press far harder.
 const TOUCH: f64 = 0.2;
@@ -31,6 +34,8 @@ pub(crate) struct Inputs<'a> {
 }
 
 impl<'a> Inputs<'a> {
+    /// Keeps those messages that were sent within [`StaleLimits::input_after`] and descend from a sensor sample that is no older than that
+    /// than the newest one: a stage that hears nothing any more sends on time, about the past.
     pub fn new(
         limits: &StaleLimits,
         tick: u64,
@@ -38,12 +43,17 @@ impl<'a> Inputs<'a> {
         percept: Option<&'a Percept>,
         frame: Option<&'a FieldFrame>,
     ) -> Self {
-        let fresh = |cycle: u64| tick.saturating_sub(cycle) <= cycles(limits.input_after);
+        let acquired_ns = sample.map_or(0, |sample| sample.header.sensor_ns);
+        let fresh = |header: &Header| {
+            let sent = tick.saturating_sub(header.cycle);
+            let behind = Duration::from_nanos(acquired_ns.saturating_sub(header.sensor_ns));
+            sent <= cycles(limits.input_after) && behind <= limits.input_after
+        };
         Self {
             tick,
-            sample: sample.filter(|message| fresh(message.header.cycle)),
-            percept: percept.filter(|message| fresh(message.header.cycle)),
-            frame: frame.filter(|message| fresh(message.header.cycle)),
+            sample: sample.filter(|message| fresh(&message.header)),
+            percept: percept.filter(|message| fresh(&message.header)),
+            frame: frame.filter(|message| fresh(&message.header)),
             hand_after: cycles(limits.hand_after),
         }
     }

@@ -12,6 +12,7 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::Errno;
 use rustix::process::Signal;
 use std::collections::BTreeSet;
+use std::thread;
 use std::time::Duration;
 
 /// A set of processes that are started in order, watched, restarted when they die, and stopped in reverse order.
@@ -83,9 +84,13 @@ impl ProcessSet {
         let children = self.processes.iter().filter_map(|process| process.running());
         let mut deaths: Vec<PollFd<'_>> =
             children.map(|running| PollFd::from_borrowed_fd(running.child.death(), PollFlags::IN)).collect();
-        let limit = Timespec { tv_sec: limit.as_secs() as i64, tv_nsec: limit.subsec_nanos().into() };
-        // The only failure is an interrupting signal: the caller looks for it anyway.
-        poll(&mut deaths, Some(&limit)).ok();
+        let until = Timespec { tv_sec: limit.as_secs() as i64, tv_nsec: limit.subsec_nanos().into() };
+        match poll(&mut deaths, Some(&until)) {
+            // The caller looks for an interrupting signal anyway.
+            Ok(_) | Err(Errno::INTR) => {}
+            // The kernel lets nobody wait who may have no file handles; looking without end would keep the core from others.
+            Err(_) => thread::sleep(limit),
+        }
     }
 
     /// Handles every exit, and starts the processes whose turn has come. To be called right after [`ProcessSet::wait`], so

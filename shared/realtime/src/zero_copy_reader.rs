@@ -9,7 +9,14 @@ use iceoryx2::prelude::{FileDescriptorBased, PayloadHeader, ipc};
 use iceoryx2::sample::Sample;
 use iceoryx2::service::static_config::message_type_details::TypeDetail;
 use rustix::event::{PollFd, PollFlags, poll};
+use rustix::io::Errno;
 use std::os::fd::BorrowedFd;
+use std::thread;
+use std::time::Duration;
+
+/// A wait that the kernel refuses, as it does to a process that may have no file handles, looks again after this time. Chosen by hand: it delays
+/// a message by less than a tenth of a cycle, and leaves the core to the others for most of it.
+const LOOKS_AGAIN: Duration = Duration::from_micros(50);
 
 /// A reader over iceoryx2.
 #[derive(Debug)]
@@ -81,8 +88,12 @@ impl Reader for ZeroCopyReader {
         };
         // SAFETY: the descriptor belongs to the listener, which outlives this call and keeps it open.
         let socket = unsafe { BorrowedFd::borrow_raw(listener.file_descriptor().native_handle()) };
-        // An interrupted or failed poll is a spurious wake-up: the caller looks for the message and the time.
-        let _ = poll(&mut [PollFd::new(&socket, PollFlags::IN)], Some(&timespec(span_ns)));
+        // An interrupted poll is a spurious wake-up, as is one that failed: the caller looks for the message and the time. It must not do so
+        // without end, though: on one core with it, the stages below it would never get on.
+        match poll(&mut [PollFd::new(&socket, PollFlags::IN)], Some(&timespec(span_ns))) {
+            Ok(_) | Err(Errno::INTR) => {}
+            Err(_) => thread::sleep(LOOKS_AGAIN.min(Duration::from_nanos(span_ns))),
+        }
         listener.try_wait(|_| {}).map_err(|error| PortError::refused(&self.topic, "waiting", error))?;
         Ok(())
     }

@@ -3,6 +3,7 @@
 
 use crate::kinematic_world::KinematicWorld;
 use coact_messages::{MotionPhase, SensorSample};
+use coact_period::PERIOD_NS;
 use proptest::prelude::*;
 
 /// One stretch of disorder: which action is decided, what is broken, for how many cycles.
@@ -144,6 +145,33 @@ fn stale_input_brakes_within_the_limits_and_the_skill_goes_on_after() {
         assert!(stood < brakes + 400, "stood after {stood}");
         assert!(frozen[stood..].iter().all(|(_, speed)| *speed == 0.0));
         world.until(9.0, "taken", |world| world.held().is_some());
+    }
+}
+
+/// A process that hears nothing any more goes on sending: its messages are new, what they tell is not.
+#[test]
+fn messages_of_now_that_descend_from_an_old_sample_brake() {
+    for deaf in ["perception", "fields"] {
+        let mut world = KinematicWorld::new();
+        let nut = world.action(coact_joint_task::ActionType::Insert, "nut on the robot's side");
+        world.decide(Some(nut));
+        world.run(0.8);
+        let heard_ns = world.tick * PERIOD_NS;
+        let phases: Vec<_> = (0..60)
+            .map(|_| {
+                world.sense();
+                world.sample.header.sensor_ns = world.tick * PERIOD_NS;
+                let (sample, mut percept, mut frame) =
+                    (world.sample.clone(), world.percept.clone(), world.frame.clone());
+                for (name, header) in [("perception", &mut percept.header), ("fields", &mut frame.header)] {
+                    header.sensor_ns = if name == deaf { heard_ns } else { sample.header.sensor_ns };
+                }
+                world.step_with(Some(&sample), Some(&percept), Some(&frame));
+                world.command.phase
+            })
+            .collect();
+        let brakes = phases.iter().position(|phase| *phase == MotionPhase::Brake as u32);
+        assert!(brakes.is_some_and(|after| (49..=52).contains(&after)), "deaf {deaf}: {brakes:?}");
     }
 }
 
