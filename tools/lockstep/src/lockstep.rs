@@ -1,4 +1,4 @@
-use coact_control::{Control, PlannerDelay};
+use coact_control::Control;
 use coact_fields::Network;
 use coact_joint_task::{NetworkPlan, Task};
 use coact_messages::{
@@ -24,7 +24,6 @@ pub struct Lockstep {
     network: Network,
     control: Control,
     unguarded: bool,
-    planner_delay: PlannerDelay,
     seed: u64,
     tick: u64,
     fields_hangs_until: u64,
@@ -111,7 +110,6 @@ impl Lockstep {
             perception: Perception::new(&task, &model)?.with_robot(robot.clone()),
             control: Control::new(robot.clone(), &task, &limits)?,
             unguarded: false,
-            planner_delay: PlannerDelay::None,
             robot,
             limits,
             network,
@@ -136,12 +134,6 @@ impl Lockstep {
     pub fn leave_unguarded(&mut self) {
         self.unguarded = true;
         self.control.leave_unguarded();
-    }
-
-    /// From now on control's planner holds its answers back.
-    pub fn hold_plans_back(&mut self, delay: PlannerDelay) {
-        self.planner_delay = delay;
-        self.control.hold_plans_back(delay);
     }
 
     /// The task.
@@ -206,7 +198,6 @@ impl Lockstep {
         if self.unguarded {
             self.control.leave_unguarded();
         }
-        self.control.hold_plans_back(self.planner_delay);
         self.control.resume(&self.command);
         Ok(())
     }

@@ -1,7 +1,5 @@
 use super::slots::Slots;
-use super::{
-    PlannerDelay, PlannerWatch, PlannerWithin, PlanningQuery, PlanningResult, PlanningThread, SkillPlanner,
-};
+use super::{PlannerWatch, PlanningQuery, PlanningResult, PlanningThread, SkillPlanner};
 use crate::state::QueryId;
 use coact_motion::SearchHeartbeat;
 use std::sync::Arc;
@@ -21,14 +19,14 @@ pub(crate) struct PlannerLink {
 /// Where movements are planned: within the step that asks, or by a [`PlanningThread`] beside the servo.
 #[derive(Debug)]
 enum PlannerPlace {
-    Within(PlannerWithin),
+    Within(Box<SkillPlanner>),
     Beside { slots: Arc<Slots<PlanningQuery, PlanningResult>>, heartbeat: SearchHeartbeat },
 }
 
 impl PlannerLink {
-    /// To a planner that answers at once, unless it is told to hold its answers back.
+    /// To a planner that answers at once.
     pub fn within(planner: SkillPlanner) -> Self {
-        Self::to(PlannerPlace::Within(PlannerWithin::new(planner)))
+        Self::to(PlannerPlace::Within(Box::new(planner)))
     }
 
     /// To a planner on a thread of its own.
@@ -44,16 +42,8 @@ impl PlannerLink {
 
     /// Looks whether the planner goes on; to be called once in each cycle.
     pub fn look(&mut self) {
-        match &mut self.place {
-            PlannerPlace::Within(planner) => planner.look(),
-            PlannerPlace::Beside { slots, heartbeat } => self.watch.look(slots.owes(), heartbeat.beats()),
-        }
-    }
-
-    /// From now on a planner that answers within the step holds its answers back.
-    pub fn hold_back(&mut self, delay: PlannerDelay) {
-        if let PlannerPlace::Within(planner) = &mut self.place {
-            planner.hold_back(delay);
+        if let PlannerPlace::Beside { slots, heartbeat } = &self.place {
+            self.watch.look(slots.owes(), heartbeat.beats());
         }
     }
 
@@ -84,10 +74,8 @@ impl PlannerLink {
         if !self.was_asked(id) {
             return None;
         }
-        match &self.place {
-            PlannerPlace::Within(planner) if !planner.is_through() => return None,
-            PlannerPlace::Within(_) => {}
-            PlannerPlace::Beside { slots, .. } => self.answer = self.answer.or_else(|| slots.result()),
+        if let PlannerPlace::Beside { slots, .. } = &self.place {
+            self.answer = self.answer.or_else(|| slots.result());
         }
         self.answer
     }

@@ -1,7 +1,6 @@
 //! Assemblies with random partners, judged.
 #![allow(clippy::unwrap_used)]
 
-use coact_control::PlannerDelay;
 use coact_evaluation::{
     Ablation, Campaign, EvaluationReport, Inference, NetworkVariant, Trial, draw_fluency, draw_leads, run,
 };
@@ -24,7 +23,6 @@ fn trials(partner: &str, network: &NetworkVariant, trials: u64, threads: usize) 
             people: &[],
             network,
             guarded: true,
-            planner_delay: PlannerDelay::None,
             trials,
             threads,
         },
@@ -43,7 +41,6 @@ fn same_seeds_give_the_same_trials_with_any_number_of_threads() {
         people: &[],
         network: &network,
         guarded: true,
-        planner_delay: PlannerDelay::None,
         trials: 2,
         threads: 2,
     };
@@ -86,7 +83,6 @@ fn without_its_guard_the_robot_is_never_held_back_and_closes_on_people() {
             people: &[],
             network: &network,
             guarded,
-            planner_delay: PlannerDelay::None,
             trials: 2,
             threads: 2,
         };
@@ -174,7 +170,6 @@ fn a_robot_that_leaves_a_handover_closes_on_nobody() {
             people: &[],
             network: &network,
             guarded: true,
-            planner_delay: PlannerDelay::None,
             trials: 1,
             threads: 1,
         },
