@@ -3,9 +3,7 @@ use super::{HandGoals, PlanningQuery, PlanningResult, PlanningScene};
 use crate::robot::{CollisionModels, FingerShape, GripGoal, RobotModel};
 use crate::state::{ArmTrajectory, Skill};
 use coact_joint_task::Task;
-use coact_motion::{
-    CollisionModel, Goal, HandSpeedLimits, MinClearance, Plan, Problem, Refusal, Scene, SearchHeartbeat,
-};
+use coact_motion::{CollisionModel, Goal, MinClearance, Plan, Problem, Refusal, Scene, SearchHeartbeat};
 use coact_robot::{HandGoal, MotionState, RobotError};
 use coact_safety::{PlannerLimits, SafetyLimits};
 use coact_stage_state::Flag;
@@ -20,7 +18,6 @@ pub(crate) struct SkillPlanner {
     goals: HandGoals,
     scene: PlanningScene,
     limits: PlannerLimits,
-    hand_speeds: HandSpeedLimits,
     heartbeat: SearchHeartbeat,
 }
 
@@ -57,11 +54,7 @@ impl SkillPlanner {
         let heartbeat = SearchHeartbeat::default();
         models.mechanism = models.mechanism.beating(heartbeat.clone());
         let scene = PlanningScene::new(&robot, &models, task, limits);
-        let SafetyLimits { planner, guard, .. } = limits;
-        let comfort = planner.comfort.fraction();
-        let hand_speeds =
-            HandSpeedLimits { free: comfort * planner.hand_speed, contact: comfort * guard.contact_speed };
-        Self { robot, models, goals, scene, limits: planner, hand_speeds, heartbeat }
+        Self { robot, models, goals, scene, limits: limits.planner, heartbeat }
     }
 
     /// Beats while it searches.
@@ -191,7 +184,7 @@ impl SkillPlanner {
         let PlannerLimits { path_clearance, goal_clearance, .. } = self.limits;
         let problem = Problem::new(&self.models.mechanism, collision_model, scene, start, goal);
         let min_clearance = MinClearance { path: path_clearance, goal: goal_clearance };
-        Problem { min_clearance, hand_speeds: self.hand_speeds, ..problem }
+        Problem { min_clearance, ..problem }
     }
 
     fn goal_clearance(&self, skill: Skill) -> f64 {
