@@ -3,7 +3,7 @@ use crate::guard::{Guard, Moving};
 use crate::inputs::Inputs;
 use crate::moving_fingers::MovingFingers;
 use crate::person::PersonCapsules;
-use crate::planning::{HandGoals, PlannerLink, PlanningThread, SkillPlanner};
+use crate::planning::{HandGoals, PlannerDelay, PlannerLink, PlanningThread, SkillPlanner};
 use crate::resynchronise::{holds, report_of};
 use crate::robot::{CollisionModels, RobotModel};
 use crate::servo::{ArmStep, Servo};
@@ -121,6 +121,12 @@ impl Control {
     /// From now on the guard admits everything: to measure in lockstep what it costs, never beside a person.
     pub fn leave_unguarded(&mut self) {
         self.unguarded = true;
+    }
+
+    /// From now on movements that are planned within the step are there as much later: so lockstep shows what real time does. A planner
+    /// beside the servo takes the time that it takes.
+    pub fn hold_plans_back(&mut self, delay: PlannerDelay) {
+        self.planner.hold_back(delay);
     }
 
     /// Whether the planner beside the servo hangs: it owes an answer, and its search does not go on. Nothing but another process

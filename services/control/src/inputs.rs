@@ -34,7 +34,7 @@ pub(crate) struct Inputs<'a> {
 }
 
 impl<'a> Inputs<'a> {
-    /// Keeps those messages that were sent within [`StaleLimits::input_after`] and descend from a sensor sample that is no older than that
+    /// Takes those messages that were sent within [`StaleLimits::input_after`] and descend from a sensor sample that is no older than that
     /// than the newest one: a stage that hears nothing any more sends on time, about the past.
     pub fn new(
         limits: &StaleLimits,

@@ -58,4 +58,4 @@ mod verify;
 
 pub use control::Control;
 pub use control_error::ControlError;
-pub use planning::PlanningThread;
+pub use planning::{PlannerDelay, PlanningThread, UnknownDelay};

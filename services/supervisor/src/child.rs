@@ -14,6 +14,7 @@ use std::os::fd::{AsFd, AsRawFd, BorrowedFd, OwnedFd};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
 use std::process::{ChildStdin, Command, ExitStatus, Stdio};
+use std::thread;
 use std::time::Duration;
 
 /// A running process, to be watched, signalled and reaped.
@@ -225,8 +226,10 @@ impl RunningChild {
 
     /// Waits until nothing is left of one that is dead: some milliseconds.
     pub(crate) fn wait_until_gone(&self) {
-        // An interrupting signal ends no wait.
-        while !waits_for_death(&self.pidfd, None) {}
+        // An interrupting signal ends no wait, and a supervisor that may have no file handles cannot wait: it looks again.
+        while !waits_for_death(&self.pidfd, None) {
+            thread::sleep(LOOKS_AGAIN);
+        }
     }
 
     /// How it ended, once it is dead; `None` when another supervisor had started it. It is reaped when this is dropped.
@@ -281,6 +284,8 @@ impl Drop for RunningChild {
     }
 }
 
+/// How long a wait that was ended by something else waits before it looks again. Chosen by hand; not sensitive.
+const LOOKS_AGAIN: Duration = Duration::from_millis(1);
 const NO_TIME: Timespec = Timespec { tv_sec: 0, tv_nsec: 0 };
 
 /// Whether the process is dead before the time is over; without a limit, also false when a signal interrupts.

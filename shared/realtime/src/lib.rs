@@ -109,7 +109,7 @@ pub use latency_probe::LatencyProbe;
 pub use loan::Loan;
 pub use log_style::LogStyle;
 pub use message::Message;
-pub use monotonic_clock::{monotonic_time, now};
+pub use monotonic_clock::{monotonic_time, now, thread_time};
 pub use origin::Origin;
 pub use output::Output;
 pub use place::Place;

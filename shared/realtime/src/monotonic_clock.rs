@@ -15,7 +15,7 @@ pub fn monotonic_time() -> Duration {
 }
 
 /// What this thread has computed so far, ns of a core's time.
-pub(crate) fn thread_time() -> u64 {
+pub fn thread_time() -> u64 {
     let Timespec { tv_sec, tv_nsec } = clock_gettime(ClockId::ThreadCPUTime);
     Duration::new(tv_sec as u64, tv_nsec as u32).as_nanos() as u64
 }

@@ -1,6 +1,7 @@
 use crate::parallel::in_parallel;
 use crate::trial_recorder::TrialRecorder;
 use crate::{NetworkVariant, RecordedPerson, Trial};
+use coact_control::PlannerDelay;
 use coact_lockstep::{Lockstep, LockstepError};
 use coact_period::cycles;
 use coact_pipeline::{Layout, RunSettings};
@@ -24,6 +25,8 @@ pub struct Campaign<'a> {
     pub network: &'a NetworkVariant,
     /// Whether the robot's guard holds it back.
     pub guarded: bool,
+    /// How long its planner's answers are held back.
+    pub planner_delay: PlannerDelay,
     /// How many assemblies.
     pub trials: u64,
     /// How many at the same time.
@@ -50,6 +53,7 @@ fn assemble(campaign: &Campaign, index: u64) -> Result<Trial, LockstepError> {
     if !campaign.guarded {
         stages.leave_unguarded();
     }
+    stages.hold_plans_back(campaign.planner_delay);
     let (task, plan) = (stages.task().clone(), stages.plan().clone());
     let mut recorder = TrialRecorder::new(&task, &plan, stages.separation_meter()?, settings.seed);
     let longest = STALLED * task.subgoals.len() as u64;
@@ -103,6 +107,7 @@ mod tests {
             people: &[],
             network: &network,
             guarded: true,
+            planner_delay: PlannerDelay::None,
             trials: 3,
             threads: 1,
         };
@@ -134,6 +139,7 @@ mod tests {
             people: &people,
             network: &network,
             guarded: true,
+            planner_delay: PlannerDelay::None,
             trials: 5,
             threads: 1,
         };

@@ -1,4 +1,4 @@
-use coact_control::Control;
+use coact_control::{Control, PlannerDelay};
 use coact_fields::Network;
 use coact_joint_task::{NetworkPlan, Task};
 use coact_messages::{
@@ -24,6 +24,7 @@ pub struct Lockstep {
     network: Network,
     control: Control,
     unguarded: bool,
+    planner_delay: PlannerDelay,
     seed: u64,
     tick: u64,
     fields_hangs_until: u64,
@@ -110,6 +111,7 @@ impl Lockstep {
             perception: Perception::new(&task, &model)?.with_robot(robot.clone()),
             control: Control::new(robot.clone(), &task, &limits)?,
             unguarded: false,
+            planner_delay: PlannerDelay::None,
             robot,
             limits,
             network,
@@ -134,6 +136,12 @@ impl Lockstep {
     pub fn leave_unguarded(&mut self) {
         self.unguarded = true;
         self.control.leave_unguarded();
+    }
+
+    /// From now on control's planner holds its answers back.
+    pub fn hold_plans_back(&mut self, delay: PlannerDelay) {
+        self.planner_delay = delay;
+        self.control.hold_plans_back(delay);
     }
 
     /// The task.
@@ -198,6 +206,7 @@ impl Lockstep {
         if self.unguarded {
             self.control.leave_unguarded();
         }
+        self.control.hold_plans_back(self.planner_delay);
         self.control.resume(&self.command);
         Ok(())
     }

@@ -7,6 +7,7 @@ use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
 use coact::installation::Installation;
 use coact::partner;
+use coact_control::PlannerDelay;
 use coact_evaluation::{
     Ablation, Campaign, Comparison, EvaluationReport, NetworkVariant, RecordedPerson, Trial, draw_fluency,
     draw_leads,
@@ -34,6 +35,7 @@ use std::process::ExitCode;
   coact evaluate --movement recorded                  the hand reaches as recorded people did
   coact evaluate --person mine.toml                   people hold the hand as that file says
   coact evaluate --world physics --trials 20          with contact forces; takes longer
+  coact evaluate --planner-delay measured             movements are there as late as in real time
   coact evaluate --task a.toml b.toml --trials 20     ten of each task
 
 Keys of random, after a colon, separated by commas:
@@ -86,6 +88,9 @@ pub struct Args {
     /// Evaluate an ablation: without this layer, or without noise; may be repeated
     #[arg(long, value_enum, value_name = "LAYER")]
     ablate: Vec<Ablated>,
+    /// How long the planner's answers are held back, as in real time: measured, or ms; without it they are there at once
+    #[arg(long, value_name = "measured|MS")]
+    planner_delay: Option<PlannerDelay>,
     /// How many assemblies at the same time [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -167,6 +172,9 @@ struct Evaluation {
     layout: Laid,
     movement: Moved,
     world: WorldMode,
+    /// For how long the planner's answers were held back; none when they were not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    planner_delay: Option<String>,
     partner: String,
     person: PathBuf,
     seed: u64,
@@ -219,6 +227,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         layout: args.layout,
         movement: args.movement,
         world: args.world,
+        planner_delay: args.planner_delay.map(|delay| delay.to_string()),
         partner: settings.partner.clone(),
         person: settings.person.clone(),
         seed: args.seed,
@@ -307,7 +316,8 @@ fn assemble(
     let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left")?;
     let bar = ProgressBar::new(args.trials).with_style(style).with_message(what);
     let (tasks, trials) = (args.task.as_slice(), args.trials);
-    let campaign = Campaign { settings, tasks, people, network, guarded, trials, threads };
+    let planner_delay = args.planner_delay.unwrap_or_default();
+    let campaign = Campaign { settings, tasks, people, network, guarded, planner_delay, trials, threads };
     let trials = coact_evaluation::run(&campaign, || bar.inc(1));
     bar.finish_and_clear();
     Ok(trials?)

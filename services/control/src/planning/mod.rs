@@ -3,8 +3,10 @@
 mod hand_goals;
 #[cfg(test)]
 mod modelled;
+mod planner_delay;
 mod planner_link;
 mod planner_watch;
+mod planner_within;
 mod planning_query;
 mod planning_result;
 mod planning_scene;
@@ -14,8 +16,10 @@ mod slots;
 mod surroundings;
 
 pub(crate) use hand_goals::HandGoals;
+pub use planner_delay::{PlannerDelay, UnknownDelay};
 pub(crate) use planner_link::PlannerLink;
 use planner_watch::PlannerWatch;
+use planner_within::PlannerWithin;
 pub(crate) use planning_query::PlanningQuery;
 pub(crate) use planning_result::PlanningResult;
 use planning_scene::PlanningScene;

@@ -1,5 +1,7 @@
 use super::slots::Slots;
-use super::{PlannerWatch, PlanningQuery, PlanningResult, PlanningThread, SkillPlanner};
+use super::{
+    PlannerDelay, PlannerWatch, PlannerWithin, PlanningQuery, PlanningResult, PlanningThread, SkillPlanner,
+};
 use crate::state::QueryId;
 use coact_motion::SearchHeartbeat;
 use std::sync::Arc;
@@ -19,14 +21,14 @@ pub(crate) struct PlannerLink {
 /// Where movements are planned: within the step that asks, or by a [`PlanningThread`] beside the servo.
 #[derive(Debug)]
 enum PlannerPlace {
-    Within(Box<SkillPlanner>),
+    Within(PlannerWithin),
     Beside { slots: Arc<Slots<PlanningQuery, PlanningResult>>, heartbeat: SearchHeartbeat },
 }
 
 impl PlannerLink {
-    /// To a planner that answers at once.
+    /// To a planner that answers at once, unless it is told to hold its answers back.
     pub fn within(planner: SkillPlanner) -> Self {
-        Self::to(PlannerPlace::Within(Box::new(planner)))
+        Self::to(PlannerPlace::Within(PlannerWithin::new(planner)))
     }
 
     /// To a planner on a thread of its own.
@@ -42,8 +44,16 @@ impl PlannerLink {
 
     /// Looks whether the planner goes on; to be called once in each cycle.
     pub fn look(&mut self) {
-        if let PlannerPlace::Beside { slots, heartbeat } = &self.place {
-            self.watch.look(slots.owes(), heartbeat.beats());
+        match &mut self.place {
+            PlannerPlace::Within(planner) => planner.look(),
+            PlannerPlace::Beside { slots, heartbeat } => self.watch.look(slots.owes(), heartbeat.beats()),
+        }
+    }
+
+    /// From now on a planner that answers within the step holds its answers back.
+    pub fn hold_back(&mut self, delay: PlannerDelay) {
+        if let PlannerPlace::Within(planner) = &mut self.place {
+            planner.hold_back(delay);
         }
     }
 
@@ -74,8 +84,10 @@ impl PlannerLink {
         if !self.was_asked(id) {
             return None;
         }
-        if let PlannerPlace::Beside { slots, .. } = &self.place {
-            self.answer = self.answer.or_else(|| slots.result());
+        match &self.place {
+            PlannerPlace::Within(planner) if !planner.is_through() => return None,
+            PlannerPlace::Within(_) => {}
+            PlannerPlace::Beside { slots, .. } => self.answer = self.answer.or_else(|| slots.result()),
         }
         self.answer
     }

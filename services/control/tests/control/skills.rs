@@ -2,9 +2,11 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::kinematic_world::{self, Holder, KinematicWorld};
+use coact_control::PlannerDelay;
 use coact_joint_task::ActionType;
 use coact_messages::{Command, MotionPhase, NONE, ROBOT};
 use nalgebra::{Isometry3, Point3, Vector3};
+use std::time::Duration;
 
 const NUT: &str = "nut on the robot's side";
 const WHEEL: &str = "wheel on the robot's side";
@@ -242,6 +244,25 @@ fn the_base_is_steadied_until_the_decision_ends() {
     assert_eq!(world.phase(), MotionPhase::Dwell);
     world.decide(None);
     world.until(4.0, "at rest", |world| world.phase() == MotionPhase::Rest);
+}
+
+#[test]
+fn a_planner_that_is_held_back_is_waited_for() {
+    let begins_after = |delay: PlannerDelay| {
+        let mut world = KinematicWorld::new();
+        world.control.hold_plans_back(delay);
+        world.decide(Some(world.action(ActionType::Insert, NUT)));
+        let moves = |world: &KinematicWorld| world.command.velocity[..7].iter().any(|speed| *speed != 0.0);
+        let waited = world.until(2.0, "under way", moves);
+        world.until(8.0, "inserted", |world| {
+            world.parts.iter().any(|part| matches!(part.holder, Holder::Socket(_)))
+        });
+        (waited * 1e3).round() as u64
+    };
+    let at_once = begins_after(PlannerDelay::None);
+    let late = begins_after(PlannerDelay::Fixed(Duration::from_millis(250)));
+    assert!((249..=250).contains(&(late - at_once)), "{at_once} and {late} ms");
+    assert!(begins_after(PlannerDelay::Measured) > at_once);
 }
 
 #[test]

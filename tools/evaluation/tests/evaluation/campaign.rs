@@ -1,6 +1,7 @@
 //! Assemblies with random partners, judged.
 #![allow(clippy::unwrap_used)]
 
+use coact_control::PlannerDelay;
 use coact_evaluation::{
     Ablation, Campaign, EvaluationReport, Inference, NetworkVariant, Trial, draw_fluency, draw_leads, run,
 };
@@ -23,6 +24,7 @@ fn trials(partner: &str, network: &NetworkVariant, trials: u64, threads: usize) 
             people: &[],
             network,
             guarded: true,
+            planner_delay: PlannerDelay::None,
             trials,
             threads,
         },
@@ -41,6 +43,7 @@ fn same_seeds_give_the_same_trials_with_any_number_of_threads() {
         people: &[],
         network: &network,
         guarded: true,
+        planner_delay: PlannerDelay::None,
         trials: 2,
         threads: 2,
     };
@@ -83,6 +86,7 @@ fn without_its_guard_the_robot_is_never_held_back_and_closes_on_people() {
             people: &[],
             network: &network,
             guarded,
+            planner_delay: PlannerDelay::None,
             trials: 2,
             threads: 2,
         };
@@ -170,6 +174,7 @@ fn a_robot_that_leaves_a_handover_closes_on_nobody() {
             people: &[],
             network: &network,
             guarded: true,
+            planner_delay: PlannerDelay::None,
             trials: 1,
             threads: 1,
         },

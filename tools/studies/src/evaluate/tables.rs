@@ -13,6 +13,7 @@ pub(super) fn print(evaluation: &Evaluation) {
         layout,
         movement,
         world,
+        planner_delay,
         partner,
         person,
         seed,
@@ -28,8 +29,9 @@ pub(super) fn print(evaluation: &Evaluation) {
     };
     let lacks = without.unwrap_or_default();
     let (layout, movement, world) = (layout.told(), movement.told(), world.name());
+    let delay = planner_delay.as_ref().map_or(String::new(), |delay| format!(", plans held back: {delay}"));
     println!(
-        "{task}: {trials} assemblies with {partner}, people as in {}, in the {world} world{layout}{movement}, seeds from {seed}; 95 % intervals",
+        "{task}: {trials} assemblies with {partner}, people as in {}, in the {world} world{layout}{movement}{delay}, seeds from {seed}; 95 % intervals",
         person.display()
     );
     let mut table = Table::new();
