@@ -4,7 +4,8 @@ use crate::numerical_ik::NumericalIk;
 use crate::search::Search;
 use crate::target_search::TargetSearch;
 use crate::{
-    Clearance, CollisionModel, Goal, Mechanism, MinClearance, Plan, Refusal, Scene, SegmentKind, Target,
+    Clearance, CollisionModel, Goal, HandSpeedLimits, Mechanism, MinClearance, Plan, Refusal, Scene,
+    SegmentKind, Target,
 };
 use coact_robot::{MotionState, Posture};
 use nalgebra::{Isometry3, Translation3, Vector3};
@@ -32,6 +33,8 @@ pub struct Problem<'a> {
     pub insertion_depth: f64,
     /// Clearance that is kept.
     pub min_clearance: MinClearance,
+    /// How fast the hand may go.
+    pub hand_speeds: HandSpeedLimits,
 }
 
 /// A direction, unit, world, and a distance, m.
@@ -64,6 +67,7 @@ impl<'a> Problem<'a> {
             next_displacements: Vec::new(),
             insertion_depth: 0.0,
             min_clearance: MinClearance::default(),
+            hand_speeds: HandSpeedLimits::default(),
         }
     }
 
@@ -127,7 +131,8 @@ impl<'a> Problem<'a> {
             Goal::Hand(goals) => {
                 let clearance = self.clearance(SegmentKind::Approach);
                 let (next_displacements, min_clearance) = (&self.next_displacements, self.min_clearance);
-                TargetSearch { clearance, goals, from, next_displacements, min_clearance }.best()
+                let limits = self.mechanism.limits();
+                TargetSearch { clearance, goals, from, next_displacements, min_clearance, limits }.best()
             }
         }
     }

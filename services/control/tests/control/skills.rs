@@ -70,7 +70,7 @@ fn every_part_of_the_robots_side_is_inserted() {
         });
         world.until(4.0, "parked", |world| world.phase() == MotionPhase::Rest && world.held().is_none());
         assert!((500..2200).contains(&reach), "{name}: reach took {reach} ms");
-        assert!((3.0..7.0).contains(&(taken + mounted)), "{name}: {taken} + {mounted} s");
+        assert!((2.0..5.5).contains(&(taken + mounted)), "{name}: {taken} + {mounted} s");
         assert!(lowest > 0.04, "{name}: {lowest} m above the table");
         assert!(world.used.iter().all(|used| *used > 0.3), "movements are not sluggish: {:?}", world.used);
         world.run(3.0);
