@@ -30,8 +30,8 @@ pub(crate) const BETWEEN_POINTS: f64 = 0.004;
 /// By how much a plan may come nearer than its segments, m: between its knots it differs a little from them. Chosen by
 /// hand: a quarter of what is added where they are made.
 const BETWEEN_KNOTS: f64 = 0.001;
-/// How far from where it leaves or arrives the hand keeps to its speed of contact at least, m. Chosen by hand: fingers that come down beside a part
-/// are a centimetre from it.
+/// How far from where it leaves or arrives the hand keeps to its speed of contact, m: for half of it at least, whatever the steps of a path.
+/// Chosen by hand: fingers that come down beside a part are as near to it.
 const CONTACT: f64 = 0.01;
 
 impl<'a> Attempt<'a> {
@@ -103,10 +103,9 @@ impl<'a> Attempt<'a> {
             let (clearance, required) = self.required(segments, t);
             clearance.is_clear(posture, required - BETWEEN_KNOTS)
         };
-        let near = self.lines[1].norm().max(CONTACT);
+        let near = [CONTACT, self.lines[1].norm().max(CONTACT)];
         let mechanism = self.clearance.mechanism;
         let plan = time_scaling::plan(mechanism, segments, &self.limits, (&self.hand_speeds, near), &keeps);
-        let plan = plan.and_then(|plan| plan.below_speed_limits(&self.limits));
         plan.map_err(|joint| self.too_fast(joint))
     }
 

@@ -1,4 +1,5 @@
 use crate::measured_path::MeasuredPath;
+use crate::plan::USED;
 use crate::segment;
 use crate::{HandSpeedLimits, Mechanism, Segment, SegmentKind};
 use coact_robot::{JointLimits, Posture};
@@ -23,8 +24,6 @@ struct PathPoint {
 
 /// Steps of a path. A trade-off with the time of planning.
 pub(crate) const STEPS: usize = 80;
-/// Fraction of the limits that is used, as in [`Plan::load`](crate::Plan::load).
-const USED: f64 = 0.95;
 /// Slopes (rad/s, m/s) below this count as zero: they only guard divisions.
 const TINY: f64 = 1e-9;
 /// An acceleration that no limit binds, 1/s.
@@ -35,14 +34,14 @@ const HALVINGS: u32 = 20;
 const LEAST_EFFORT: f64 = 0.05;
 
 impl<'a> PathBounds<'a> {
-    /// Of the path through these segments. The hand keeps to its free speed, and to that of contact for `near` m from where it leaves and where it
+    /// Of the path through these segments. The hand keeps to its free speed, and to that of contact for so many m from where it leaves, and from where it
     /// arrives.
     pub fn of(
         mechanism: &Mechanism,
         segments: &[Segment],
         path: &MeasuredPath,
         limits: &'a [JointLimits; 7],
-        (speeds, near): (&HandSpeedLimits, f64),
+        (speeds, near): (&HandSpeedLimits, [f64; 2]),
     ) -> Self {
         let step = path.length() / STEPS as f64;
         let own: Vec<f64> = (0..=STEPS).map(|point| path.own_time(point as f64 * step)).collect();
@@ -51,9 +50,9 @@ impl<'a> PathBounds<'a> {
         let place = |posture: &Posture| mechanism.arm.palm(posture) * mechanism.grasp_point();
         let places: Vec<Point3<f64>> = postures.iter().map(place).collect();
         let hand_limit = |point: usize| {
-            let end = match segment::during(segments, own[point]).map(|(segment, _)| segment.kind) {
-                Some(SegmentKind::Leave) => places[0],
-                Some(SegmentKind::Approach) => places[STEPS],
+            let (end, near) = match segment::during(segments, own[point]).map(|(segment, _)| segment.kind) {
+                Some(SegmentKind::Leave) => (places[0], near[0]),
+                Some(SegmentKind::Approach) => (places[STEPS], near[1]),
                 Some(SegmentKind::Reach) | None => return speeds.free,
             };
             if (places[point] - end).norm() < near { speeds.contact } else { speeds.free }

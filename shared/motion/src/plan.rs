@@ -14,7 +14,7 @@ pub struct Plan {
     /// The posture at the goal of the hand that was chosen; none when the goal was a posture.
     pub target: Option<Target>,
     /// The shortest time in which the path can be followed under the limits of speed and acceleration and with the hand's speeds, whatever the jerk, s;
-    /// infinite where the limits of speed at its start alone forbid it.
+    /// infinite where the limits of speed at its start alone forbid it, and where it leads nowhere.
     pub shortest: f64,
 }
 
@@ -23,7 +23,7 @@ pub struct Plan {
 const CHECKED: u32 = 4;
 /// Fraction of the limits that a movement from rest uses. Chosen by hand: the rest is room for peaks between
 /// samples.
-const USED: f64 = 0.95;
+pub(crate) const USED: f64 = 0.95;
 /// Steps between two knots at whose ends the speed is held against [`Plan::FASTEST`].
 const LOOKED_AT: u32 = 24;
 

@@ -91,7 +91,8 @@ impl<'a> Problem<'a> {
         let targets = self.targets(&from)?;
         let budget = Budget::of(postures);
         let incumbent = Incumbent::default();
-        Search { problem, left, budget: &budget, incumbent, known: Vec::new() }.run(&targets)
+        Search { problem, left, budget: &budget, incumbent, clear: Vec::new(), known: Vec::new() }
+            .run(&targets)
     }
 
     /// The postures that serve as an end, best first; empty when there are none. `from`: the posture from which the change

@@ -8,14 +8,15 @@ use crate::{Goal, Plan, Problem, Refusal, Segment, SegmentKind, Target, rrt_conn
 use coact_robot::{MotionState, Posture};
 use nalgebra::Vector3;
 
-/// The search for a movement to one of several targets in which the hand moves in one movement unit: direct movements,
-/// then a bounce, then paths through several postures.
+/// The search for the quickest movement to one of several targets: direct movements, then a bounce, then paths through several postures.
 pub(crate) struct Search<'a> {
     pub problem: &'a Problem<'a>,
     /// The posture after leaving; none when the hand does not leave first.
     pub left: Option<Posture>,
     pub budget: &'a Budget,
     pub incumbent: Incumbent,
+    /// Targets for which a direct movement is clear.
+    pub clear: Vec<Target>,
     /// Waypoints whose durations have been chosen already.
     pub known: Vec<Waypoints>,
 }
@@ -24,7 +25,7 @@ pub(crate) struct Search<'a> {
 const STRAIGHT: [Blend; 3] =
     [Blend::AlongStraight(1.0), Blend::AlongStraight(0.5), Blend::AlongStraight(0.0)];
 /// Haste with which an arm under way is tried to turn: see [`Waypoints::haste`]. Chosen by hand.
-const HASTES: [f64; 3] = [1.0, 0.7, 0.5];
+const HASTES: [f64; 2] = [0.7, 0.5];
 /// Bounces that are tried for each target. Chosen by hand: a trade-off with the time of planning.
 const BOUNCES: u32 = 2;
 /// Bounces that are tried where a faster movement is looked for. Chosen by hand.
@@ -65,16 +66,19 @@ impl<'a> Search<'a> {
 
     /// Looks for a faster movement than the one that was found: with other bounces, and to other targets.
     fn improve(&mut self, targets: &[Target]) {
-        for bounce in 0..ALL_BOUNCES {
+        for bounce in 1..ALL_BOUNCES {
             for target in targets {
                 if self.is_done() || self.incumbent.is_none() {
                     return;
+                }
+                if self.clear.contains(target) {
+                    continue;
                 }
                 let attempt = self.attempt(target, &[], Blend::MinimumJerk);
                 let found =
                     attempt.direct().and_then(|direct| attempt.find_bounce(&direct, bounce..bounce + 1));
                 if let Ok(segments) = found {
-                    self.offer(&attempt, target, &segments, true);
+                    self.offer(&attempt, target, &segments);
                 }
             }
         }
@@ -92,15 +96,24 @@ impl<'a> Search<'a> {
 
     /// The direct movement; of an arm under way, for which it is not clear, one that turns more tightly.
     fn direct(&mut self, target: &Target) {
-        let under_way = !self.problem.start.iter().all(MotionState::is_at_rest);
-        for haste in if under_way { &HASTES[..] } else { &HASTES[..1] } {
+        let attempt = self.attempt(target, &[], Blend::MinimumJerk);
+        match attempt.direct() {
+            Ok(segments) => self.offer_direct(&attempt, target, &segments),
+            Err(refusal) => self.incumbent.refuse(refusal),
+        }
+        if self.incumbent.is_none() && !self.problem.start.iter().all(MotionState::is_at_rest) {
+            self.tighter(target);
+        }
+    }
+
+    fn tighter(&mut self, target: &Target) {
+        for haste in HASTES {
             let mut attempt = self.attempt(target, &[], Blend::MinimumJerk);
-            attempt.waypoints.haste = *haste;
-            match attempt.direct() {
-                Ok(segments) => self.offer(&attempt, target, &segments, false),
-                Err(refusal) => self.incumbent.refuse(refusal),
-            }
-            if !self.incumbent.is_none() {
+            attempt.waypoints.haste = haste;
+            if let Ok(segments) = attempt.direct()
+                && attempt.check(&segments).is_ok()
+            {
+                self.take(&attempt, &segments, target);
                 return;
             }
         }
@@ -120,7 +133,7 @@ impl<'a> Search<'a> {
         for blend in STRAIGHT {
             let attempt = self.attempt(target, &[], blend);
             if let Ok(segments) = attempt.direct() {
-                self.offer(&attempt, target, &segments, false);
+                self.offer_direct(&attempt, target, &segments);
             }
             if self.is_done() {
                 return;
@@ -130,10 +143,13 @@ impl<'a> Search<'a> {
 
     /// The movement with a bounce.
     fn bounce(&mut self, target: &Target) {
+        if self.clear.contains(target) {
+            return;
+        }
         for blend in [Blend::MinimumJerk].into_iter().chain(STRAIGHT) {
             let attempt = self.attempt(target, &[], blend);
             match attempt.direct().and_then(|direct| attempt.find_bounce(&direct, 0..BOUNCES)) {
-                Ok(segments) => self.offer(&attempt, target, &segments, true),
+                Ok(segments) => self.offer(&attempt, target, &segments),
                 Err(refusal) => self.incumbent.refuse(refusal),
             }
             if self.is_done() || self.left.is_none() && target.before == target.at {
@@ -152,7 +168,7 @@ impl<'a> Search<'a> {
             let mut vias = corners.clone();
             let attempt = self.attempt(target, &[], Blend::MinimumJerk);
             if let Some(segments) = attempt.find_bounce_near(&vias) {
-                self.offer(&attempt, target, &segments, true);
+                self.offer(&attempt, target, &segments);
             }
             while !self.is_done() && vias.len() < MOST_VIAS {
                 self.through(target, &vias, Blend::MinimumJerk);
@@ -169,32 +185,50 @@ impl<'a> Search<'a> {
     fn through(&mut self, target: &Target, vias: &[Posture], blend: Blend) {
         let attempt = self.attempt(target, vias, blend);
         if let Ok(segments) = attempt.direct() {
-            self.offer(&attempt, target, &segments, true);
+            self.offer(&attempt, target, &segments);
         }
     }
 
-    /// Offers segments smoothed and as they are, as far as they are clear.
-    fn offer(&mut self, attempt: &Attempt, target: &Target, segments: &[Segment], bounces: bool) {
-        let target = matches!(self.problem.goal, Goal::Hand(_)).then_some(*target);
+    /// Offers the segments of a direct movement, and remembers the target if they are clear.
+    fn offer_direct(&mut self, attempt: &Attempt, target: &Target, segments: &[Segment]) {
         let clear = attempt.check(segments);
-        let bounces = bounces || clear.is_err();
+        if clear.is_ok() {
+            self.clear.push(*target);
+        }
+        self.offer_checked(attempt, target, segments, clear);
+    }
+
+    fn offer(&mut self, attempt: &Attempt, target: &Target, segments: &[Segment]) {
+        self.offer_checked(attempt, target, segments, attempt.check(segments));
+    }
+
+    /// Offers segments smoothed and as they are, as far as they are clear.
+    fn offer_checked(
+        &mut self,
+        attempt: &Attempt,
+        target: &Target,
+        segments: &[Segment],
+        clear: Result<(), Refusal>,
+    ) {
         if let Some(smoother) = attempt.smooth(segments) {
-            self.take(attempt, &smoother, target, bounces);
+            self.take(attempt, &smoother, target);
             if segments.len() == 1 && self.is_done() {
                 return;
             }
         }
         match clear {
-            Ok(()) => self.take(attempt, segments, target, bounces),
+            Ok(()) => self.take(attempt, segments, target),
             Err(refusal) => self.incumbent.refuse(refusal),
         }
     }
 
-    /// Takes clear segments as a plan that keeps below the speed limits, if it is better than the best so far.
-    fn take(&mut self, attempt: &Attempt, segments: &[Segment], target: Option<Target>, bounces: bool) {
-        let mechanism = self.problem.mechanism;
+    /// Takes clear segments as a plan, if it is better than the best so far.
+    fn take(&mut self, attempt: &Attempt, segments: &[Segment], target: &Target) {
+        let Problem { mechanism, goal, .. } = self.problem;
         let end = segment::states_at(segments, segment::duration(segments)).map(|state| state.position);
         let least = shortest_time(&self.problem.start, &end, &attempt.limits);
+        let bounces = !self.clear.contains(target);
+        let target = matches!(goal, Goal::Hand(_)).then_some(*target);
         self.budget.spend(SCALING_POSTURES);
         match attempt.plan(segments) {
             Ok(plan) => self.incumbent.offer(mechanism, Plan { target, bounces, ..plan }, least),

@@ -41,24 +41,24 @@ const FROM_LIMITS: f64 = 0.0175;
 /// Largest change of a joint between the posture before the approach and that at the goal, rad: with more, the two belong
 /// to different branches of the inverse kinematics, and the hand would not go straight. Chosen by hand.
 const LARGEST_CHANGE: f64 = 0.9;
-/// Targets that are offered at most, and by how much they differ at least, rad². Chosen by hand: some will not have a
-/// clear path, and similar ones would fail alike.
+/// Targets that are offered at most, of half as many again that are found, and by how much they differ at least, rad². Chosen by hand:
+/// some will not have a clear path, and similar ones would fail alike.
 const OFFERED: usize = 8;
 const DIFFERENCE: f64 = 0.3;
 /// What it costs that an approach is bent, s/m: what goes into its place must be kept on its line, and of an approach that is bent by more than
 /// 2 cm that rarely becomes of it. Chosen by hand.
 const BENT: f64 = 20.0;
-/// Targets that are compared where a part goes on to another place. Chosen by hand.
+/// The same where a part goes on to another place. Chosen by hand.
 const COMPARED: usize = 24;
 /// Postures at that other place that are checked at most. Chosen by hand: a bound on time.
 const NEXT_CHECKED: usize = 60;
-/// Candidates that are checked at most. Chosen by hand: a bound on time.
+/// Candidates that are checked at most, of those that are soonest and of those of least travel. Chosen by hand: a bound on time.
 const CHECKED: usize = 2000;
 /// Random postures from which the numerical solver starts, besides the present one. A trade-off with the time of planning:
 /// each start finds at most one of the postures.
 const STARTS: u32 = 24;
 /// Step of swivel and roll with which a target is refined first and last, as fractions of their grids' steps, and the gain
-/// in cost that counts, s. Chosen by hand.
+/// that counts, s or rad². Chosen by hand.
 const FIRST_STEP: f64 = 0.5;
 const LAST_STEP: f64 = 0.02;
 const LEAST_GAIN: f64 = 1e-6;
@@ -66,7 +66,7 @@ const LEAST_GAIN: f64 = 1e-6;
 const EXPLAINED: usize = 200;
 
 impl TargetSearch<'_> {
-    /// The best targets, which differ from each other; first those to which the arm is soonest. Where a part goes on to another place, those come
+    /// The best targets, which differ from each other; first those to which the arm is soonest, and comes straight. Where a part goes on to another place, those come
     /// first from which the hand can go on, by the time of both changes of posture.
     ///
     /// # Errors

@@ -45,6 +45,9 @@ impl TimeOptimalScaling {
     /// From this length and speed on; none when it is too fast for what comes, or something blocks the path.
     pub fn of(bounds: &PathBounds, start: MotionState) -> Option<Self> {
         let step = bounds.step;
+        if start.position >= step * STEPS as f64 {
+            return None;
+        }
         let mut squares = vec![0.0; STEPS + 1];
         for point in (0..STEPS).rev() {
             squares[point] = bounds.controllable(point, squares[point + 1]);
@@ -80,7 +83,8 @@ impl TimeOptimalScaling {
             });
             (square, from) = (fastest, point as f64 * step);
         }
-        Some(Self { points, before: start.acceleration })
+        let scaling = Self { points, before: start.acceleration };
+        scaling.duration().is_finite().then_some(scaling)
     }
 
     /// When it is at the end, s.
@@ -108,7 +112,7 @@ impl TimeOptimalScaling {
         if t <= 0.0 {
             return ScalingPoint { acceleration: self.before, ..self.points[0] }.after(t);
         }
-        let point = &self.points[self.points.partition_point(|point| point.time <= t) - 1];
+        let point = &self.points[self.points.partition_point(|point| point.time <= t).saturating_sub(1)];
         point.after(t - point.time)
     }
 }

@@ -29,7 +29,7 @@ const PIECES: usize = Plan::KNOTS - 1;
 /// Windows that are tried, as multiples of the time in which a joint comes from rest to its limit of acceleration. Chosen by hand: hardly
 /// more than that, and twice as much, for where an acceleration turns into the opposite one.
 const WINDOWS: [f64; 2] = [1.2, 2.0];
-/// How often a scaling is made anew at most where it breaks a limit. Chosen by hand: the last ones gain a hundredth.
+/// How often a scaling is made at most, less steep each time where it breaks a limit. Chosen by hand: the last ones gain a hundredth.
 const ROUNDS: u32 = 4;
 /// A scaling whose knots break limits by less than this is slowed as a whole.
 const NEARLY: f64 = 1.02;
@@ -41,9 +41,9 @@ const HALVINGS: u32 = 14;
 
 /// The segments as the fastest plan. It differs a little from the segments between its knots; `keeps` says whether a posture is still clear
 /// enough at this instant of the segments' own time. In that time, slowed to the hand's speeds, where the fastest is slower: a path with a
-/// corner, at which the segments stop.
+/// corner, at which the segments stop. A movement under way that no scaling slows down may be faster than the hand shall be.
 ///
-/// `speeds` of the hand, and, m, how far from its ends it keeps to that of contact.
+/// `speeds` of the hand, and how far, m, from where it leaves and from where it arrives it keeps to that of contact.
 ///
 /// # Errors
 /// The joint that breaks a limit, when no scaling keeps them.
@@ -51,23 +51,26 @@ pub(crate) fn plan(
     mechanism: &Mechanism,
     segments: &[Segment],
     limits: &[JointLimits; 7],
-    (speeds, near): (&HandSpeedLimits, f64),
+    (speeds, near): (&HandSpeedLimits, [f64; 2]),
     keeps: &dyn Fn(f64, &Posture) -> bool,
 ) -> Result<Plan, usize> {
     let rises = mechanism.arm.joints.iter().map(|joint| joint.limits.acceleration / joint.limits.jerk);
     let windows = WINDOWS.map(|times| times * rises.clone().fold(0.0, f64::max));
     // The mean takes in what was half a window before.
-    let near = near + 0.5 * windows[1] * speeds.contact;
+    let near = near.map(|near| near + 0.5 * windows[1] * speeds.contact);
     let path = MeasuredPath::of(segments, limits);
     let bounds = PathBounds::of(mechanism, segments, &path, limits, (speeds, near));
     let mut scaled = Scaled { segments, limits, path, bounds };
     let shortest = scaled.shortest();
-    let own = scaled.in_own_time();
-    let own = own.broken(limits).map_or(Ok(own), Err);
-    let found = windows.iter().filter_map(|window| scaled.fastest(*window, keeps));
     let by_duration = |one: &Plan, other: &Plan| one.duration().total_cmp(&other.duration());
-    let fastest = found.chain(own.clone().ok()).min_by(by_duration).map_or(own, Ok)?;
-    Ok(Plan { shortest, ..fastest })
+    let found = windows.iter().filter_map(|window| scaled.fastest(*window, keeps));
+    let fastest = found.min_by(by_duration);
+    let plan = match (fastest, scaled.in_own_time()) {
+        (Some(fastest), Ok(own)) if scaled.own_time_is_slow() => std::cmp::min_by(fastest, own, by_duration),
+        (Some(fastest), _) => fastest,
+        (None, own) => own?,
+    };
+    Ok(Plan { shortest, ..plan })
 }
 
 /// The segments in their own time.
@@ -90,9 +93,16 @@ pub(crate) fn in_own_time(segments: &[Segment]) -> Plan {
 
 impl Scaled<'_> {
     /// The segments in their own time, slowed to the hand's speeds if they begin at rest.
-    fn in_own_time(&self) -> Plan {
+    fn in_own_time(&self) -> Result<Plan, usize> {
         let plan = in_own_time(self.segments);
-        if self.is_under_way() { plan } else { plan.slower(self.bounds.slowing(&self.path)) }
+        let plan = if self.is_under_way() { plan } else { plan.slower(self.bounds.slowing(&self.path)) };
+        let plan = plan.below_speed_limits(self.limits)?;
+        plan.broken(self.limits).map_or(Ok(plan), Err)
+    }
+
+    /// Whether the hand keeps to its speeds in the segments' own time: under way it may be faster, and nothing but a scaling slows it down.
+    fn own_time_is_slow(&self) -> bool {
+        !self.is_under_way() || self.bounds.slowing(&self.path) <= 1.0
     }
 
     /// The shortest time whatever the jerk, s.
@@ -110,21 +120,29 @@ impl Scaled<'_> {
         self.bounds.restore();
         let mut best: Option<(Plan, TimeOptimalScaling)> = None;
         for _ in 0..ROUNDS {
-            let scaling = TimeOptimalScaling::of(&self.bounds, self.start(window))?;
-            let plan = self.follow(&scaling, window)?;
+            let Some((scaling, plan)) = self.scaled(window) else { break };
             let load = plan.load(self.limits);
-            self.ease(&plan, &scaling, window);
+            if load > NEARLY {
+                self.ease(&plan, &scaling, window);
+            }
             let slower = self.within_limits(plan, load);
             let duration =
                 |plan: &Plan| best.as_ref().is_none_or(|(best, _)| plan.duration() < best.duration());
             if let Some(plan) = slower.filter(duration) {
                 best = Some((plan, scaling));
             }
-            if load < NEARLY {
+            if load <= NEARLY {
                 break;
             }
         }
         best.filter(|(plan, scaling)| self.is_clear(plan, scaling, window, keeps)).map(|(plan, _)| plan)
+    }
+
+    /// The time-optimal scaling as far as the joints' acceleration may be used, and the plan that its mean is.
+    fn scaled(&self, window: f64) -> Option<(TimeOptimalScaling, Plan)> {
+        let scaling = TimeOptimalScaling::of(&self.bounds, self.start(window))?;
+        let plan = self.follow(&scaling, window)?;
+        Some((scaling, plan))
     }
 
     /// Where the scaling begins so that its mean begins with the segments' own state: half a window later, with the acceleration of before.
@@ -143,6 +161,7 @@ impl Scaled<'_> {
     /// The plan, slower as a whole if it must be, and if it may: a movement under way cannot.
     fn within_limits(&self, plan: Plan, load: f64) -> Option<Plan> {
         let plan = if self.is_under_way() { plan } else { plan.slower(load.max(1.0)) };
+        let plan = plan.below_speed_limits(self.limits).ok()?;
         plan.broken(self.limits).is_none().then_some(plan)
     }
 

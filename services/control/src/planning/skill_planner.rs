@@ -35,6 +35,8 @@ const SEARCH_FOR_PERSON: u32 = 10_000;
 /// comes to the base that it steadies, along a straight line, m. Sockets that are deeper, or axles that stick out farther, ask for
 /// more of the latter.
 pub(crate) const INSERTION_DEPTH: f64 = 0.03;
+/// Least speed at which the hand comes to something, m/s: however little contact is allowed to hurt, parts are to be taken. Chosen by hand.
+const SLOWEST_CONTACT: f64 = 0.05;
 /// Fraction of a withdrawal that is a straight line: the rest rounds the corner to its end.
 const STRAIGHT_WITHDRAWAL: f64 = 0.9;
 
@@ -59,8 +61,8 @@ impl SkillPlanner {
         let scene = PlanningScene::new(&robot, &models, task, limits);
         let SafetyLimits { planner, guard, .. } = limits;
         let comfort = planner.comfort.fraction();
-        let hand_speeds =
-            HandSpeedLimits { free: comfort * planner.hand_speed, contact: comfort * guard.contact_speed };
+        let contact = guard.contact_speed.clamp(SLOWEST_CONTACT, planner.hand_speed);
+        let hand_speeds = HandSpeedLimits { free: comfort * planner.hand_speed, contact: comfort * contact };
         Self { robot, models, goals, scene, limits: planner, hand_speeds, heartbeat }
     }
 
