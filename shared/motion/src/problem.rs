@@ -7,7 +7,7 @@ use crate::{
     Clearance, CollisionModel, Goal, HandSpeedLimits, Mechanism, MinClearance, Plan, Refusal, Scene,
     SegmentKind, Target,
 };
-use coact_robot::{MotionState, Posture};
+use coact_robot::{HandGoal, MotionState, Posture};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 /// A movement that is asked for.
@@ -95,10 +95,12 @@ impl<'a> Problem<'a> {
             .run(&targets)
     }
 
-    /// The postures that serve as an end, best first; empty when there are none. `from`: the posture from which the change
-    /// of posture counts.
+    /// The postures that serve as an end, those first that are nearest to posture `from`; empty when there are none.
     pub fn targets_from(&self, from: &Posture) -> Vec<Target> {
-        self.targets(from).unwrap_or_default()
+        match &self.goal {
+            Goal::Posture(at) => vec![Self::posture_target(*at)],
+            Goal::Hand(goals) => self.target_search(goals, from).nearest(),
+        }
     }
 
     /// The clearance in a segment of the movement.
@@ -126,15 +128,27 @@ impl<'a> Problem<'a> {
         left.map(Some).ok_or_else(|| Refusal::OutOfReach { point: goal(&leaves[0]).point.coords.into() })
     }
 
+    /// The postures that serve as an end, best first.
     fn targets(&self, from: &Posture) -> Result<Vec<Target>, Refusal> {
         match &self.goal {
-            Goal::Posture(at) => Ok(vec![Target { goal: 0, roll: 0.0, before: *at, at: *at, cost: 0.0 }]),
-            Goal::Hand(goals) => {
-                let clearance = self.clearance(SegmentKind::Approach);
-                let (next_displacements, min_clearance) = (&self.next_displacements, self.min_clearance);
-                let limits = self.mechanism.limits();
-                TargetSearch { clearance, goals, from, next_displacements, min_clearance, limits }.best()
-            }
+            Goal::Posture(at) => Ok(vec![Self::posture_target(*at)]),
+            Goal::Hand(goals) => self.target_search(goals, from).best(),
+        }
+    }
+
+    /// The posture that is asked for itself.
+    fn posture_target(at: Posture) -> Target {
+        Target { goal: 0, roll: 0.0, before: at, at, cost: 0.0 }
+    }
+
+    fn target_search<'b>(&'b self, goals: &'b [HandGoal], from: &'b Posture) -> TargetSearch<'b> {
+        TargetSearch {
+            clearance: self.clearance(SegmentKind::Approach),
+            goals,
+            from,
+            next_displacements: &self.next_displacements,
+            min_clearance: self.min_clearance,
+            limits: self.mechanism.limits(),
         }
     }
 }

@@ -89,6 +89,13 @@ impl TargetSearch<'_> {
         if offered.is_empty() { Err(self.refusal(&candidates)) } else { Ok(offered) }
     }
 
+    /// The targets of least weighted change of posture, which differ from each other, nearest first.
+    pub fn nearest(&self) -> Vec<Target> {
+        let mut offered = Vec::new();
+        self.offer(&mut self.candidates(), |candidate| candidate.cost, OFFERED, &mut offered);
+        offered
+    }
+
     /// How far the hand would be off the straight line in the middle of the approach, were each joint to move evenly, m.
     fn bend(&self, target: &Target) -> f64 {
         let Target { before, at, .. } = target;
