@@ -30,14 +30,16 @@ impl Control {
         }
         let choice = SkillChoice::of(&self.state, inputs, &self.task.actions);
         let phase = self.state.skill.phase();
-        let is_done = phase == SkillPhase::Idle && !self.state.skill.is_parking();
+        let is_done = phase == SkillPhase::Idle && !self.state.skill.is_undecided();
         let is_silent = (1..SILENCE).contains(&self.state.decisions.silent);
-        let goes_on = choice.is_under_way(&self.state.skill) || (choice.skill == Skill::Park && is_silent);
+        let goes_on = choice.is_under_way(&self.state.skill) || (choice.is_undecided() && is_silent);
         if phase.is_firm() || (goes_on && !is_done) {
             return;
         }
         if choice.can_begin(inputs) {
-            self.state.decisions.note_decision(inputs.tick());
+            if !choice.is_undecided() {
+                self.state.decisions.note_decision(inputs.tick());
+            }
             self.begin_skill(&choice, inputs);
         } else if !self.state.skill.is_parking() || is_done {
             self.begin_skill(&choice.parked(), inputs);
@@ -75,12 +77,13 @@ impl Control {
         }
         let skill = &mut self.state.skill;
         (skill.skill, skill.action, skill.kind) = (choice.skill, choice.action, choice.kind);
+        skill.prepares = Flag::from(choice.prepares);
         self.state.planning.refusals = 0;
         let place = self.place(inputs);
         let skill = &mut self.state.skill;
         match place {
             Some(place) => skill.place = StoredPose::from(place),
-            None => skill.skill = Skill::Park,
+            None => (skill.skill, skill.prepares) = (Skill::Park, Flag::Unset),
         }
         skill.stops_before = Flag::from(skill.skill == Skill::Receive);
         skill.enter(SkillPhase::Plan);

@@ -17,6 +17,8 @@ pub(crate) struct HandGoals {
     sockets: Vec<Isometry3<f64>>,
     /// How deep a part goes into each, m.
     depths: Vec<f64>,
+    /// Where the base is steadied for each subgoal.
+    steady_places: Vec<Point3<f64>>,
 }
 
 /// Distance at which the approach to a grasp, or to a place where a part is put, begins, m. Chosen by hand: from there the hand
@@ -59,12 +61,26 @@ impl HandGoals {
             hand: model.robot.hand.clone(),
             grips: model.grips.clone(),
             sockets: task.subgoals.iter().map(|subgoal| frame(subgoal.socket, subgoal.axis)).collect(),
+            steady_places: (0..task.subgoals.len())
+                .map(|subgoal| coact_workplace::steady_place(task, subgoal))
+                .collect(),
             depths: task.subgoals.iter().map(|goal| task.insertion_depth(goal.socket, goal.axis)).collect(),
         }
     }
 
-    /// The goals of the hand that serve a query; none for parking.
+    /// The goals of the hand that serve a query; none for parking. A hand that only gets ready stops where its approach would begin.
     pub fn of(&self, query: &PlanningQuery) -> Vec<GripGoal> {
+        let mut goals = self.of_skill(query);
+        if query.prepares && query.skill != Skill::Receive {
+            for GripGoal { goal, .. } in &mut goals {
+                (goal.point, goal.back) = (goal.point - goal.along * goal.back, 0.0);
+            }
+        }
+        goals
+    }
+
+    /// The same, without regard to whether the hand only gets ready.
+    fn of_skill(&self, query: &PlanningQuery) -> Vec<GripGoal> {
         let at = Point3::from(query.place.translation.vector);
         let held = query.held.filter(|(kind, _)| query.kind == Some(*kind));
         match (query.skill, query.kind) {
@@ -77,7 +93,9 @@ impl HandGoals {
             (Skill::Pick, Some(kind)) => self.grasping(kind, query.next_use, &query.place),
             (Skill::Receive, Some(kind)) => self.receiving(kind, &query.place, query.stops_before),
             (Skill::Request, _) => vec![self.requesting()],
-            (Skill::Steady, _) => vec![self.steadying()],
+            (Skill::Steady, _) => {
+                self.subgoal_of(&query.place).map(|subgoal| self.steadying(subgoal)).into_iter().collect()
+            }
             (Skill::Point, _) => vec![self.pointing(&at)],
             (Skill::Park | Skill::Pick | Skill::Receive, _) => Vec::new(),
         }
@@ -150,10 +168,15 @@ impl HandGoals {
 
     /// How deep a part goes that comes to `place`, m; 0 where that is no socket.
     pub fn insertion_depth(&self, place: &Isometry3<f64>) -> f64 {
+        self.subgoal_of(place).map_or(0.0, |subgoal| self.depths[subgoal])
+    }
+
+    /// The subgoal whose place this is.
+    fn subgoal_of(&self, place: &Isometry3<f64>) -> Option<usize> {
         let at = |socket: &Isometry3<f64>| {
             (socket.translation.vector - place.translation.vector).norm() < SAME_PLACE
         };
-        self.sockets.iter().position(at).map_or(0.0, |socket| self.depths[socket])
+        self.sockets.iter().position(at)
     }
 
     /// A part's frame as it is seen; it stands on the table at the lowest.
@@ -201,9 +224,9 @@ impl HandGoals {
         Vector3::new(out.x, out.y, 0.0).try_normalize(1e-6).unwrap_or_else(Vector3::x)
     }
 
-    /// Pressing on the base from above.
-    pub fn steadying(&self) -> GripGoal {
-        self.freely(Point3::from(self.scene.steady), -Vector3::z(), BACK)
+    /// Pressing on the base from above while the person works at a subgoal's place.
+    pub fn steadying(&self, subgoal: usize) -> GripGoal {
+        self.freely(self.steady_places[subgoal], -Vector3::z(), BACK)
     }
 
     /// Pointing to `target` from a distance.

@@ -29,7 +29,7 @@ fn dwells(world: &mut KinematicWorld) -> f64 {
         world.step();
         std::thread::sleep(PERIOD / 4);
         if world.phase() == MotionPhase::Dwell {
-            return (world.grasp_point() - Point3::from(world.task.scene.steady)).norm();
+            return (world.grasp_point() - Point3::from(world.task.scene.steady[0])).norm();
         }
     }
     panic!("the hand never came to its goal: {:?}", world.phases);

@@ -238,7 +238,7 @@ fn the_base_is_steadied_until_the_decision_ends() {
         .find(|index| world.task.actions[*index].action_type == ActionType::Steady);
     world.decide(action.map(|action| action as u32));
     world.until(4.0, "steadied", |world| world.phase() == MotionPhase::Dwell);
-    let off = world.grasp_point() - Point3::from(world.task.scene.steady);
+    let off = world.grasp_point() - Point3::from(world.task.scene.steady[0]);
     assert!(off.norm() < 1e-6, "{off}");
     world.run(2.0);
     assert_eq!(world.phase(), MotionPhase::Dwell);
