@@ -80,15 +80,16 @@ impl<'a> Inputs<'a> {
         self.frame.map(|frame| frame.decision)
     }
 
-    /// The action that is expected: of those that are not decided, the one whose population in AEL is nearest to its threshold, and not much
+    /// The action that is expected: of those that `can` be prepared, the one whose population in AEL is nearest to its threshold, unless it is hardly
     /// nearer than the `present` one. None where all are at rest.
-    pub fn expected(&self, present: Option<usize>) -> Option<usize> {
+    pub fn expected(&self, present: Option<usize>, can: impl Fn(usize) -> bool) -> Option<usize> {
         let frame = self.frame?;
         let excitation = |action: &usize| frame.excitation(LayerKind::ActionExecution, *action);
         let count = frame.populations(LayerKind::ActionExecution).len();
-        let most = (0..count).max_by(|one, other| excitation(one).total_cmp(&excitation(other)))?;
-        let stays = present.filter(|action| excitation(action) > excitation(&most) - CLEARLY);
-        Some(stays.unwrap_or(most)).filter(|action| excitation(action) > EXPECTED)
+        let able = (0..count).filter(|action| excitation(action) > EXPECTED && can(*action));
+        let most = able.max_by(|one, other| excitation(one).total_cmp(&excitation(other)))?;
+        let stays = |action: &usize| can(*action) && excitation(action) > excitation(&most) - CLEARLY;
+        Some(present.filter(stays).unwrap_or(most))
     }
 
     /// Whether the fingers feel something; `None` when that is not known.

@@ -55,19 +55,25 @@ impl SkillChoice {
         }
     }
 
-    /// To get ready for the action that the fields expect, though nothing is decided: the one whose population in AEL is nearest to its
-    /// threshold. What is asked for will be received.
+    /// To get ready for the action that the fields expect, though nothing is decided: of those for which the hand can, the one whose population in
+    /// AEL is nearest to its threshold; not for one that did not come.
     fn expected(state: &ControlState, inputs: &Inputs, actions: &[Action]) -> Option<Self> {
+        let ready = |index: usize| Self::ready(index, actions.get(index)?, state.hand.held(), inputs);
         let present = state.skill.action.get().filter(|_| state.skill.prepares.is_set());
-        let index = inputs.expected(present)?;
-        let action = actions.get(index)?;
-        let skill = match Self::skill(action, state.hand.held())? {
+        let index = inputs.expected(present, |index| ready(index).is_some())?;
+        let did_not_come = state.skill.is_parking() && state.skill.action == Slot::of(index);
+        ready(index).filter(|_| !did_not_come)
+    }
+
+    /// To get ready for an action, if the hand can. What is asked for will be received. A hand over the base would hide from the robot's eye what
+    /// the person does there.
+    fn ready(index: usize, action: &Action, held: Option<usize>, inputs: &Inputs) -> Option<Self> {
+        let skill = match Self::skill(action, held)? {
             Skill::Request => Skill::Receive,
             skill => skill,
         };
-        let kind = Slot::from(action.kind);
-        let ready = Self { skill, action: Slot::of(index), kind, prepares: true };
-        (skill != Skill::Park && ready.can_begin(inputs)).then_some(ready)
+        let ready = Self { skill, action: Slot::of(index), kind: action.kind.into(), prepares: true };
+        (!matches!(skill, Skill::Park | Skill::Steady) && ready.can_begin(inputs)).then_some(ready)
     }
 
     /// The skill that serves an action with this kind of part in the hand; none when another part must leave the hand first.

@@ -23,7 +23,7 @@
 use coact_joint_task::{FixtureForm, Kind, Shape, Task};
 use coact_motion::{Capsule, Obstacle, Solid};
 use coact_robot::Graspable;
-use nalgebra::{Isometry3, Point3};
+use nalgebra::Isometry3;
 
 /// All fixtures of a task (table, base, foot, axles) as obstacles.
 pub fn fixtures(task: &Task) -> Vec<Obstacle> {
@@ -37,17 +37,6 @@ pub fn fixtures(task: &Task) -> Vec<Obstacle> {
         }
     };
     task.fixtures().into_iter().map(obstacle).collect()
-}
-
-/// Where the robot's hand steadies the base while the person works at the place of `subgoal`: of the scene's places the one that is farthest
-/// from there and from the arm that the person stretches out to it; the first of several.
-pub fn steady_place(task: &Task, subgoal: usize) -> Point3<f64> {
-    let [start, end] = [task.subgoals[subgoal].socket, task.scene.person_shoulder].map(Point3::from);
-    let arm = Capsule { start, end, radius: 0.0 };
-    let places = task.scene.steady.iter().map(|place| Point3::from(*place));
-    let distance = |place: &Point3<f64>| arm.distance_of_line(place);
-    let farthest = places.rev().max_by(|one, other| distance(one).total_cmp(&distance(other)));
-    farthest.unwrap_or_else(|| task.scene.platform.into())
 }
 
 /// An obstacle of this shape with its frame (centre of its underside, z up) at `frame`, world.

@@ -17,15 +17,15 @@ pub(crate) struct HandGoals {
     sockets: Vec<Isometry3<f64>>,
     /// How deep a part goes into each, m.
     depths: Vec<f64>,
-    /// Where the base is steadied for each subgoal.
-    steady_places: Vec<Point3<f64>>,
 }
 
 /// Distance at which the approach to a grasp, or to a place where a part is put, begins, m. Chosen by hand: from there the hand
 /// comes straight, between what stands around its goal.
 const BACK: f64 = 0.15;
-/// How far before the handover place the hand waits for a part that the person gives, m. A trade-off: from farther away it comes later,
-/// nearer to the person's hand the guard slows it down on its way there.
+/// How far before the handover place the hand waits for a part that the person gives, or that it asks for, m: so near that she sees it held out
+/// for that. Chosen by hand.
+const ASKS: f64 = 0.15;
+/// How far before it the hand gets ready that has nothing to receive yet, m: farther away, for she is not asked.
 const WAITS: f64 = 0.20;
 /// Last part of the way to a part that the person gives, on which the hand moves straight, m. Shorter than elsewhere, for the
 /// hand has waited straight before that place already.
@@ -61,9 +61,6 @@ impl HandGoals {
             hand: model.robot.hand.clone(),
             grips: model.grips.clone(),
             sockets: task.subgoals.iter().map(|subgoal| frame(subgoal.socket, subgoal.axis)).collect(),
-            steady_places: (0..task.subgoals.len())
-                .map(|subgoal| coact_workplace::steady_place(task, subgoal))
-                .collect(),
             depths: task.subgoals.iter().map(|goal| task.insertion_depth(goal.socket, goal.axis)).collect(),
         }
     }
@@ -91,11 +88,13 @@ impl HandGoals {
                 held.map_or_else(Vec::new, |held| self.putting(held, &query.place, query.skill))
             }
             (Skill::Pick, Some(kind)) => self.grasping(kind, query.next_use, &query.place),
-            (Skill::Receive, Some(kind)) => self.receiving(kind, &query.place, query.stops_before),
-            (Skill::Request, _) => vec![self.requesting()],
-            (Skill::Steady, _) => {
-                self.subgoal_of(&query.place).map(|subgoal| self.steadying(subgoal)).into_iter().collect()
+            (Skill::Receive, Some(kind)) => {
+                let before = if query.prepares { WAITS } else { ASKS };
+                self.receiving(kind, &query.place, query.stops_before.then_some(before))
             }
+            (Skill::Request, Some(kind)) => self.receiving(kind, &query.place, Some(ASKS)),
+            (Skill::Request, None) => vec![self.requesting()],
+            (Skill::Steady, _) => self.steadying(),
             (Skill::Point, _) => vec![self.pointing(&at)],
             (Skill::Park | Skill::Pick | Skill::Receive, _) => Vec::new(),
         }
@@ -106,13 +105,13 @@ impl HandGoals {
         self.grips.goals(kind, next, frame, BACK, self.scene.table_height).collect()
     }
 
-    /// The goals with the hand on a part that the person gives, or before it.
-    fn receiving(&self, kind: usize, frame: &Isometry3<f64>, stops_before: bool) -> Vec<GripGoal> {
+    /// The goals with the hand on a part that the person gives, or so far `before` it, m.
+    fn receiving(&self, kind: usize, frame: &Isometry3<f64>, before: Option<f64>) -> Vec<GripGoal> {
         let mut goals = self.grasping(kind, NextUse::Anything, frame);
         goals.retain(|goal| goal.grip == Some(self.grips.received(kind)));
         for GripGoal { goal, .. } in &mut goals {
-            goal.point -= if stops_before { goal.along * WAITS } else { Vector3::zeros() };
-            goal.back = if stops_before { 0.0 } else { STRAIGHT };
+            goal.point -= goal.along * before.unwrap_or(0.0);
+            goal.back = if before.is_some() { 0.0 } else { STRAIGHT };
         }
         goals
     }
@@ -224,9 +223,19 @@ impl HandGoals {
         Vector3::new(out.x, out.y, 0.0).try_normalize(1e-6).unwrap_or_else(Vector3::x)
     }
 
-    /// Pressing on the base from above while the person works at a subgoal's place.
-    pub fn steadying(&self, subgoal: usize) -> GripGoal {
-        self.freely(self.steady_places[subgoal], -Vector3::z(), BACK)
+    /// Pressing on the base from above, at any of the places for that.
+    pub fn steadying(&self) -> Vec<GripGoal> {
+        let places = self.scene.steady.iter().map(|place| Point3::from(*place));
+        places.map(|place| self.freely(place, -Vector3::z(), BACK)).collect()
+    }
+
+    /// Where the person's hand will be that works at `place`: a capsule around it.
+    pub fn working(&self, place: &Isometry3<f64>, limits: &PersonLimits) -> Capsule {
+        let start = Point3::from(place.translation.vector);
+        let back = Point3::from(self.scene.person_shoulder) - start;
+        let end = start + back.try_normalize(1e-6).unwrap_or_else(Vector3::z) * limits.hand_length;
+        let [.., radius] = limits.radii;
+        Capsule { start, end, radius }
     }
 
     /// Pointing to `target` from a distance.

@@ -4,7 +4,7 @@ use super::fake_robot::FakeRobot;
 use super::{Out, held_by, robot, task};
 use crate::{Partner, World};
 use bytemuck::zeroed_box;
-use coact_messages::{HandPoints, KeypointName, PartnerPhase, WorldState};
+use coact_messages::{HandPoints, KeypointName, PartnerPhase, PersonWait, WorldState};
 use coact_period::cycles;
 use coact_person::{FINGERS, HandModel, Holder};
 use coact_pipeline::WorldMode;
