@@ -374,7 +374,5 @@ impl KinematicWorld {
 }
 
 fn phase(word: u32) -> MotionPhase {
-    use MotionPhase::*;
-    let all = [Rest, Reach, Approach, Grasp, Transport, Release, Retreat, Dwell, Brake];
-    all.into_iter().find(|phase| *phase as u32 == word).unwrap_or_else(|| panic!("phase {word}"))
+    MotionPhase::ALL.into_iter().find(|phase| *phase as u32 == word).unwrap_or_else(|| panic!("phase {word}"))
 }
