@@ -13,7 +13,7 @@ use std::time::Duration;
 /// How long a skill goes on without a decision: between one decision and the next the network is silent for some 30 ms, in
 /// which the arm would set off for its park posture.
 const SILENCE: u64 = cycles(Duration::from_millis(120));
-/// How long the hand stays ready for what is expected. Chosen by hand: longer than people pause between two actions.
+/// How long the hand stays ready for what is preshaped. Chosen by hand: longer than people pause between two actions.
 const READY: u64 = cycles(Duration::from_secs(5));
 /// How long touch must say that a part is in the hand, or was lost, of which nothing is known. Chosen by hand: longer than a
 /// hand that moves shakes what it holds.

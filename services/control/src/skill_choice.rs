@@ -21,7 +21,7 @@ pub(crate) struct SkillChoice {
     pub action: Slot,
     /// Kind of part that it is about.
     pub kind: Slot,
-    /// Whether that action is not decided, but expected: the hand gets ready for it.
+    /// Whether that action is not decided, but preshaped: the hand gets ready for it.
     pub prepares: bool,
 }
 
@@ -45,7 +45,7 @@ impl SkillChoice {
         let fits = |skill: &Skill| !(unfit && skill.brings_part());
         match decided {
             None if unfit || decisions.unneeded > PUT_BACK_AFTER => held.map_or(Self::PARK, Self::put_back),
-            None => Self::expected(state, inputs, actions).unwrap_or(Self::PARK),
+            None => Self::preshaped(state, inputs, actions).unwrap_or(Self::PARK),
             Some((index, action)) => match Self::skill(action, held).filter(fits) {
                 Some(skill) => {
                     Self { skill, action: Slot::of(index), kind: action.kind.into(), prepares: false }
@@ -55,17 +55,17 @@ impl SkillChoice {
         }
     }
 
-    /// To get ready for the action that the fields expect, though nothing is decided: of those for which the hand can, the one whose population in
+    /// To get ready for the action that is preshaped in the fields, though nothing is decided: of those for which the hand can, the one whose population in
     /// AEL is nearest to its threshold; not for one that did not come.
-    fn expected(state: &ControlState, inputs: &Inputs, actions: &[Action]) -> Option<Self> {
+    fn preshaped(state: &ControlState, inputs: &Inputs, actions: &[Action]) -> Option<Self> {
         let ready = |index: usize| Self::ready(index, actions.get(index)?, state.hand.held(), inputs);
         let present = state.skill.action.get().filter(|_| state.skill.prepares.is_set());
-        let index = inputs.expected(present, |index| ready(index).is_some())?;
+        let index = inputs.preshaped(present, |index| ready(index).is_some())?;
         let did_not_come = state.skill.is_parking() && state.skill.action == Slot::of(index);
         ready(index).filter(|_| !did_not_come)
     }
 
-    /// To get ready for an action, if the hand can. What is asked for will be received. A hand over the base would hide from the robot's eye what
+    /// To get ready for an action, if the hand can. What is requested will be received. A hand over the base would hide from the robot's eye what
     /// the person does there.
     fn ready(index: usize, action: &Action, held: Option<usize>, inputs: &Inputs) -> Option<Self> {
         let skill = match Self::skill(action, held)? {

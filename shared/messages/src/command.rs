@@ -62,7 +62,7 @@ pub enum MotionPhase {
     Dwell = 7,
     /// Braking within limits because inputs stopped, then standing.
     Brake = 8,
-    /// Moving the hand to where the action begins that is expected next, and not decided.
+    /// Moving the hand to where a preshaped action begins: nothing is decided.
     Prepare = 9,
 }
 

@@ -32,7 +32,7 @@ pub enum Occupation {
     Handles,
     /// The robot steadies the base that the person mounts something on.
     Steadies,
-    /// The robot's hand goes to where the action begins that is expected.
+    /// The robot's hand goes to where a preshaped action begins.
     Prepares,
     /// It goes away from where it was, with nothing to do.
     Withdraws,

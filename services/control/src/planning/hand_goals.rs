@@ -22,10 +22,10 @@ pub(crate) struct HandGoals {
 /// Distance at which the approach to a grasp, or to a place where a part is put, begins, m. Chosen by hand: from there the hand
 /// comes straight, between what stands around its goal.
 const BACK: f64 = 0.15;
-/// How far before the handover place the hand waits for a part that the person gives, or that it asks for, m: so near that she sees it held out
+/// How far before the handover place the hand waits for a part that the person gives, or that it requests, m: so near that she sees it held out
 /// for that. Chosen by hand.
-const ASKS: f64 = 0.15;
-/// How far before it the hand gets ready that has nothing to receive yet, m: farther away, for she is not asked.
+const REQUESTS: f64 = 0.15;
+/// How far before it the hand gets ready that has nothing to receive yet, m: farther away, for nothing is requested of her.
 const WAITS: f64 = 0.20;
 /// Last part of the way to a part that the person gives, on which the hand moves straight, m. Shorter than elsewhere, for the
 /// hand has waited straight before that place already.
@@ -89,10 +89,10 @@ impl HandGoals {
             }
             (Skill::Pick, Some(kind)) => self.grasping(kind, query.next_use, &query.place),
             (Skill::Receive, Some(kind)) => {
-                let before = if query.prepares { WAITS } else { ASKS };
+                let before = if query.prepares { WAITS } else { REQUESTS };
                 self.receiving(kind, &query.place, query.stops_before.then_some(before))
             }
-            (Skill::Request, Some(kind)) => self.receiving(kind, &query.place, Some(ASKS)),
+            (Skill::Request, Some(kind)) => self.receiving(kind, &query.place, Some(REQUESTS)),
             (Skill::Request, None) => vec![self.requesting()],
             (Skill::Steady, _) => self.steadying(),
             (Skill::Point, _) => vec![self.pointing(&at)],

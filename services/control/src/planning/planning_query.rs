@@ -19,7 +19,7 @@ pub(crate) struct PlanningQuery {
     pub next_place: Option<Isometry3<f64>>,
     /// Whether the hand stops before the place, to wait for the person.
     pub stops_before: bool,
-    /// Whether the hand only gets ready for what is expected.
+    /// Whether the hand only gets ready for a preshaped action.
     pub prepares: bool,
     /// Whether a part may be put down lying or leaning.
     pub loosely: bool,

@@ -17,7 +17,7 @@ pub(crate) struct SkillState {
     pub place: StoredPose,
     /// Whether the hand stops before that place, to wait for the person.
     pub stops_before: Flag,
-    /// Whether the action is not decided, but expected: the hand gets ready for it, and no more.
+    /// Whether the action is not decided, but preshaped: the hand gets ready for it, and no more.
     pub prepares: Flag,
     phase: SkillPhase,
     pub progress: PhaseProgress,

@@ -1,4 +1,4 @@
-//! What the hand does while an action is expected, and not decided.
+//! What the hand does while an action is preshaped, and not decided.
 
 use crate::kinematic_world::KinematicWorld;
 use coact_joint_task::ActionType;
@@ -11,7 +11,7 @@ const RESTS: f64 = -3.0;
 const NEARLY: f64 = -0.8;
 
 /// The fields are at rest but for this action's population, which is short of its threshold.
-fn expect(world: &mut KinematicWorld, action: Option<u32>) {
+fn preshape(world: &mut KinematicWorld, action: Option<u32>) {
     const SITES: usize = 10;
     let count = world.task.actions.len();
     let frame = &mut world.frame;
@@ -28,7 +28,7 @@ fn waits_above_the_nut() -> KinematicWorld {
     let mut world = KinematicWorld::new();
     world.run(0.05);
     let nut = world.action(ActionType::Insert, NUT);
-    expect(&mut world, Some(nut));
+    preshape(&mut world, Some(nut));
     world.until(4.0, "getting ready", |world| world.phase() == MotionPhase::Prepare);
     world.until(4.0, "ready", |world| world.phase() == MotionPhase::Rest);
     world
@@ -89,7 +89,7 @@ fn a_hand_is_not_ready_over_the_base_for_it_would_hide_what_is_done_there() {
     let mut world = KinematicWorld::new();
     world.run(0.05);
     let steady = world.action(ActionType::Steady, "wheel on the person's side");
-    expect(&mut world, Some(steady));
+    preshape(&mut world, Some(steady));
     world.run(3.0);
     assert_eq!(world.phases.iter().map(|phase| phase.0).collect::<Vec<_>>(), [MotionPhase::Rest]);
 }
