@@ -1,4 +1,5 @@
 //! What the hand does while an action is preshaped, and not decided.
+#![allow(clippy::unwrap_used)]
 
 use crate::kinematic_world::KinematicWorld;
 use coact_joint_task::ActionType;
