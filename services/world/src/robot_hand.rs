@@ -4,7 +4,7 @@ use crate::parts::Parts;
 use crate::robot_hand_state::RobotHandState;
 use coact_joint_task::Task;
 use coact_messages::{ARM_JOINTS, JOINTS};
-use coact_period::{PERIOD_S, cycles};
+use coact_period::cycles;
 use coact_person::Holder;
 use coact_robot::{HAND_JOINTS, Hand, Robot};
 use coact_stage_state::{Flag, Slot};
@@ -27,10 +27,6 @@ const OPENED: f64 = 0.01;
 const LOOKS_OPEN: f64 = 0.06;
 /// Distance of the grasp point from a place within which the person sees the hand as being there, m: about a hand's length.
 const AT_PLACE: f64 = 0.18;
-/// A hand that moves faster than this passes, m/s: nobody takes it for one that comes to rest there. Chosen by hand.
-const STANDING: f64 = 0.25;
-/// The same of a place where the base is steadied, m. Chosen by hand: nearer than a hand that only gets ready above it.
-const AT_BASE: f64 = 0.05;
 /// Distance of the grasp point from where it took a part within which the part is not carried yet, m. Chosen by hand.
 const LIFTED: f64 = 0.03;
 /// Without dynamics: grip force when the fingers just touch, N, and its growth with the angle by which the part stops the
@@ -201,19 +197,15 @@ impl RobotHand {
 
     /// Records since when the hand has stood where the person pays attention to it, and what the person puts into it.
     pub fn notice(&self, tick: u64, palm: &Palm, state: &mut RobotHandState, parts: &Parts, task: &Task) {
-        let moved = palm.grasp_point.distance(state.was_at.into());
-        state.was_at = palm.grasp_point.into();
-        let stands = moved < STANDING * PERIOD_S;
-        let is_near = palm.grasp_point.distance(self.handover) < AT_PLACE;
-        let at_handover = stands && is_near;
-        let at_base = stands && self.steady.iter().any(|place| palm.grasp_point.distance(*place) < AT_BASE);
+        let at_handover = palm.grasp_point.distance(self.handover) < AT_PLACE;
+        let at_base = self.steady.iter().any(|place| palm.grasp_point.distance(*place) < AT_PLACE);
         let empty = state.held.get().is_none();
         let since = |yes: bool, since: u64| match (yes, since) {
             (false, _) => 0,
             (true, 0) => tick.max(1),
             (true, since) => since,
         };
-        state.brought = Flag::from(!empty && (state.brought.is_set() || !is_near));
+        state.brought = Flag::from(!empty && (state.brought.is_set() || !at_handover));
         state.requesting_since =
             since(at_handover && empty && palm.finger_closure < self.open, state.requesting_since);
         state.giving_since = since(at_handover && state.brought.is_set(), state.giving_since);

@@ -38,8 +38,6 @@ pub(crate) struct RobotHandState {
     pub commanded_closure: f64,
     /// The largest one commanded since the fingers have held a part, rad.
     pub tightest: f64,
-    /// Where the grasp point was at the last step, m.
-    pub was_at: [f64; 3],
 }
 
 impl RobotHandState {
@@ -55,7 +53,7 @@ impl RobotHandState {
             "robot: count",
             "no more than the ticks so far",
         )?;
-        finite("robot: grip", &[self.offset, self.taken_at, self.was_at].concat())?;
+        finite("robot: grip", &[self.offset, self.taken_at].concat())?;
         let turn = DQuat::from_array(self.turn);
         let is_turn = turn.is_finite() && (turn.is_normalized() || self.held == Slot::EMPTY);
         ensure(is_turn, "robot.turn", "a unit quaternion")?;
