@@ -35,10 +35,7 @@ fn needed(goals: &HandGoals, action: &Action) -> Vec<GripGoal> {
         (ActionType::Receive | ActionType::Give, Some(kind), _) => {
             goals.grasping(kind, NextUse::Anything, &goals.handover_frame())
         }
-        (ActionType::Request, Some(kind), _) => {
-            goals.grasping(kind, NextUse::Anything, &goals.handover_frame())
-        }
-        (ActionType::Request, None, _) => vec![goals.requesting()],
+        (ActionType::Request, ..) => vec![goals.requesting()],
         (ActionType::Steady, ..) => goals.steadying(),
         _ => Vec::new(),
     }

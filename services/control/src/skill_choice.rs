@@ -65,15 +65,12 @@ impl SkillChoice {
         ready(index).filter(|_| !did_not_come)
     }
 
-    /// To get ready for an action, if the hand can. What is requested will be received. A hand over the base would hide from the robot's eye what
-    /// the person does there.
+    /// To get ready for an action, if the hand can. Over the base, and where parts change hands, it would hide from the robot's eye what the person
+    /// does there.
     fn ready(index: usize, action: &Action, held: Option<usize>, inputs: &Inputs) -> Option<Self> {
-        let skill = match Self::skill(action, held)? {
-            Skill::Request => Skill::Receive,
-            skill => skill,
-        };
+        let skill = Self::skill(action, held)?;
         let ready = Self { skill, action: Slot::of(index), kind: action.kind.into(), prepares: true };
-        (!matches!(skill, Skill::Park | Skill::Steady) && ready.can_begin(inputs)).then_some(ready)
+        (matches!(skill, Skill::Pick | Skill::Insert) && ready.can_begin(inputs)).then_some(ready)
     }
 
     /// The skill that serves an action with this kind of part in the hand; none when another part must leave the hand first.

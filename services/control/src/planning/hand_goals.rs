@@ -22,10 +22,8 @@ pub(crate) struct HandGoals {
 /// Distance at which the approach to a grasp, or to a place where a part is put, begins, m. Chosen by hand: from there the hand
 /// comes straight, between what stands around its goal.
 const BACK: f64 = 0.15;
-/// How far before the handover place the hand waits for a part that the person gives, or that it requests, m: so near that she sees it held out
-/// for that. Chosen by hand.
-const REQUESTS: f64 = 0.15;
-/// How far before it the hand gets ready that has nothing to receive yet, m: farther away, for nothing is requested of her.
+/// How far before the handover place the hand waits for a part that the person gives, m. A trade-off: from farther away it comes later,
+/// nearer to the person's hand the guard slows it down on its way there.
 const WAITS: f64 = 0.20;
 /// Last part of the way to a part that the person gives, on which the hand moves straight, m. Shorter than elsewhere, for the
 /// hand has waited straight before that place already.
@@ -89,11 +87,9 @@ impl HandGoals {
             }
             (Skill::Pick, Some(kind)) => self.grasping(kind, query.next_use, &query.place),
             (Skill::Receive, Some(kind)) => {
-                let before = if query.prepares { WAITS } else { REQUESTS };
-                self.receiving(kind, &query.place, query.stops_before.then_some(before))
+                self.receiving(kind, &query.place, query.stops_before.then_some(WAITS))
             }
-            (Skill::Request, Some(kind)) => self.receiving(kind, &query.place, Some(REQUESTS)),
-            (Skill::Request, None) => vec![self.requesting()],
+            (Skill::Request, _) => vec![self.requesting()],
             (Skill::Steady, _) => self.steadying(),
             (Skill::Point, _) => vec![self.pointing(&at)],
             (Skill::Park | Skill::Pick | Skill::Receive, _) => Vec::new(),
