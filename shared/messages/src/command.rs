@@ -44,7 +44,7 @@ pub struct Command {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 pub enum MotionPhase {
-    /// Standing, with nothing decided.
+    /// Standing at the park posture.
     Rest = 0,
     /// Moving the hand to a pose before a grasp, a placing or a gesture.
     Reach = 1,
@@ -62,8 +62,6 @@ pub enum MotionPhase {
     Dwell = 7,
     /// Braking within limits because inputs stopped, then standing.
     Brake = 8,
-    /// Moving the hand to where a preshaped action begins: nothing is decided.
-    Prepare = 9,
 }
 
 /// Angles, velocities and accelerations beyond these are none of a joint's, rad, rad/s, rad/s²: far above every robot's
@@ -72,7 +70,7 @@ const MOST: [f64; 3] = [1e2, 1e3, 1e5];
 
 impl MotionPhase {
     /// All of them, in the order of their numbers.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 9] = [
         Self::Rest,
         Self::Reach,
         Self::Approach,
@@ -82,7 +80,6 @@ impl MotionPhase {
         Self::Retreat,
         Self::Dwell,
         Self::Brake,
-        Self::Prepare,
     ];
 }
 

@@ -80,7 +80,6 @@ impl TaskReport {
                 | Event::Forgotten { .. }
                 | Event::Action(_)
                 | Event::Wait(_)
-                | Event::Span(_)
                 | Event::Fault(_)
                 | Event::Blind { .. } => {}
             }

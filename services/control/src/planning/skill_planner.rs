@@ -3,9 +3,7 @@ use super::{HandGoals, PlanningQuery, PlanningResult, PlanningScene};
 use crate::robot::{CollisionModels, FingerShape, GripGoal, RobotModel};
 use crate::state::{ArmTrajectory, Skill};
 use coact_joint_task::Task;
-use coact_motion::{
-    CollisionModel, Goal, HandSpeedLimits, MinClearance, Plan, Problem, Refusal, Scene, SearchHeartbeat,
-};
+use coact_motion::{CollisionModel, Goal, MinClearance, Plan, Problem, Refusal, Scene, SearchHeartbeat};
 use coact_robot::{HandGoal, MotionState, RobotError};
 use coact_safety::{PlannerLimits, SafetyLimits};
 use coact_stage_state::Flag;
@@ -20,7 +18,6 @@ pub(crate) struct SkillPlanner {
     goals: HandGoals,
     scene: PlanningScene,
     limits: PlannerLimits,
-    hand_speeds: HandSpeedLimits,
     heartbeat: SearchHeartbeat,
 }
 
@@ -35,8 +32,6 @@ const SEARCH_FOR_PERSON: u32 = 10_000;
 /// comes to the base that it steadies, along a straight line, m. Sockets that are deeper, or axles that stick out farther, ask for
 /// more of the latter.
 pub(crate) const INSERTION_DEPTH: f64 = 0.03;
-/// Least speed at which the hand comes to something, m/s: however little contact is allowed to hurt, parts are to be taken. Chosen by hand.
-const SLOWEST_CONTACT: f64 = 0.05;
 /// Fraction of a withdrawal that is a straight line: the rest rounds the corner to its end.
 const STRAIGHT_WITHDRAWAL: f64 = 0.9;
 
@@ -59,11 +54,7 @@ impl SkillPlanner {
         let heartbeat = SearchHeartbeat::default();
         models.mechanism = models.mechanism.beating(heartbeat.clone());
         let scene = PlanningScene::new(&robot, &models, task, limits);
-        let SafetyLimits { planner, guard, .. } = limits;
-        let comfort = planner.comfort.fraction();
-        let contact = guard.contact_speed.clamp(SLOWEST_CONTACT, planner.hand_speed);
-        let hand_speeds = HandSpeedLimits { free: comfort * planner.hand_speed, contact: comfort * contact };
-        Self { robot, models, goals, scene, limits: planner, hand_speeds, heartbeat }
+        Self { robot, models, goals, scene, limits: limits.planner, heartbeat }
     }
 
     /// Beats while it searches.
@@ -193,7 +184,7 @@ impl SkillPlanner {
         let PlannerLimits { path_clearance, goal_clearance, .. } = self.limits;
         let problem = Problem::new(&self.models.mechanism, collision_model, scene, start, goal);
         let min_clearance = MinClearance { path: path_clearance, goal: goal_clearance };
-        Problem { min_clearance, hand_speeds: self.hand_speeds, ..problem }
+        Problem { min_clearance, ..problem }
     }
 
     fn goal_clearance(&self, skill: Skill) -> f64 {

@@ -3,6 +3,5 @@
 mod invariants;
 mod kinematic_world;
 mod other_instance;
-mod preparation;
 mod skills;
 mod surroundings;

@@ -8,5 +8,4 @@ mod process_counters;
 mod report;
 mod snapshot_log;
 mod support;
-mod timeline;
 mod waits;

@@ -4,4 +4,3 @@ mod foreign_robots;
 mod grips;
 mod heartbeat;
 mod planning;
-mod timing;
