@@ -3,8 +3,8 @@
 //! `cargo run -p coact-examples --example past_an_obstacle`
 
 use coact_motion::{
-    Clearance, CollisionModel, Goal, Mechanism, MinClearance, Obstacle, Plan, Problem, Scene, SegmentKind,
-    Solid,
+    Clearance, CollisionModel, Goal, HandSpeedLimits, Mechanism, MinClearance, Obstacle, Plan, Problem,
+    Scene, SegmentKind, Solid,
 };
 use coact_robot::{HandGoal, MotionState, Robot};
 use nalgebra::{Isometry3, Point3};
@@ -58,6 +58,7 @@ fn plan(mechanism: &Mechanism, collision_model: &CollisionModel, scene: &Scene) 
         next_displacements: Vec::new(),
         insertion_depth: 0.0,
         min_clearance: MinClearance::default(),
+        hand_speeds: HandSpeedLimits::default(),
     };
     // A refusal names what is in the way, or the limit that is met.
     Ok(problem.plan()?)

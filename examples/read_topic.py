@@ -16,7 +16,7 @@ import tempfile
 import time
 from pathlib import Path
 
-LAYOUT = 14  # coact_messages::LAYOUT; the first number of every message
+LAYOUT = 15  # coact_messages::LAYOUT; the first number of every message
 PROCESS = "control"
 
 

@@ -117,7 +117,7 @@ fn scene() -> Scene {
         platform: [-0.62, 0.30, 0.86],
         platform_radius: 0.12,
         platform_height: 0.03,
-        steady: [-0.62, 0.41, 0.90],
+        steady: vec![[-0.62, 0.41, 0.90]],
         handover: [-0.60, 0.15, 1.00],
         person_rest: [-1.22, 0.20, 0.83],
         person_shoulder: [-1.28, 0.12, 1.18],

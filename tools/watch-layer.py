@@ -37,7 +37,7 @@ import tempfile
 import time
 from pathlib import Path
 
-LAYOUT = 14
+LAYOUT = 15
 MAX_LAYERS, MAX_POPULATIONS, MAX_SITES, MAX_PLACES, MAX_GRIP_SITES = 16, 1216, 12160, 4096, 1024
 NONE = 0xFFFF_FFFF
 DESTINATION, GRIP = "destination", "grip"

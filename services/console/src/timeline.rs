@@ -107,8 +107,8 @@ impl Timeline {
                 );
             }
             Event::Subgoal { at_ms, name, .. } => ("achieved", at_ms, name),
-            // The board shows it as it rises.
-            Event::Perceived { .. } => return None,
+            // The board shows it as it rises; what each does is seen.
+            Event::Perceived { .. } | Event::Span(_) => return None,
             Event::Assembly { at_ms, completed } => {
                 ("assembly", at_ms, format!("assembly {completed} is complete"))
             }

@@ -81,7 +81,7 @@ mod tests {
             states: robot.park.map(|angle| MotionState::at_rest(angle + turn)),
         };
         let knots = vec![knot(0.0, 0.0), knot(1.0, 0.5)];
-        let plan = Plan { knots, segments: Vec::new(), bounces: false, target: None };
+        let plan = Plan { knots, ..Plan::default() };
         let trajectory = ArmTrajectory::of(&plan).unwrap();
         let progress = PathProgress { elapsed: 0.5, ..PathProgress::START };
         let path = BrakingPath::from(progress, &trajectory, &limits).unwrap();

@@ -361,7 +361,7 @@ impl Control {
         (out.path.elapsed, out.path.speed_override, out.path.override_rate) =
             (arm.progress.elapsed, arm.progress.speed_override, arm.progress.override_rate);
         out.path.followed = u64::from(!arm.braking.is_set());
-        out.action = if skill.is_parking() { NONE } else { skill.action.or(NONE) };
+        out.action = if skill.is_undecided() { NONE } else { skill.action.or(NONE) };
         out.phase = if brakes { MotionPhase::Brake } else { self.motion_phase() } as u32;
         out.begun = decisions.begun as u32;
         out.reaction = u32::try_from(decisions.reaction).unwrap_or(u32::MAX);
@@ -376,6 +376,7 @@ impl Control {
         let ControlState { arm, skill, hand, .. } = &self.state;
         match skill.phase() {
             SkillPhase::Idle => MotionPhase::Rest,
+            SkillPhase::Plan | SkillPhase::Move if skill.prepares.is_set() => MotionPhase::Prepare,
             SkillPhase::Move if arm.is_approaching() => MotionPhase::Approach,
             SkillPhase::Plan | SkillPhase::Move if !hand.is_empty() => MotionPhase::Transport,
             SkillPhase::Plan | SkillPhase::Move if skill.is_parking() => MotionPhase::Retreat,

@@ -13,6 +13,8 @@ use std::time::Duration;
 /// How long a skill goes on without a decision: between one decision and the next the network is silent for some 30 ms, in
 /// which the arm would set off for its park posture.
 const SILENCE: u64 = cycles(Duration::from_millis(120));
+/// How long the hand stays ready for what is preshaped. Chosen by hand: longer than people pause between two actions.
+const READY: u64 = cycles(Duration::from_secs(5));
 /// How long touch must say that a part is in the hand, or was lost, of which nothing is known. Chosen by hand: longer than a
 /// hand that moves shakes what it holds.
 const CERTAIN: u64 = cycles(Duration::from_millis(100));
@@ -28,20 +30,30 @@ impl Control {
         if let Some(decision) = inputs.decision().filter(serves) {
             self.state.skill.since = decision.since;
         }
-        let choice = SkillChoice::of(&self.state, inputs, &self.task.actions);
+        let choice = self.unless_in_vain(SkillChoice::of(&self.state, inputs, &self.task.actions));
         let phase = self.state.skill.phase();
-        let is_done = phase == SkillPhase::Idle && !self.state.skill.is_parking();
+        let is_done = phase == SkillPhase::Idle && !self.state.skill.is_undecided();
         let is_silent = (1..SILENCE).contains(&self.state.decisions.silent);
-        let goes_on = choice.is_under_way(&self.state.skill) || (choice.skill == Skill::Park && is_silent);
+        let goes_on = choice.is_under_way(&self.state.skill) || (choice.is_undecided() && is_silent);
         if phase.is_firm() || (goes_on && !is_done) {
             return;
         }
         if choice.can_begin(inputs) {
-            self.state.decisions.note_decision(inputs.tick());
+            if !choice.is_undecided() {
+                self.state.decisions.note_decision(inputs.tick());
+            }
             self.begin_skill(&choice, inputs);
         } else if !self.state.skill.is_parking() || is_done {
             self.begin_skill(&choice.parked(), inputs);
         }
+    }
+
+    /// The same, but to park where the hand has been ready for long, and nothing has come of it: it may hide something.
+    fn unless_in_vain(&self, choice: SkillChoice) -> SkillChoice {
+        let skill = &self.state.skill;
+        let is_ready = skill.prepares.is_set() && skill.phase() == SkillPhase::Idle;
+        let in_vain = is_ready && choice.is_under_way(skill) && skill.progress.age > READY;
+        if in_vain { choice.parked() } else { choice }
     }
 
     /// Notices a part in the hand of which nothing is known, as it is seen there, and one that was lost.
@@ -75,12 +87,13 @@ impl Control {
         }
         let skill = &mut self.state.skill;
         (skill.skill, skill.action, skill.kind) = (choice.skill, choice.action, choice.kind);
+        skill.prepares = Flag::from(choice.prepares);
         self.state.planning.refusals = 0;
         let place = self.place(inputs);
         let skill = &mut self.state.skill;
         match place {
             Some(place) => skill.place = StoredPose::from(place),
-            None => skill.skill = Skill::Park,
+            None => (skill.skill, skill.prepares) = (Skill::Park, Flag::Unset),
         }
         skill.stops_before = Flag::from(skill.skill == Skill::Receive);
         skill.enter(SkillPhase::Plan);

@@ -1,6 +1,6 @@
 use crate::person::PersonCapsules;
 use coact_messages::{
-    ARM_JOINTS, Decision, FieldFrame, Header, Percept, PersonArm, ROBOT, SceneView, SensorSample,
+    ARM_JOINTS, Decision, FieldFrame, Header, LayerKind, Percept, PersonArm, ROBOT, SceneView, SensorSample,
 };
 use coact_motion::Capsule;
 use coact_period::{cycles, seconds};
@@ -19,6 +19,11 @@ const HAND_LENGTH: f64 = 0.25;
 /// A hand slower than this waits, m/s. Chosen by hand: a hand that is held out sways, one that reaches is several times
 /// faster.
 const WAITING: f64 = 0.25;
+/// An action is preshaped when its population has come so far from its resting level to its threshold. Chosen by hand: above what one source of
+/// several alone excites it by; one that is decided has come by 0.8 or more.
+const PRESHAPED: f64 = 0.25;
+/// How much farther another one must have come for the hand to get ready for that one instead. Chosen by hand, above the noise of the layer.
+const CLEARLY: f64 = 0.08;
 /// Nothing that concerns the robot is farther away than this, m: it stands at a table. What is, is garbled.
 const FAR: f64 = 10.0;
 
@@ -73,6 +78,18 @@ impl<'a> Inputs<'a> {
     /// The newest decision; one that names no action is a decision as well.
     pub fn decision(&self) -> Option<Decision> {
         self.frame.map(|frame| frame.decision)
+    }
+
+    /// The action that is preshaped: of those that `can` be prepared, the one whose population in AEL is nearest to its threshold, unless it is hardly
+    /// nearer than the `present` one. None where all are at rest.
+    pub fn preshaped(&self, present: Option<usize>, can: impl Fn(usize) -> bool) -> Option<usize> {
+        let frame = self.frame?;
+        let excitation = |action: &usize| frame.excitation(LayerKind::ActionExecution, *action);
+        let count = frame.populations(LayerKind::ActionExecution).len();
+        let able = (0..count).filter(|action| excitation(action) > PRESHAPED && can(*action));
+        let most = able.max_by(|one, other| excitation(one).total_cmp(&excitation(other)))?;
+        let stays = |action: &usize| can(*action) && excitation(action) > excitation(&most) - CLEARLY;
+        Some(present.filter(stays).unwrap_or(most))
     }
 
     /// Whether the fingers feel something; `None` when that is not known.

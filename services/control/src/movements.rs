@@ -152,7 +152,9 @@ impl Control {
             planning.query = MovementQuery::NONE;
             planning.waited = 0;
             planning.refusals = planning.refusals.saturating_add(1);
-            if planning.refusals >= MOST_REFUSALS && !self.state.skill.is_parking() {
+            if self.state.skill.prepares.is_set() {
+                self.state.skill.enter(SkillPhase::Idle);
+            } else if planning.refusals >= MOST_REFUSALS && !self.state.skill.is_parking() {
                 if self.state.skill.skill.brings_part() {
                     self.state.hand.refused = self.state.hand.refused.saturating_add(1);
                 }
@@ -193,6 +195,7 @@ impl Control {
             next_use,
             next_place,
             stops_before: skill.stops_before.is_set(),
+            prepares: skill.prepares.is_set(),
             loosely: planning.refusals >= LOOSELY,
             start,
             fingers: self.fingers(inputs),
@@ -205,13 +208,14 @@ impl Control {
         }
     }
 
-    /// What is done next with a part that is picked, and where.
+    /// What is done next with a part that is picked, or received, and where.
     fn next_use(&self) -> (NextUse, Option<Isometry3<f64>>) {
         let skill = &self.state.skill;
-        let index = skill.action.get().filter(|_| skill.skill == Skill::Pick);
+        let takes = matches!(skill.skill, Skill::Pick | Skill::Receive);
+        let index = skill.action.get().filter(|_| takes);
         let action = index.and_then(|index| self.task.actions.get(index));
         match action.map(|action| (action.action_type, action.subgoal)) {
-            Some((ActionType::Insert, Some(subgoal))) => {
+            Some((ActionType::Insert | ActionType::Receive | ActionType::Request, Some(subgoal))) => {
                 (NextUse::Insert { depth: INSERTION_DEPTH }, Some(self.goals.socket(subgoal)))
             }
             Some((ActionType::Give, _)) => {

@@ -106,6 +106,7 @@ impl Control {
                 skill.enter(SkillPhase::Plan);
                 self.ask(inputs);
             }
+            _ if skill.is_undecided() => skill.enter(SkillPhase::Idle),
             Skill::Park => skill.enter(SkillPhase::Idle),
             Skill::Receive if skill.stops_before.is_set() => skill.enter(SkillPhase::Wait),
             Skill::Pick | Skill::Receive => self.move_fingers(SkillPhase::Close),

@@ -36,7 +36,7 @@ fn needed(goals: &HandGoals, action: &Action) -> Vec<GripGoal> {
             goals.grasping(kind, NextUse::Anything, &goals.handover_frame())
         }
         (ActionType::Request, ..) => vec![goals.requesting()],
-        (ActionType::Steady, ..) => vec![goals.steadying()],
+        (ActionType::Steady, ..) => goals.steadying(),
         _ => Vec::new(),
     }
 }

@@ -21,10 +21,12 @@ pub(crate) struct SkillChoice {
     pub action: Slot,
     /// Kind of part that it is about.
     pub kind: Slot,
+    /// Whether that action is not decided, but preshaped: the hand gets ready for it.
+    pub prepares: bool,
 }
 
 impl SkillChoice {
-    const PARK: Self = Self { skill: Skill::Park, action: Slot::EMPTY, kind: Slot::EMPTY };
+    const PARK: Self = Self { skill: Skill::Park, action: Slot::EMPTY, kind: Slot::EMPTY, prepares: false };
 
     /// From the decision and what is held. A decision that was carried out is not carried out again.
     ///
@@ -43,12 +45,32 @@ impl SkillChoice {
         let fits = |skill: &Skill| !(unfit && skill.brings_part());
         match decided {
             None if unfit || decisions.unneeded > PUT_BACK_AFTER => held.map_or(Self::PARK, Self::put_back),
-            None => Self::PARK,
+            None => Self::preshaped(state, inputs, actions).unwrap_or(Self::PARK),
             Some((index, action)) => match Self::skill(action, held).filter(fits) {
-                Some(skill) => Self { skill, action: Slot::of(index), kind: action.kind.into() },
+                Some(skill) => {
+                    Self { skill, action: Slot::of(index), kind: action.kind.into(), prepares: false }
+                }
                 None => held.map_or(Self::PARK, Self::put_back),
             },
         }
+    }
+
+    /// To get ready for the action that is preshaped in the fields, though nothing is decided: of those for which the hand can, the one whose population in
+    /// AEL is nearest to its threshold; not for one that did not come.
+    fn preshaped(state: &ControlState, inputs: &Inputs, actions: &[Action]) -> Option<Self> {
+        let ready = |index: usize| Self::ready(index, actions.get(index)?, state.hand.held(), inputs);
+        let present = state.skill.action.get().filter(|_| state.skill.prepares.is_set());
+        let index = inputs.preshaped(present, |index| ready(index).is_some())?;
+        let did_not_come = state.skill.is_parking() && state.skill.action == Slot::of(index);
+        ready(index).filter(|_| !did_not_come)
+    }
+
+    /// To get ready for an action, if the hand can. Over the base, and where parts change hands, it would hide from the robot's eye what the person
+    /// does there.
+    fn ready(index: usize, action: &Action, held: Option<usize>, inputs: &Inputs) -> Option<Self> {
+        let skill = Self::skill(action, held)?;
+        let ready = Self { skill, action: Slot::of(index), kind: action.kind.into(), prepares: true };
+        (matches!(skill, Skill::Pick | Skill::Insert) && ready.can_begin(inputs)).then_some(ready)
     }
 
     /// The skill that serves an action with this kind of part in the hand; none when another part must leave the hand first.
@@ -73,13 +95,19 @@ impl SkillChoice {
 
     /// The same without anything to do.
     pub fn parked(self) -> Self {
-        Self { skill: Skill::Park, ..self }
+        Self { skill: Skill::Park, prepares: false, ..self }
     }
 
     /// Whether this is what the robot does already.
     pub fn is_under_way(&self, state: &SkillState) -> bool {
         state.skill == self.skill
+            && state.prepares.is_set() == self.prepares
             && (self.skill == Skill::Park || (state.action == self.action && state.kind == self.kind))
+    }
+
+    /// Whether no decision asks for it.
+    pub fn is_undecided(&self) -> bool {
+        self.skill == Skill::Park || self.prepares
     }
 
     /// Whether the part that it needs from the robot's workspace lies there.

@@ -14,6 +14,8 @@ const FELT: u64 = cycles(Duration::from_millis(40));
 const LONGEST: u64 = cycles(Duration::from_millis(400));
 /// Camera frames in which the part in the hand is looked at: their mean has half the scatter of one.
 const LOOKED: u64 = 4;
+/// How long a first sight of it is waited for: four camera frames. Mostly the hand itself hides what it has picked, and no later frame will show it.
+const HIDDEN: u64 = cycles(Duration::from_millis(120));
 /// How near the part must be seen to where it was grasped, m: farther than closing fingers push it, nearer than other parts.
 /// Chosen by hand.
 const IN_SIGHT: f64 = 0.05;
@@ -59,7 +61,8 @@ impl Control {
             progress.sightings = progress.sightings.saturating_add(1);
             progress.seen_in = seen.map_or(0, |(frame, _)| frame);
         }
-        progress.sightings >= LOOKED || progress.age > LONGEST
+        let is_hidden = progress.sightings == 0 && progress.age > HIDDEN;
+        progress.sightings >= LOOKED || is_hidden || progress.age > LONGEST
     }
 
     /// The part between the fingers is held. Closing fingers push a part to where they meet: it is where it was seen now.

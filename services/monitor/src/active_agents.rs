@@ -20,7 +20,7 @@ impl ActiveAgents {
     /// Who is, by the truth and by what the arm is commanded.
     pub fn now(task: &Task, truth: &Truth, command: &Command) -> Self {
         let acts = truth.phase != PartnerPhase::Idle as u32;
-        let person_waits = truth.waiting != 0;
+        let person_waits = truth.person_wait().is_within_action();
         let mounts = truth.phase == PartnerPhase::Act as u32 && !person_waits;
         let action = task.actions.get(command.action as usize).map(|action| action.action_type);
         let dwells = command.phase == MotionPhase::Dwell as u32;

@@ -1,9 +1,9 @@
 use crate::blindness::{Blindness, blind_s};
 use crate::latencies::replace;
-use crate::plots::{anticipation_timeline, percentile_curve};
+use crate::plots::{anticipation_timeline, gantt, percentile_curve};
 use crate::{
     Anticipation, Faults, Findings, JointMotion, Latencies, MonitorError, Reaction, Rules, SnapshotLog,
-    TaskWatch, Tracking, Waits, Watched,
+    TaskWatch, Timeline, Tracking, Waits, Watched,
 };
 use coact_joint_task::Task;
 use coact_messages::{Command, FieldFrame, NONE, Pulse, Refusal, SensorSample, Speech, Truth, topic};
@@ -41,6 +41,7 @@ pub struct Monitor {
     anticipation: Anticipation,
     watch: TaskWatch,
     waits: Waits,
+    timeline: Timeline,
     faults: Faults,
     blindness: Blindness,
     motion: JointMotion,
@@ -92,7 +93,7 @@ impl Monitor {
         let actions = events.records().iter().filter_map(Event::as_action);
         anticipation.resume(actions.map(|action| action.action).max().unwrap_or(0));
         watch.resume(events.records());
-        let waits = Waits::new(&task);
+        let (waits, timeline) = (Waits::new(&task), Timeline::new(&task));
         faults.resume(events.records());
         let (supervisor, snapshots) = (LogFollower::new(&report), SnapshotLog::open(&report, &task)?);
         let mut motion = JointMotion::new(limits, fresh);
@@ -122,6 +123,7 @@ impl Monitor {
             anticipation,
             watch,
             waits,
+            timeline,
             faults,
             blindness: Blindness::default(),
             motion,
@@ -187,6 +189,9 @@ impl Monitor {
         if let Some(command) = &self.newest_command {
             self.separation.tick(truth, command);
             self.waits.tick(truth, command, events);
+            let mut spans = Vec::new();
+            self.timeline.tick(truth, command, &mut spans);
+            events.extend(spans.into_iter().map(Event::Span));
         }
         self.waiting.push_back(*truth);
         self.catch_up(truth.header.cycle.saturating_sub(OVERDUE), events);
@@ -288,6 +293,9 @@ impl Monitor {
         self.catch_up(u64::MAX, &mut events);
         self.anticipation.finish(&mut events);
         self.waits.finish(&mut events);
+        let mut spans = Vec::new();
+        self.timeline.finish(self.truth.header.cycle, &mut spans);
+        events.extend(spans.into_iter().map(Event::Span));
         self.record(now_ns, events)?;
         let mut open_faults = Vec::new();
         self.faults.finish(&mut open_faults);
@@ -334,6 +342,8 @@ impl Monitor {
         for (name, recorder) in self.latencies.metrics().histograms() {
             percentile_curve(&name.replace('.', " "), recorder, &folder.join(format!("{name}.svg")))?;
         }
+        let spans: Vec<_> = self.events.records().iter().filter_map(Event::as_span).cloned().collect();
+        gantt(&spans, &format!("{}: who did what", self.task.name), &folder.join("timeline.svg"))?;
         Ok(anticipation_timeline(&summary.anticipation.events, &folder.join("anticipation.svg"))?)
     }
 

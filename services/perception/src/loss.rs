@@ -13,9 +13,9 @@ const OPENED: f64 = 0.02;
 /// Distance of a part from the axis of the robot's hand beyond which it is not in the hand any more, m: the length of a
 /// finger. Chosen by hand.
 const AWAY: f64 = 0.08;
-/// How long after the loss of touch a part must be unseen to be lost: seven frames of the recogniser, which misses single
-/// ones.
-const UNSEEN: u64 = cycles(Duration::from_millis(250));
+/// How long after the loss of touch a part must be unseen, or lie on the table, to be lost: seven frames of the recogniser,
+/// which misses single ones.
+const MISSED: u64 = cycles(Duration::from_millis(250));
 /// How long the suspicion lasts: what fell has come to lie by then. Chosen by hand.
 const SUSPECTED: u64 = cycles(Duration::from_secs(1));
 /// How long a loss is told: until the robot has decided what to do about it. Chosen by hand.
@@ -73,11 +73,12 @@ impl Loss {
     }
 
     /// One frame of sight: a part that went out of the closed fingers and is seen elsewhere, or nowhere, is lost; and so is
-    /// one that fingers let go in mid-air and that is seen to have fallen.
+    /// one that lies below the hand, or that fingers let go in mid-air and that is seen to have fallen.
     pub fn look(&mut self, parts: &PartTracks, around: &Hands, places: &TaskPlaces) {
         let Some(track) = self.held.get().filter(|_| self.suspected > 0) else { return };
         let seen = parts.track(track).filter(|part| part.kind() == Some(self.kind as usize));
         let after = |cycle: u64| cycle > self.suspected;
+        let missed = after(parts.captured.saturating_sub(MISSED));
         let lost = match seen {
             Some(part) if part.is_held() || places.is_mounted(self.kind as usize, part.position) => {
                 self.forget();
@@ -86,10 +87,11 @@ impl Loss {
             _ if self.opened.is_set() => self.has_fallen(parts, places),
             Some(part) if after(part.seen) => {
                 let size = places.size(self.kind as usize);
-                let away = |axis| part.distance_to_hand(size, axis) > AWAY;
-                around.hand_axis.map_or(!places.is_airborne(self.kind as usize, part.position), away)
+                let lies = !places.is_airborne(self.kind as usize, part.position);
+                let away = |axis| part.distance_to_hand(size, axis) > AWAY || lies && missed;
+                around.hand_axis.map_or(lies, away)
             }
-            _ => parts.captured > self.suspected + UNSEEN,
+            _ => missed,
         };
         if lost {
             (self.told, self.lost) = (parts.captured + TOLD, self.kind);

@@ -62,7 +62,7 @@ pub enum ResumeError {
 
 impl StageState for PerceptionState {
     const STAGE: &'static str = "perception";
-    const LAYOUT: u32 = 9;
+    const LAYOUT: u32 = 10;
 
     fn check(&self) -> Result<(), Implausible> {
         self.hand.check()?;

@@ -61,7 +61,7 @@ pub(crate) struct RobotHand {
     angles: Vec<FingerAngles>,
     open: f64,
     handover: DVec3,
-    steady: DVec3,
+    steady: Vec<DVec3>,
 }
 
 impl RobotHand {
@@ -80,7 +80,7 @@ impl RobotHand {
             angles: angles.collect(),
             open: robot.hand.base_for_width(LOOKS_OPEN),
             handover: task.scene.handover.into(),
-            steady: task.scene.steady.into(),
+            steady: task.scene.steady.iter().map(|place| DVec3::from(*place)).collect(),
             robot: robot.clone(),
         }
     }
@@ -198,7 +198,7 @@ impl RobotHand {
     /// Records since when the hand has stood where the person pays attention to it, and what the person puts into it.
     pub fn notice(&self, tick: u64, palm: &Palm, state: &mut RobotHandState, parts: &Parts, task: &Task) {
         let at_handover = palm.grasp_point.distance(self.handover) < AT_PLACE;
-        let at_base = palm.grasp_point.distance(self.steady) < AT_PLACE;
+        let at_base = self.steady.iter().any(|place| palm.grasp_point.distance(*place) < AT_PLACE);
         let empty = state.held.get().is_none();
         let since = |yes: bool, since: u64| match (yes, since) {
             (false, _) => 0,

@@ -15,8 +15,8 @@ pub struct Scene {
     pub platform_radius: f64,
     /// Its height.
     pub platform_height: f64,
-    /// Where the robot's hand steadies the base.
-    pub steady: [f64; 3],
+    /// Where the robot's hand may steady the base: at least one place.
+    pub steady: Vec<[f64; 3]>,
     /// Where parts change hands.
     pub handover: [f64; 3],
     /// Where the person's right hand rests.

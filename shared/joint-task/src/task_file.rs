@@ -130,7 +130,7 @@ pub(crate) enum Each {
 pub(crate) struct SceneEntry {
     pub table: TableEntry,
     pub platform: PlatformEntry,
-    pub steady: [f64; 3],
+    pub steady: Places,
     pub handover: [f64; 3],
     pub person_rest: [f64; 3],
     pub person_shoulder: [f64; 3],
@@ -138,6 +138,32 @@ pub(crate) struct SceneEntry {
     pub person_workspace: RectangleEntry,
     #[serde(default)]
     pub fit: FitEntry,
+}
+
+/// At least one place, m.
+#[derive(Deserialize)]
+#[serde(try_from = "PlacesEntry")]
+pub(crate) struct Places(pub Vec<[f64; 3]>);
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a place, [x, y, z], or a list of places, [[x, y, z], ...]")]
+pub(crate) enum PlacesEntry {
+    One([f64; 3]),
+    Several(Vec<[f64; 3]>),
+}
+
+impl TryFrom<PlacesEntry> for Places {
+    type Error = &'static str;
+
+    fn try_from(entry: PlacesEntry) -> Result<Self, Self::Error> {
+        match entry {
+            PlacesEntry::One(place) => Ok(Self(vec![place])),
+            PlacesEntry::Several(places) if places.is_empty() => {
+                Err("no place; expected at least one, [x, y, z]")
+            }
+            PlacesEntry::Several(places) => Ok(Self(places)),
+        }
+    }
 }
 
 #[derive(Deserialize)]

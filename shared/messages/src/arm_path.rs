@@ -19,6 +19,8 @@ pub struct ArmPath {
     pub speed_override: f64,
     /// Change of that, 1/s.
     pub override_rate: f64,
+    /// The shortest time in which the path could be followed under the limits of speed and acceleration, whatever the jerk, s; 0: not known.
+    pub shortest: f64,
     /// 1 while the arm's setpoints lie on the path, 0 when it has left it: the joints brake each for itself.
     pub followed: u64,
 }

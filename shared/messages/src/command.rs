@@ -44,7 +44,7 @@ pub struct Command {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 pub enum MotionPhase {
-    /// Standing at the park posture.
+    /// Standing, with nothing decided.
     Rest = 0,
     /// Moving the hand to a pose before a grasp, a placing or a gesture.
     Reach = 1,
@@ -62,6 +62,8 @@ pub enum MotionPhase {
     Dwell = 7,
     /// Braking within limits because inputs stopped, then standing.
     Brake = 8,
+    /// Moving the hand to where a preshaped action begins: nothing is decided.
+    Prepare = 9,
 }
 
 /// Angles, velocities and accelerations beyond these are none of a joint's, rad, rad/s, rad/s²: far above every robot's
@@ -70,7 +72,7 @@ const MOST: [f64; 3] = [1e2, 1e3, 1e5];
 
 impl MotionPhase {
     /// All of them, in the order of their numbers.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Rest,
         Self::Reach,
         Self::Approach,
@@ -80,6 +82,7 @@ impl MotionPhase {
         Self::Retreat,
         Self::Dwell,
         Self::Brake,
+        Self::Prepare,
     ];
 }
 

@@ -172,7 +172,7 @@ described! {
         header, position, velocity, acceleration, tracking_error, path, action, phase, begun, reaction,
         speed_override, handover, reserved, state
     }
-    ArmPath { knots, count, elapsed, speed_override, override_rate, followed }
+    ArmPath { knots, count, elapsed, speed_override, override_rate, shortest, followed }
     PathKnot { t, states }
     Pulse {
         header, released_ns, scheduled_ns, started_ns, input_published_ns, input_received_ns, missed, stale, skipped,

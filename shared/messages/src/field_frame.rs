@@ -73,6 +73,25 @@ impl FieldFrame {
         checksum(&[self.task, sites, populations, destination, grip, activity, resting, signal, since])
     }
 
+    /// How far the population with this number in the first layer of a kind has come from its resting level to its threshold: 0 at rest, from 1
+    /// on its middle is active. 0 where the frame has no such population.
+    pub fn excitation(&self, kind: LayerKind, number: usize) -> f64 {
+        let table = &self.layers;
+        let layers = (table.count as usize).min(MAX_LAYERS);
+        let Some(layer) = table.kind[..layers].iter().position(|&own| own == kind as u32) else { return 0.0 };
+        let (sites, populations) = (table.sites[layer] as usize, table.populations[layer] as usize);
+        if number >= populations {
+            return 0.0;
+        }
+        let width = sites / populations;
+        let middle = table.first_site[layer] as usize + number * width + width / 2;
+        let own = table.first_population[layer] as usize + number;
+        match (self.activity.get(middle), self.resting.get(own)) {
+            (Some(activity), Some(resting)) if *resting < 0.0 => 1.0 - activity / resting,
+            _ => 0.0,
+        }
+    }
+
     /// Populations of the first layer of this kind, as indices into [`signal`](Self::signal) and
     /// [`since`](Self::since); empty when the network has no such layer.
     pub fn populations(&self, kind: LayerKind) -> std::ops::Range<usize> {

@@ -2,7 +2,7 @@ use bytemuck::{Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
 /// Version of all message layouts; a receiver ignores a message of another one.
-pub const LAYOUT: u32 = 14;
+pub const LAYOUT: u32 = 15;
 
 /// What every message begins with. 48 bytes; times are ns of `CLOCK_MONOTONIC`.
 #[repr(C)]

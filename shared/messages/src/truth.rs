@@ -1,5 +1,5 @@
 use crate::plausible::{index, not_after, optional, subgoal};
-use crate::{ArmSide, Flaw, Header, JOINTS, MAX_POPULATIONS, Plausible, WORKSPACES};
+use crate::{ArmSide, Flaw, Header, JOINTS, MAX_POPULATIONS, PersonWait, Plausible, WORKSPACES};
 use bytemuck::{CheckedBitPattern, NoUninit, Pod, Zeroable};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -37,8 +37,7 @@ pub struct Truth {
     /// [`PartnerError`] of the present action, as things were at its onset; none once its turn has come before the
     /// grasp is complete.
     pub error: u32,
-    /// 1 while the person can do nothing but wait for the robot: with a part at its place until the base is steadied,
-    /// holding out a part or the open hand, or with the fingers on a part that the robot has not let go. Else 0.
+    /// [`PersonWait`]: what the person can do nothing but wait for.
     pub waiting: u32,
     /// 1 while the person's action leads behind something that hides the part, and the hand at it, from the robot. Else 0.
     pub hidden: u32,
@@ -86,6 +85,13 @@ pub enum PartnerPhase {
     Withdraw = 4,
 }
 
+impl Truth {
+    /// What the person can do nothing but wait for.
+    pub fn person_wait(&self) -> PersonWait {
+        PersonWait::ALL.get(self.waiting as usize).copied().unwrap_or(PersonWait::Nothing)
+    }
+}
+
 impl Plausible for Truth {
     fn check(&self) -> Result<(), Flaw> {
         index("phase", self.phase, PartnerPhase::Withdraw as usize + 1)?;
@@ -97,7 +103,7 @@ impl Plausible for Truth {
             &[self.onset_cycle, self.grasp_cycle, self.turn_cycle, self.heading_cycle, self.hesitation_cycle],
         )?;
         index("error", self.error, PartnerError::AtHand as usize + 1)?;
-        index("waiting", self.waiting, 2)?;
+        index("waiting", self.waiting, PersonWait::ALL.len())?;
         index("hidden", self.hidden, 2)?;
         index("handover", self.handover, 2)?;
         index("side", self.side, ArmSide::BOTH.len())

@@ -1,11 +1,10 @@
 use crate::blend::Blend;
 use crate::budget::Budget;
 use crate::line_constraint::LineConstraint;
-use crate::roughness::Roughness;
 use crate::segment::{self, Segment};
 use crate::smoothing::{self, Change};
 use crate::waypoints::Waypoints;
-use crate::{Clearance, MinClearance, Plan, Refusal, SegmentKind, time_scaling};
+use crate::{Clearance, HandSpeedLimits, MinClearance, Plan, Refusal, SegmentKind, time_scaling};
 use coact_robot::{JointLimits, MotionState, Posture};
 use nalgebra::Vector3;
 
@@ -17,6 +16,7 @@ pub(crate) struct Attempt<'a> {
     pub limits: [JointLimits; 7],
     pub waypoints: Waypoints,
     pub min_clearance: MinClearance,
+    pub hand_speeds: HandSpeedLimits,
     /// Lines to which the hand keeps, m, world: out of where it is, and outwards from where it goes.
     pub lines: [Vector3<f64>; 2],
     pub budget: &'a Budget,
@@ -30,6 +30,9 @@ pub(crate) const BETWEEN_POINTS: f64 = 0.004;
 /// By how much a plan may come nearer than its segments, m: between its knots it differs a little from them. Chosen by
 /// hand: a quarter of what is added where they are made.
 const BETWEEN_KNOTS: f64 = 0.001;
+/// How far from where it leaves or arrives the hand keeps to its speed of contact, m: for half of it at least, whatever the steps of a path.
+/// Chosen by hand: fingers that come down beside a part are as near to it.
+const CONTACT: f64 = 0.01;
 
 impl<'a> Attempt<'a> {
     /// The direct movement.
@@ -91,13 +94,19 @@ impl<'a> Attempt<'a> {
         waypoints
     }
 
-    /// The segments as a plan: time-scaled where that is smoother, and clear.
-    pub fn plan(&self, segments: &[Segment]) -> (Roughness, Plan) {
+    /// The segments as the fastest plan that is clear.
+    ///
+    /// # Errors
+    /// [`Refusal::TooFast`].
+    pub fn plan(&self, segments: &[Segment]) -> Result<Plan, Refusal> {
         let keeps = |t: f64, posture: &Posture| {
             let (clearance, required) = self.required(segments, t);
             clearance.is_clear(posture, required - BETWEEN_KNOTS)
         };
-        time_scaling::plan(self.clearance.mechanism, segments, &self.limits, &keeps)
+        let near = [CONTACT, self.lines[1].norm().max(CONTACT)];
+        let mechanism = self.clearance.mechanism;
+        let plan = time_scaling::plan(mechanism, segments, &self.limits, (&self.hand_speeds, near), &keeps);
+        plan.map_err(|joint| self.too_fast(joint))
     }
 
     /// The lines to which the hand keeps in these segments.

@@ -1,18 +1,35 @@
-use crate::roughness::Roughness;
-use crate::{Plan, Refusal, Target};
+use crate::{HandPath, Mechanism, Plan, Refusal};
 
-/// The best plan that a search has found so far: the smoothest one. Without a plan, the first reason why there is none.
+/// The best plan that a search has found so far: the one that costs least. Without a plan, the first reason why there is none.
 #[derive(Debug, Default)]
 pub(crate) struct Incumbent {
-    best: Option<(Roughness, Plan)>,
+    best: Option<(Cost, Plan)>,
     refusal: Option<Refusal>,
 }
 
+/// What a plan costs, s, and the least that a movement to its target could cost.
+#[derive(Debug, Clone, Copy)]
+struct Cost {
+    seconds: f64,
+    least: f64,
+}
+
+/// What each movement unit after the first costs, s, and how many are counted: a hand that slows down and speeds up again looks as if it
+/// hesitated, but is not worth a detour of seconds. Chosen by hand.
+const UNIT_S: f64 = 0.15;
+const UNITS: u32 = 3;
+/// Places of the hand at which movement units are counted. A trade-off with the time of planning.
+const PLACES: usize = 80;
+/// A search goes on for this fraction of what its best plan costs more than the least. Chosen by hand: somebody waits for it.
+const WORTH: f64 = 0.015;
+
 impl Incumbent {
-    /// Takes this plan if it is smoother than the best so far.
-    pub fn offer(&mut self, (roughness, plan): (Roughness, Plan), target: Option<Target>, bounces: bool) {
-        if self.best.as_ref().is_none_or(|(best, _)| roughness < *best) {
-            self.best = Some((roughness, Plan { target, bounces, ..plan }));
+    /// Takes this plan if it costs less than the best so far. `least`: the shortest time in which the joints could be there, s.
+    pub fn offer(&mut self, mechanism: &Mechanism, plan: Plan, least: f64) {
+        let units = HandPath::of(mechanism, &plan, PLACES).units().min(UNITS);
+        let seconds = plan.duration() + UNIT_S * f64::from(units - 1);
+        if self.best.as_ref().is_none_or(|(best, _)| seconds < best.seconds) {
+            self.best = Some((Cost { seconds, least }, plan));
         }
     }
 
@@ -26,9 +43,9 @@ impl Incumbent {
         self.best.is_none()
     }
 
-    /// Whether the hand moves in one movement unit.
-    pub fn is_smooth(&self) -> bool {
-        self.best.as_ref().is_some_and(|(roughness, _)| roughness.units == 1)
+    /// Whether there is a plan, and to look for a better one after `spent` s would take longer than it may bring.
+    pub fn is_good_after(&self, spent: f64) -> bool {
+        self.best.as_ref().is_some_and(|(cost, _)| spent > WORTH * (cost.seconds - cost.least))
     }
 
     /// The plan, or why there is none.

@@ -1,17 +1,17 @@
 //! Motion planning in posture space (after Rosenbaum et al., Psychol. Rev. 108, 2001): first the posture at the goal, then
 //! the direct movement to it, and only where something is in the way a movement through a second posture, the bounce
-//! posture. The hand moves as people's hands do: on a nearly straight path, its speed rising and falling once.
+//! posture. The hand moves as people's hands do where that costs little time: on a nearly straight path, its speed rising and falling once.
 //!
 //! ```text
 //! Problem       where from, where to, among what, with which clearance
 //!  -> Target     a posture at the goal: nearest to the present one, within the limits, clear (inverse kinematics)
 //!  -> Waypoints  the postures to be passed, and the fraction of the duration between them; no duration yet
 //!  -> Segment    leave, reach or approach: a movement of all joints in its own time; the reach may have a bounce
-//!  -> Plan       the trajectory: knots in time, which quintics join; time-scaled so that the hand's speed is smooth
+//!  -> Plan       the trajectory: knots in time, which quintics join; as fast as joints and hand may be
 //! ```
 //!
 //! Only [`Problem`], [`Target`] and [`Plan`] are public. [`Problem::plan`] makes *attempts*, each through given waypoints,
-//! and returns the smoothest plan that is clear and within the limits, or the [`Refusal`] that says which constraint
+//! and returns the quickest plan that is clear and within the limits, or the [`Refusal`] that says which constraint
 //! binds. Whoever carries a plan out keeps its knots ([`coact_robot::Knot`]) and asks for [`coact_robot::state_at`] an instant. A [`Scene`] holds the
 //! obstacles, a [`CollisionModel`] the forms of the robot, and [`Clearance`] the distances between them.
 //!
@@ -74,6 +74,7 @@ mod collision_model;
 mod frames;
 mod goal;
 mod hand_path;
+mod hand_speed_limits;
 mod incumbent;
 mod line_constraint;
 mod link;
@@ -85,13 +86,13 @@ mod minimum_jerk_spline;
 mod moving_capsules;
 mod numerical_ik;
 mod obstacle;
+mod path_bounds;
 mod plan;
 mod posture_cost;
 mod problem;
 mod proximity;
 mod quadratic_program;
 mod refusal;
-mod roughness;
 mod rrt_connect;
 mod scene;
 mod search;
@@ -100,10 +101,12 @@ mod segment;
 mod segment_check;
 mod segment_kind;
 mod segment_motion;
+mod shortest_time;
 mod smoothing;
 mod solid;
 mod target;
 mod target_search;
+mod time_optimal_scaling;
 mod time_scaling;
 mod waypoints;
 
@@ -112,6 +115,7 @@ pub use clearance::Clearance;
 pub use collision_model::CollisionModel;
 pub use goal::Goal;
 pub use hand_path::HandPath;
+pub use hand_speed_limits::HandSpeedLimits;
 pub use link::Link;
 pub use mechanism::{MAX_JOINTS, Mechanism, Meshes};
 pub use min_clearance::MinClearance;

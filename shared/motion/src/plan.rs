@@ -3,7 +3,7 @@ use coact_robot::{JointLimits, Knot, MotionState, Posture, state_at};
 
 /// A planned trajectory: states of all joints at instants (knots), joined by polynomials of fifth degree, so that velocity
 /// and acceleration are continuous.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Plan {
     /// The states, in the order of their instants; the first at 0 s.
     pub knots: Vec<Knot>,
@@ -13,6 +13,9 @@ pub struct Plan {
     pub bounces: bool,
     /// The posture at the goal of the hand that was chosen; none when the goal was a posture.
     pub target: Option<Target>,
+    /// The shortest time in which the path can be followed under the limits of speed and acceleration and with the hand's speeds, whatever the jerk, s;
+    /// infinite where the limits of speed at its start alone forbid it, and where it leads nowhere.
+    pub shortest: f64,
 }
 
 /// Steps between two knots at whose ends limits are checked. Chosen by hand: peaks between them lie within what
@@ -20,7 +23,7 @@ pub struct Plan {
 const CHECKED: u32 = 4;
 /// Fraction of the limits that a movement from rest uses. Chosen by hand: the rest is room for peaks between
 /// samples.
-const USED: f64 = 0.95;
+pub(crate) const USED: f64 = 0.95;
 /// Steps between two knots at whose ends the speed is held against [`Plan::FASTEST`].
 const LOOKED_AT: u32 = 24;
 

@@ -4,9 +4,10 @@ use crate::numerical_ik::NumericalIk;
 use crate::search::Search;
 use crate::target_search::TargetSearch;
 use crate::{
-    Clearance, CollisionModel, Goal, Mechanism, MinClearance, Plan, Refusal, Scene, SegmentKind, Target,
+    Clearance, CollisionModel, Goal, HandSpeedLimits, Mechanism, MinClearance, Plan, Refusal, Scene,
+    SegmentKind, Target,
 };
-use coact_robot::{MotionState, Posture};
+use coact_robot::{HandGoal, MotionState, Posture};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 /// A movement that is asked for.
@@ -32,6 +33,8 @@ pub struct Problem<'a> {
     pub insertion_depth: f64,
     /// Clearance that is kept.
     pub min_clearance: MinClearance,
+    /// How fast the hand may go.
+    pub hand_speeds: HandSpeedLimits,
 }
 
 /// A direction, unit, world, and a distance, m.
@@ -64,6 +67,7 @@ impl<'a> Problem<'a> {
             next_displacements: Vec::new(),
             insertion_depth: 0.0,
             min_clearance: MinClearance::default(),
+            hand_speeds: HandSpeedLimits::default(),
         }
     }
 
@@ -87,13 +91,16 @@ impl<'a> Problem<'a> {
         let targets = self.targets(&from)?;
         let budget = Budget::of(postures);
         let incumbent = Incumbent::default();
-        Search { problem, left, budget: &budget, incumbent, known: Vec::new() }.run(&targets)
+        Search { problem, left, budget: &budget, incumbent, clear: Vec::new(), known: Vec::new() }
+            .run(&targets)
     }
 
-    /// The postures that serve as an end, best first; empty when there are none. `from`: the posture from which the change
-    /// of posture counts.
+    /// The postures that serve as an end, those first that are nearest to posture `from`; empty when there are none.
     pub fn targets_from(&self, from: &Posture) -> Vec<Target> {
-        self.targets(from).unwrap_or_default()
+        match &self.goal {
+            Goal::Posture(at) => vec![Self::posture_target(*at)],
+            Goal::Hand(goals) => self.target_search(goals, from).nearest(),
+        }
     }
 
     /// The clearance in a segment of the movement.
@@ -121,14 +128,27 @@ impl<'a> Problem<'a> {
         left.map(Some).ok_or_else(|| Refusal::OutOfReach { point: goal(&leaves[0]).point.coords.into() })
     }
 
+    /// The postures that serve as an end, best first.
     fn targets(&self, from: &Posture) -> Result<Vec<Target>, Refusal> {
         match &self.goal {
-            Goal::Posture(at) => Ok(vec![Target { goal: 0, roll: 0.0, before: *at, at: *at, cost: 0.0 }]),
-            Goal::Hand(goals) => {
-                let clearance = self.clearance(SegmentKind::Approach);
-                let (next_displacements, min_clearance) = (&self.next_displacements, self.min_clearance);
-                TargetSearch { clearance, goals, from, next_displacements, min_clearance }.best()
-            }
+            Goal::Posture(at) => Ok(vec![Self::posture_target(*at)]),
+            Goal::Hand(goals) => self.target_search(goals, from).best(),
+        }
+    }
+
+    /// The posture that is asked for itself.
+    fn posture_target(at: Posture) -> Target {
+        Target { goal: 0, roll: 0.0, before: at, at, cost: 0.0 }
+    }
+
+    fn target_search<'b>(&'b self, goals: &'b [HandGoal], from: &'b Posture) -> TargetSearch<'b> {
+        TargetSearch {
+            clearance: self.clearance(SegmentKind::Approach),
+            goals,
+            from,
+            next_displacements: &self.next_displacements,
+            min_clearance: self.min_clearance,
+            limits: self.mechanism.limits(),
         }
     }
 }

@@ -2,19 +2,21 @@ use crate::attempt::Attempt;
 use crate::blend::Blend;
 use crate::budget::Budget;
 use crate::incumbent::Incumbent;
+use crate::shortest_time::shortest_time;
 use crate::waypoints::Waypoints;
-use crate::{Goal, Plan, Problem, Refusal, Segment, SegmentKind, Target, rrt_connect};
-use coact_robot::Posture;
+use crate::{Goal, Plan, Problem, Refusal, Segment, SegmentKind, Target, rrt_connect, segment};
+use coact_robot::{MotionState, Posture};
 use nalgebra::Vector3;
 
-/// The search for a movement to one of several targets in which the hand moves in one movement unit: direct movements,
-/// then a bounce, then paths through several postures.
+/// The search for the quickest movement to one of several targets: direct movements, then a bounce, then paths through several postures.
 pub(crate) struct Search<'a> {
     pub problem: &'a Problem<'a>,
     /// The posture after leaving; none when the hand does not leave first.
     pub left: Option<Posture>,
     pub budget: &'a Budget,
     pub incumbent: Incumbent,
+    /// Targets for which a direct movement is clear.
+    pub clear: Vec<Target>,
     /// Waypoints whose durations have been chosen already.
     pub known: Vec<Waypoints>,
 }
@@ -22,12 +24,14 @@ pub(crate) struct Search<'a> {
 /// How segments are joined where they cannot be joined with least jerk: ever more straightly and slowly.
 const STRAIGHT: [Blend; 3] =
     [Blend::AlongStraight(1.0), Blend::AlongStraight(0.5), Blend::AlongStraight(0.0)];
-/// Targets for which all kinds of movements are tried before the next ones. Chosen by hand: targets come best first.
-const AT_ONCE: usize = 2;
-/// Bounces that are tried for each target at first, and in all where no movement in one unit was found. Chosen by hand: a
-/// trade-off with the time of planning.
+/// Haste with which an arm under way is tried to turn: see [`Waypoints::haste`]. Chosen by hand.
+const HASTES: [f64; 2] = [0.7, 0.5];
+/// Bounces that are tried for each target. Chosen by hand: a trade-off with the time of planning.
 const BOUNCES: u32 = 2;
-const ALL_BOUNCES: u32 = 10;
+/// Bounces that are tried where a faster movement is looked for. Chosen by hand.
+const ALL_BOUNCES: u32 = 6;
+/// Postures that a plan's scaling counts for in the budget: it takes about as long.
+const SCALING_POSTURES: u32 = 50;
 /// Clearance beyond the required one that a path through several postures has before it is smoothed, m: first the one,
 /// then, where there is no such path, the other. Chosen by hand: smoothing takes some of it.
 const EXTRA_CLEARANCE: [f64; 2] = [0.02, 0.004];
@@ -38,58 +42,51 @@ const MOST_VIAS: usize = 12;
 const _: () = assert!(2 * MOST_VIAS < Plan::KNOTS);
 
 impl<'a> Search<'a> {
-    /// The first plan in one movement unit, or else the smoothest one.
+    /// The first plan that is hardly to be bettered, or else the best of those to the first targets that can be come to.
     ///
     /// # Errors
     /// The constraint that binds.
     pub fn run(mut self, targets: &[Target]) -> Result<Plan, Refusal> {
-        let kinds: [fn(&mut Self, &Target); 4] =
-            [Self::direct, Self::through_the_middle, Self::straighter, Self::bounce];
-        for few in targets.chunks(AT_ONCE) {
-            for target in few {
-                for attempt in kinds {
-                    attempt(&mut self, target);
-                    if self.incumbent.is_smooth() {
-                        return self.incumbent.result();
-                    }
+        for attempt in [Self::direct, Self::through_the_middle, Self::straighter, Self::bounce] {
+            for target in targets {
+                attempt(&mut self, target);
+                if self.is_done() {
+                    return self.incumbent.result();
                 }
             }
-            for target in few {
-                if self.incumbent.is_none() {
-                    self.detour(target);
-                }
-            }
-            if self.incumbent.is_smooth() || self.budget.is_spent() {
-                break;
+        }
+        for target in targets {
+            if self.incumbent.is_none() {
+                self.detour(target);
             }
         }
-        if !self.incumbent.is_none() {
-            self.improve(targets);
-        }
+        self.improve(targets);
         self.incumbent.result()
     }
 
-    /// Looks for a movement in one unit where there is one in more: other bounces, and paths through several postures.
+    /// Looks for a faster movement than the one that was found: with other bounces, and to other targets.
     fn improve(&mut self, targets: &[Target]) {
-        for target in targets.iter().take(AT_ONCE) {
-            if self.incumbent.is_smooth() || self.budget.is_spent() {
-                return;
-            }
-            self.detour(target);
-        }
-        for bounce in BOUNCES..ALL_BOUNCES {
+        for bounce in 1..ALL_BOUNCES {
             for target in targets {
-                if self.incumbent.is_smooth() || self.budget.is_spent() {
+                if self.is_done() || self.incumbent.is_none() {
                     return;
+                }
+                if self.clear.contains(target) {
+                    continue;
                 }
                 let attempt = self.attempt(target, &[], Blend::MinimumJerk);
                 let found =
                     attempt.direct().and_then(|direct| attempt.find_bounce(&direct, bounce..bounce + 1));
                 if let Ok(segments) = found {
-                    self.offer(&attempt, target, &segments, true);
+                    self.offer(&attempt, target, &segments);
                 }
             }
         }
+    }
+
+    /// Whether there is no use in looking on.
+    fn is_done(&self) -> bool {
+        self.budget.is_spent() || self.incumbent.is_good_after(self.budget.spent_s())
     }
 
     /// Where the reach begins.
@@ -97,12 +94,28 @@ impl<'a> Search<'a> {
         self.left.unwrap_or_else(|| self.problem.start.map(|state| state.position))
     }
 
-    /// The direct movement.
+    /// The direct movement; of an arm under way, for which it is not clear, one that turns more tightly.
     fn direct(&mut self, target: &Target) {
         let attempt = self.attempt(target, &[], Blend::MinimumJerk);
         match attempt.direct() {
-            Ok(segments) => self.offer(&attempt, target, &segments, false),
+            Ok(segments) => self.offer_direct(&attempt, target, &segments),
             Err(refusal) => self.incumbent.refuse(refusal),
+        }
+        if self.incumbent.is_none() && !self.problem.start.iter().all(MotionState::is_at_rest) {
+            self.tighter(target);
+        }
+    }
+
+    fn tighter(&mut self, target: &Target) {
+        for haste in HASTES {
+            let mut attempt = self.attempt(target, &[], Blend::MinimumJerk);
+            attempt.waypoints.haste = haste;
+            if let Ok(segments) = attempt.direct()
+                && attempt.check(&segments).is_ok()
+            {
+                self.take(&attempt, &segments, target);
+                return;
+            }
         }
     }
 
@@ -120,9 +133,9 @@ impl<'a> Search<'a> {
         for blend in STRAIGHT {
             let attempt = self.attempt(target, &[], blend);
             if let Ok(segments) = attempt.direct() {
-                self.offer(&attempt, target, &segments, false);
+                self.offer_direct(&attempt, target, &segments);
             }
-            if self.incumbent.is_smooth() {
+            if self.is_done() {
                 return;
             }
         }
@@ -130,13 +143,16 @@ impl<'a> Search<'a> {
 
     /// The movement with a bounce.
     fn bounce(&mut self, target: &Target) {
+        if self.clear.contains(target) {
+            return;
+        }
         for blend in [Blend::MinimumJerk].into_iter().chain(STRAIGHT) {
             let attempt = self.attempt(target, &[], blend);
             match attempt.direct().and_then(|direct| attempt.find_bounce(&direct, 0..BOUNCES)) {
-                Ok(segments) => self.offer(&attempt, target, &segments, true),
+                Ok(segments) => self.offer(&attempt, target, &segments),
                 Err(refusal) => self.incumbent.refuse(refusal),
             }
-            if self.incumbent.is_smooth() || self.left.is_none() && target.before == target.at {
+            if self.is_done() || self.left.is_none() && target.before == target.at {
                 return;
             }
         }
@@ -152,9 +168,9 @@ impl<'a> Search<'a> {
             let mut vias = corners.clone();
             let attempt = self.attempt(target, &[], Blend::MinimumJerk);
             if let Some(segments) = attempt.find_bounce_near(&vias) {
-                self.offer(&attempt, target, &segments, true);
+                self.offer(&attempt, target, &segments);
             }
-            while !self.incumbent.is_smooth() && vias.len() < MOST_VIAS {
+            while !self.is_done() && vias.len() < MOST_VIAS {
                 self.through(target, &vias, Blend::MinimumJerk);
                 vias = rrt_connect::refined(&self.from(), &vias, &target.before);
             }
@@ -169,33 +185,54 @@ impl<'a> Search<'a> {
     fn through(&mut self, target: &Target, vias: &[Posture], blend: Blend) {
         let attempt = self.attempt(target, vias, blend);
         if let Ok(segments) = attempt.direct() {
-            self.offer(&attempt, target, &segments, true);
+            self.offer(&attempt, target, &segments);
         }
     }
 
-    /// Offers segments smoothed and as they are, as far as they are clear.
-    fn offer(&mut self, attempt: &Attempt, target: &Target, segments: &[Segment], bounces: bool) {
-        let target = matches!(self.problem.goal, Goal::Hand(_)).then_some(*target);
+    /// Offers the segments of a direct movement, and remembers the target if they are clear.
+    fn offer_direct(&mut self, attempt: &Attempt, target: &Target, segments: &[Segment]) {
         let clear = attempt.check(segments);
-        let bounces = bounces || clear.is_err();
+        if clear.is_ok() {
+            self.clear.push(*target);
+        }
+        self.offer_checked(attempt, target, segments, clear);
+    }
+
+    fn offer(&mut self, attempt: &Attempt, target: &Target, segments: &[Segment]) {
+        self.offer_checked(attempt, target, segments, attempt.check(segments));
+    }
+
+    /// Offers segments smoothed and as they are, as far as they are clear.
+    fn offer_checked(
+        &mut self,
+        attempt: &Attempt,
+        target: &Target,
+        segments: &[Segment],
+        clear: Result<(), Refusal>,
+    ) {
         if let Some(smoother) = attempt.smooth(segments) {
-            self.take(attempt, &smoother, target, bounces);
-            if segments.len() == 1 && self.incumbent.is_smooth() {
+            self.take(attempt, &smoother, target);
+            if segments.len() == 1 && self.is_done() {
                 return;
             }
         }
         match clear {
-            Ok(()) => self.take(attempt, segments, target, bounces),
+            Ok(()) => self.take(attempt, segments, target),
             Err(refusal) => self.incumbent.refuse(refusal),
         }
     }
 
-    /// Takes clear segments as a plan that keeps below the speed limits, if it is better than the best so far.
-    fn take(&mut self, attempt: &Attempt, segments: &[Segment], target: Option<Target>, bounces: bool) {
-        let (roughness, plan) = attempt.plan(segments);
-        match plan.below_speed_limits(&attempt.limits) {
-            Ok(plan) => self.incumbent.offer((roughness, plan), target, bounces),
-            Err(joint) => self.incumbent.refuse(attempt.too_fast(joint)),
+    /// Takes clear segments as a plan, if it is better than the best so far.
+    fn take(&mut self, attempt: &Attempt, segments: &[Segment], target: &Target) {
+        let Problem { mechanism, goal, .. } = self.problem;
+        let end = segment::states_at(segments, segment::duration(segments)).map(|state| state.position);
+        let least = shortest_time(&self.problem.start, &end, &attempt.limits);
+        let bounces = !self.clear.contains(target);
+        let target = matches!(goal, Goal::Hand(_)).then_some(*target);
+        self.budget.spend(SCALING_POSTURES);
+        match attempt.plan(segments) {
+            Ok(plan) => self.incumbent.offer(mechanism, Plan { target, bounces, ..plan }, least),
+            Err(refusal) => self.incumbent.refuse(refusal),
         }
     }
 
@@ -206,6 +243,7 @@ impl<'a> Search<'a> {
             limits: self.problem.mechanism.limits(),
             waypoints: self.waypoints(target, vias, blend),
             min_clearance: self.problem.min_clearance,
+            hand_speeds: self.problem.hand_speeds,
             lines: [self.line_out(), self.line_in(target)],
             budget: self.budget,
         }

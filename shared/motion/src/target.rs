@@ -11,6 +11,6 @@ pub struct Target {
     pub before: Posture,
     /// At the goal.
     pub at: Posture,
-    /// Cost of the change of posture to `at`, rad².
+    /// Cost of the change of posture to `at`, s.
     pub cost: f64,
 }

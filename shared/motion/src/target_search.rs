@@ -1,7 +1,7 @@
 use crate::numerical_ik::NumericalIk;
-use crate::posture_cost::cost;
+use crate::posture_cost::{cost, time_cost};
 use crate::{Clearance, Mechanism, MinClearance, Refusal, SegmentKind, Target};
-use coact_robot::{HandGoal, Posture};
+use coact_robot::{HandGoal, JointLimits, Posture};
 use nalgebra::Isometry3;
 use std::f64::consts::TAU;
 
@@ -17,12 +17,15 @@ pub(crate) struct TargetSearch<'a> {
     /// Where a grasped part goes next: see [`Problem`](crate::Problem).
     pub next_displacements: &'a [Isometry3<f64>],
     pub min_clearance: MinClearance,
+    pub limits: [JointLimits; 7],
 }
 
 /// A posture at a goal that has not been checked yet.
 #[derive(Clone, Copy)]
 struct Candidate {
+    /// Weighted squared change of posture, rad², and the time cost of it, s.
     cost: f64,
+    time: f64,
     goal: usize,
     roll: f64,
     swivel: f64,
@@ -38,21 +41,24 @@ const FROM_LIMITS: f64 = 0.0175;
 /// Largest change of a joint between the posture before the approach and that at the goal, rad: with more, the two belong
 /// to different branches of the inverse kinematics, and the hand would not go straight. Chosen by hand.
 const LARGEST_CHANGE: f64 = 0.9;
-/// Targets that are offered at most, and by how much they differ at least, rad². Chosen by hand: some will not have a
-/// clear path, and similar ones would fail alike.
-const OFFERED: usize = 6;
+/// Targets that are offered at most, of half as many again that are found, and by how much they differ at least, rad². Chosen by hand:
+/// some will not have a clear path, and similar ones would fail alike.
+const OFFERED: usize = 8;
 const DIFFERENCE: f64 = 0.3;
-/// Targets that are compared where a part goes on to another place. Chosen by hand.
+/// What it costs that an approach is bent, s/m: what goes into its place must be kept on its line, and of an approach that is bent by more than
+/// 2 cm that rarely becomes of it. Chosen by hand.
+const BENT: f64 = 20.0;
+/// The same where a part goes on to another place. Chosen by hand.
 const COMPARED: usize = 24;
 /// Postures at that other place that are checked at most. Chosen by hand: a bound on time.
 const NEXT_CHECKED: usize = 60;
-/// Candidates that are checked at most. Chosen by hand: a bound on time.
+/// Candidates that are checked at most, of those that are soonest and of those of least travel. Chosen by hand: a bound on time.
 const CHECKED: usize = 2000;
 /// Random postures from which the numerical solver starts, besides the present one. A trade-off with the time of planning:
 /// each start finds at most one of the postures.
 const STARTS: u32 = 24;
 /// Step of swivel and roll with which a target is refined first and last, as fractions of their grids' steps, and the gain
-/// in cost that counts, rad². Chosen by hand.
+/// that counts, s or rad². Chosen by hand.
 const FIRST_STEP: f64 = 0.5;
 const LAST_STEP: f64 = 0.02;
 const LEAST_GAIN: f64 = 1e-6;
@@ -60,33 +66,71 @@ const LEAST_GAIN: f64 = 1e-6;
 const EXPLAINED: usize = 200;
 
 impl TargetSearch<'_> {
-    /// The best targets, best first; they differ from each other. Where a part goes on to another place, those come first
-    /// from which the hand can go on, by the cost of both changes of posture.
+    /// The best targets, which differ from each other; first those to which the arm is soonest, and comes straight. Where a part goes on to another place, those come
+    /// first from which the hand can go on, by the time of both changes of posture.
     ///
     /// # Errors
     /// The constraint that binds, when there is none.
     pub fn best(&self) -> Result<Vec<Target>, Refusal> {
         let mut candidates = self.candidates();
-        candidates.sort_by(|one, other| one.cost.total_cmp(&other.cost));
-        let mut offered: Vec<Target> = Vec::new();
+        let mut offered = Vec::new();
+        let most = if self.next_displacements.is_empty() { OFFERED } else { COMPARED };
+        self.offer(&mut candidates, |candidate| candidate.time, most / 2, &mut offered);
+        self.offer(&mut candidates, |candidate| candidate.cost, most + most / 2, &mut offered);
+        let goes_on = !self.next_displacements.is_empty();
+        let next = |target: &Target| if goes_on { self.time_to_next(&target.at) } else { 0.0 };
+        let time = |target: &Target| target.cost + next(target) + BENT * self.bend(target);
+        let mut timed: Vec<_> = offered.into_iter().map(|target| (time(&target), target)).collect();
+        timed.sort_by(|one, other| one.0.total_cmp(&other.0));
+        if timed.first().is_some_and(|(time, _)| time.is_finite()) {
+            timed.retain(|(time, _)| time.is_finite());
+        }
+        let offered: Vec<_> = timed.into_iter().map(|(_, target)| target).take(OFFERED).collect();
+        if offered.is_empty() { Err(self.refusal(&candidates)) } else { Ok(offered) }
+    }
+
+    /// The targets of least weighted change of posture, which differ from each other, nearest first.
+    pub fn nearest(&self) -> Vec<Target> {
+        let mut offered = Vec::new();
+        self.offer(&mut self.candidates(), |candidate| candidate.cost, OFFERED, &mut offered);
+        offered
+    }
+
+    /// How far the hand would be off the straight line in the middle of the approach, were each joint to move evenly, m.
+    fn bend(&self, target: &Target) -> f64 {
+        let Target { before, at, .. } = target;
+        let middle = std::array::from_fn(|joint| 0.5 * (before[joint] + at[joint]));
+        let [from, middle, to] = [before, &middle, at]
+            .map(|posture| (self.mechanism().arm.palm(posture) * self.mechanism().grasp_point()).coords);
+        (middle - 0.5 * (from + to)).norm()
+    }
+
+    /// Adds candidates that serve, those of least `cost` first, until so many are offered.
+    fn offer(
+        &self,
+        candidates: &mut [Candidate],
+        cost_of: fn(&Candidate) -> f64,
+        most: usize,
+        offered: &mut Vec<Target>,
+    ) {
+        candidates.sort_by(|one, other| cost_of(one).total_cmp(&cost_of(other)));
         for candidate in candidates.iter().take(CHECKED) {
+            if offered.len() == most {
+                return;
+            }
             let differs = |known: &Target| cost(&known.at, &candidate.at) > DIFFERENCE;
             if offered.iter().all(differs)
                 && let Some(target) = self.check(candidate)
             {
-                offered.push(self.refine(target, candidate));
-            }
-            if offered.len() == if self.next_displacements.is_empty() { OFFERED } else { COMPARED } {
-                break;
+                offered.push(self.refine(target, candidate, cost_of));
             }
         }
-        if !self.next_displacements.is_empty() {
-            let mut both: Vec<_> =
-                offered.iter().map(|target| (target.cost + self.cost_of_next(&target.at), *target)).collect();
-            both.sort_by(|one, other| one.0.total_cmp(&other.0));
-            offered = both.into_iter().map(|(_, target)| target).take(OFFERED).collect();
-        }
-        if offered.is_empty() { Err(self.refusal(&candidates)) } else { Ok(offered) }
+    }
+
+    /// An unchecked posture.
+    fn candidate(&self, goal: usize, roll: f64, swivel: f64, at: Posture) -> Candidate {
+        let (cost, time) = (cost(&at, self.from), time_cost(&at, self.from, &self.limits));
+        Candidate { cost, time, goal, roll, swivel, at }
     }
 
     fn mechanism(&self) -> &Mechanism {
@@ -119,7 +163,7 @@ impl TargetSearch<'_> {
         let solutions =
             self.mechanism().closed_form.as_ref().map(|srs| srs.solve(&palm, swivel, FROM_LIMITS));
         let postures = solutions.map(|branches| branches.as_slice().to_vec()).unwrap_or_default();
-        postures.into_iter().map(move |at| Candidate { cost: cost(&at, self.from), goal, roll, swivel, at })
+        postures.into_iter().map(move |at| self.candidate(goal, roll, swivel, at))
     }
 
     /// Postures of the numerical solver, from several places.
@@ -132,13 +176,13 @@ impl TargetSearch<'_> {
         let starts = solver.starts(STARTS);
         starts.into_iter().filter_map(move |start| {
             let at = solver.solve(&self.goals[goal], roll, 0.0, &start)?;
-            Some(Candidate { cost: cost(&at, self.from), goal, roll, swivel: 0.0, at })
+            Some(self.candidate(goal, roll, 0.0, at))
         })
     }
 
     /// The target that a candidate stands for, if it and the posture before it are clear.
     fn check(&self, candidate: &Candidate) -> Option<Target> {
-        let Candidate { cost, goal, roll, at, .. } = *candidate;
+        let Candidate { time: cost, goal, roll, at, .. } = *candidate;
         let back = self.goals[goal].back;
         if !self.clearance.is_clear(&at, self.min_clearance.goal) {
             return None;
@@ -163,8 +207,8 @@ impl TargetSearch<'_> {
         near.min_by(|one, other| cost(one, at).total_cmp(&cost(other, at))).copied()
     }
 
-    /// Cost of the change of posture to where the hand is next, rad²; infinite when it cannot go on from this posture.
-    fn cost_of_next(&self, at: &Posture) -> f64 {
+    /// Time cost of the change of posture to where the hand is next, s; infinite when it cannot go on from this posture.
+    fn time_to_next(&self, at: &Posture) -> f64 {
         let palm = self.mechanism().arm.palm(at);
         let mut next: Vec<Posture> = self
             .next_displacements
@@ -176,7 +220,7 @@ impl TargetSearch<'_> {
             .iter()
             .take(NEXT_CHECKED)
             .find(|next| self.clearance.is_clear(next, self.min_clearance.goal));
-        clear.map_or(f64::INFINITY, |next| cost(next, at))
+        clear.map_or(f64::INFINITY, |next| time_cost(next, at, &self.limits))
     }
 
     /// Postures with the palm there, found from another posture.
@@ -191,12 +235,12 @@ impl TargetSearch<'_> {
     }
 
     /// Looks for a cheaper target around a candidate, in ever smaller steps of swivel and roll.
-    fn refine(&self, mut best: Target, candidate: &Candidate) -> Target {
+    fn refine(&self, mut best: Target, candidate: &Candidate, cost_of: fn(&Candidate) -> f64) -> Target {
         if self.mechanism().closed_form.is_none() {
             return best;
         }
         let turns = self.goals[best.goal].rolls == 0;
-        let (mut swivel, mut step) = (candidate.swivel, FIRST_STEP);
+        let (mut swivel, mut step, mut least) = (candidate.swivel, FIRST_STEP, cost_of(candidate));
         while step > LAST_STEP {
             let around = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
             let moved = around.iter().filter(|(_, roll)| turns || *roll == 0.0).find_map(|(one, other)| {
@@ -204,11 +248,11 @@ impl TargetSearch<'_> {
                 let swivel = swivel + one * step * TAU / f64::from(SWIVELS);
                 let cheaper = self
                     .postures(best.goal, roll, swivel)
-                    .filter(|found| found.cost < best.cost - LEAST_GAIN);
-                cheaper.filter_map(|found| Some((self.check(&found)?, swivel))).next()
+                    .filter(|found| cost_of(found) < least - LEAST_GAIN);
+                cheaper.filter_map(|found| Some((self.check(&found)?, swivel, cost_of(&found)))).next()
             });
             match moved {
-                Some(found) => (best, swivel) = found,
+                Some(found) => (best, swivel, least) = found,
                 None => step *= 0.5,
             }
         }

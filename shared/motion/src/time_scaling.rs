@@ -1,65 +1,76 @@
-use crate::measured_path::{MEASURED, MeasuredPath};
-use crate::roughness::Roughness;
-use crate::segment::{self, Segment};
-use crate::{Mechanism, Plan};
-use coact_robot::{JointLimits, Knot, MotionState, Posture, Quintic};
+//! How a path is followed in time: as fast as the joints' limits of speed, acceleration and jerk and those of the hand's speed allow.
+//!
+//! ```text
+//! segments       a path, in a time of its own
+//!  -> MeasuredPath, PathBounds   its length, and what the limits allow along it
+//!  -> TimeOptimalScaling         the fastest scaling under limits of speed and acceleration
+//!  -> its mean over a window     which bounds the jerk: of a trapezoid of speed it is the fastest movement of limited jerk (Biagiotti,
+//!                                Melchiorri, Robot. Comput.-Integr. Manuf. 28, 2012)
+//!  -> Plan                       knots; where a limit is broken between them, less acceleration is used there, and the scaling is made anew
+//! ```
 
-/// A time scaling of a path (Lynch, Park, *Modern Robotics*, ch. 9): the length that is covered grows with time as in a
-/// minimum-jerk movement (Flash, Hogan, J. Neurosci. 5, 1985), so that the speed rises and falls once.
-struct TimeScaling<'a> {
-    path: &'a MeasuredPath<'a>,
-    /// Length of the path up to each of its points, m.
-    covered: Vec<f64>,
-    /// Its derivative by the segments' own time, m/s.
-    speed: Vec<f64>,
+use crate::measured_path::MeasuredPath;
+use crate::path_bounds::{PathBounds, STEPS};
+use crate::segment::{self, Segment};
+use crate::time_optimal_scaling::TimeOptimalScaling;
+use crate::{HandSpeedLimits, Mechanism, Plan};
+use coact_robot::{JointLimits, Knot, MotionState, Posture};
+
+/// A path that is given a time scaling.
+struct Scaled<'a> {
+    segments: &'a [Segment],
+    limits: &'a [JointLimits; 7],
+    path: MeasuredPath<'a>,
+    bounds: PathBounds<'a>,
 }
 
-/// Pieces of a time-scaled plan. A trade-off: at most [`Plan::KNOTS`] - 1; fewer follow the path less closely.
-const PIECES: usize = 24;
-const _: () = assert!(PIECES < Plan::KNOTS);
-/// What a change of the joints counts for in the length of a path, m/rad. The less it counts the more the hand's speed
-/// alone is a single rise and fall; the more it counts the less the joints must hurry where the hand only turns. All of
-/// these are tried and the smoothest plan is taken. Chosen by hand, a factor of four apart.
-const JOINT_LENGTHS: [f64; 3] = [0.08, 0.02, 0.005];
-/// How many times as long as the segments' own time a plan may take for the sake of a single rise and fall of speed.
-/// Chosen by hand: a trade-off between a smooth and a short movement.
-const LONGEST: f64 = 4.5;
-/// Where the search for the shortest duration of a movement under way begins, in the segments' own time, and the factor
-/// from one trial to the next. Chosen by hand: the duration found is at most 4 % too long.
-const UNDER_WAY: (f64, f64) = (0.6, 1.04);
+/// Pieces of a plan.
+const PIECES: usize = Plan::KNOTS - 1;
+/// Windows that are tried, as multiples of the time in which a joint comes from rest to its limit of acceleration. Chosen by hand: hardly
+/// more than that, and twice as much, for where an acceleration turns into the opposite one.
+const WINDOWS: [f64; 2] = [1.2, 2.0];
+/// How often a scaling is made at most, less steep each time where it breaks a limit. Chosen by hand: the last ones gain a hundredth.
+const ROUNDS: u32 = 4;
+/// A scaling whose knots break limits by less than this is slowed as a whole.
+const NEARLY: f64 = 1.02;
 /// Instants between two knots at which the plan's clearance is computed: with [`PIECES`] as many as there are points at
 /// which a reach was checked.
-const CHECKED: u32 = 4;
-/// Lengths (m) and speeds (m/s) below these count as zero: they only guard divisions.
-const TINY_LENGTH: f64 = 1e-12;
-const TINY_SPEED: f64 = 1e-9;
-/// A path whose speed at the start is below this begins at rest, m/s.
-const AT_REST: f64 = 1e-6;
-/// Rounding of a covered length that still counts as the end of a segment, m.
-const ROUNDING: f64 = 1e-9;
+const CHECKED: u32 = 3;
+/// Halvings by which the end of a segment is found in time: to a millisecond.
+const HALVINGS: u32 = 14;
 
-/// The segments as a plan: in their own time or, where the hand moves more smoothly so, time-scaled. A time-scaled plan
-/// differs a little from the segments between its knots; `keeps` says whether a posture is still clear enough at this
-/// instant of the segments' own time.
+/// The segments as the fastest plan. It differs a little from the segments between its knots; `keeps` says whether a posture is still clear
+/// enough at this instant of the segments' own time. In that time, slowed to the hand's speeds, where the fastest is slower: a path with a
+/// corner, at which the segments stop. A movement under way that no scaling slows down may be faster than the hand shall be.
+///
+/// `speeds` of the hand, and how far, m, from where it leaves and from where it arrives it keeps to that of contact.
+///
+/// # Errors
+/// The joint that breaks a limit, when no scaling keeps them.
 pub(crate) fn plan(
     mechanism: &Mechanism,
     segments: &[Segment],
     limits: &[JointLimits; 7],
+    (speeds, near): (&HandSpeedLimits, [f64; 2]),
     keeps: &dyn Fn(f64, &Posture) -> bool,
-) -> (Roughness, Plan) {
-    let path = MeasuredPath::of(mechanism, segments);
-    let scalings: Vec<_> = JOINT_LENGTHS.iter().map(|length| TimeScaling::new(&path, *length)).collect();
-    let roughness_of = |plan: &Plan| Roughness::of(mechanism, plan, MEASURED);
-    let mut best = in_own_time(segments);
-    let mut roughness = roughness_of(&best);
-    for scaling in &scalings {
-        let Some(plan) = scaling.fastest(limits) else { continue };
-        let found = roughness_of(&plan);
-        if found < roughness && scaling.keeps(&plan, keeps) {
-            (best, roughness) = (plan, found);
-        }
-    }
-    (roughness, best)
+) -> Result<Plan, usize> {
+    let rises = mechanism.arm.joints.iter().map(|joint| joint.limits.acceleration / joint.limits.jerk);
+    let windows = WINDOWS.map(|times| times * rises.clone().fold(0.0, f64::max));
+    // The mean takes in what was half a window before.
+    let near = near.map(|near| near + 0.5 * windows[1] * speeds.contact);
+    let path = MeasuredPath::of(segments, limits);
+    let bounds = PathBounds::of(mechanism, segments, &path, limits, (speeds, near));
+    let mut scaled = Scaled { segments, limits, path, bounds };
+    let shortest = scaled.shortest();
+    let by_duration = |one: &Plan, other: &Plan| one.duration().total_cmp(&other.duration());
+    let found = windows.iter().filter_map(|window| scaled.fastest(*window, keeps));
+    let fastest = found.min_by(by_duration);
+    let plan = match (fastest, scaled.in_own_time()) {
+        (Some(fastest), Ok(own)) if scaled.own_time_is_slow() => std::cmp::min_by(fastest, own, by_duration),
+        (Some(fastest), _) => fastest,
+        (None, own) => own?,
+    };
+    Ok(Plan { shortest, ..plan })
 }
 
 /// The segments in their own time.
@@ -77,98 +88,143 @@ pub(crate) fn in_own_time(segments: &[Segment]) -> Plan {
         }
         before += motion.duration;
     }
-    Plan { knots, segments: segment::ends(segments).collect(), bounces: false, target: None }
+    Plan { knots, segments: segment::ends(segments).collect(), ..Plan::default() }
 }
 
-impl<'a> TimeScaling<'a> {
-    /// With `joint_length` m for each rad of the joints' change.
-    fn new(path: &'a MeasuredPath, joint_length: f64) -> Self {
-        let speed: Vec<f64> =
-            path.speeds.iter().map(|(hand, joints)| hand.hypot(joint_length * joints)).collect();
-        let mut covered = vec![0.0];
-        for pair in speed.windows(2) {
-            covered.push(covered[covered.len() - 1] + 0.5 * path.step * (pair[0] + pair[1]));
+impl Scaled<'_> {
+    /// The segments in their own time, slowed to the hand's speeds if they begin at rest.
+    fn in_own_time(&self) -> Result<Plan, usize> {
+        let plan = in_own_time(self.segments);
+        let plan = if self.is_under_way() { plan } else { plan.slower(self.bounds.slowing(&self.path)) };
+        let plan = plan.below_speed_limits(self.limits)?;
+        plan.broken(self.limits).map_or(Ok(plan), Err)
+    }
+
+    /// Whether the hand keeps to its speeds in the segments' own time: under way it may be faster, and nothing but a scaling slows it down.
+    fn own_time_is_slow(&self) -> bool {
+        !self.is_under_way() || self.bounds.slowing(&self.path) <= 1.0
+    }
+
+    /// The shortest time whatever the jerk, s.
+    fn shortest(&self) -> f64 {
+        let start = if self.is_under_way() { self.path.start() } else { MotionState::default() };
+        TimeOptimalScaling::of(&self.bounds, start).map_or(f64::INFINITY, |scaling| scaling.duration())
+    }
+
+    fn is_under_way(&self) -> bool {
+        !segment::states_at(self.segments, 0.0).iter().all(MotionState::is_at_rest)
+    }
+
+    /// The fastest plan with this window, if it keeps the limits and clear.
+    fn fastest(&mut self, window: f64, keeps: &dyn Fn(f64, &Posture) -> bool) -> Option<Plan> {
+        self.bounds.restore();
+        let mut best: Option<(Plan, TimeOptimalScaling)> = None;
+        for _ in 0..ROUNDS {
+            let Some((scaling, plan)) = self.scaled(window) else { break };
+            let load = plan.load(self.limits);
+            if load > NEARLY {
+                self.ease(&plan, &scaling, window);
+            }
+            let slower = self.within_limits(plan, load);
+            let duration =
+                |plan: &Plan| best.as_ref().is_none_or(|(best, _)| plan.duration() < best.duration());
+            if let Some(plan) = slower.filter(duration) {
+                best = Some((plan, scaling));
+            }
+            if load <= NEARLY {
+                break;
+            }
         }
-        Self { path, covered, speed }
+        best.filter(|(plan, scaling)| self.is_clear(plan, scaling, window, keeps)).map(|(plan, _)| plan)
     }
 
-    /// The fastest plan that keeps the limits.
-    fn fastest(&self, limits: &[JointLimits; 7]) -> Option<Plan> {
-        let total = segment::duration(self.path.segments);
-        if segment::states_at(self.path.segments, 0.0).iter().all(MotionState::is_at_rest) {
-            let plan = self.follow(total)?;
-            let load = plan.load(limits);
-            let slower = plan.slower(load);
-            return (slower.duration() < LONGEST * total && slower.broken(limits).is_none())
-                .then_some(slower);
+    /// The time-optimal scaling as far as the joints' acceleration may be used, and the plan that its mean is.
+    fn scaled(&self, window: f64) -> Option<(TimeOptimalScaling, Plan)> {
+        let scaling = TimeOptimalScaling::of(&self.bounds, self.start(window))?;
+        let plan = self.follow(&scaling, window)?;
+        Some((scaling, plan))
+    }
+
+    /// Where the scaling begins so that its mean begins with the segments' own state: half a window later, with the acceleration of before.
+    fn start(&self, window: f64) -> MotionState {
+        if !self.is_under_way() {
+            return MotionState::default();
         }
-        let (first, factor) = UNDER_WAY;
-        let durations = std::iter::successors(Some(first * total), |duration| Some(factor * duration));
-        let plans =
-            durations.take_while(|duration| *duration < LONGEST * total).map(|time| self.follow(time));
-        plans.flatten().find(|plan| plan.broken(limits).is_none())
+        let MotionState { velocity, acceleration, .. } = self.path.start();
+        MotionState {
+            position: velocity * window / 2.0 + acceleration * window.powi(2) / 12.0,
+            velocity: (velocity + acceleration * window / 2.0).max(0.0),
+            acceleration,
+        }
     }
 
-    /// The length covered at each instant of a movement of this duration.
-    fn covered_at(&self, duration: f64) -> Quintic {
-        let change = (self.speed[1] - self.speed[0]) / self.path.step;
-        let acceleration = if self.speed[0] < AT_REST { 0.0 } else { change };
-        let start = MotionState { position: 0.0, velocity: self.speed[0], acceleration };
-        Quintic::new(start, MotionState::at_rest(self.covered[MEASURED]), duration)
+    /// The plan, slower as a whole if it must be, and if it may: a movement under way cannot.
+    fn within_limits(&self, plan: Plan, load: f64) -> Option<Plan> {
+        let plan = if self.is_under_way() { plan } else { plan.slower(load.max(1.0)) };
+        let plan = plan.below_speed_limits(self.limits).ok()?;
+        plan.broken(self.limits).is_none().then_some(plan)
     }
 
-    /// The segments' own time at which this length is covered, and the speed then with its derivative.
-    fn own_time(&self, length: f64) -> (f64, f64, f64) {
-        let to = self.covered.partition_point(|covered| *covered < length).clamp(1, MEASURED);
-        let from = to - 1;
-        let fraction =
-            (length - self.covered[from]) / (self.covered[to] - self.covered[from]).max(TINY_LENGTH);
-        let step = self.path.step;
-        let change = (self.speed[to] - self.speed[from]) / step;
-        ((from as f64 + fraction) * step, self.speed[from] + fraction * step * change, change)
+    /// Less acceleration where the plan breaks a limit.
+    fn ease(&mut self, plan: &Plan, scaling: &TimeOptimalScaling, window: f64) {
+        for pair in plan.knots.windows(2) {
+            let load = Plan { knots: pair.to_vec(), ..Plan::default() }.load(self.limits);
+            if load <= 1.0 {
+                continue;
+            }
+            for point in 0..=STEPS {
+                let t = scaling.time_at(point as f64 * self.bounds.step);
+                if (pair[0].t - window..=pair[1].t).contains(&t) {
+                    self.bounds.ease(point, load.powi(2));
+                }
+            }
+        }
     }
 
-    /// The path in this duration; none where it would have to be followed backwards.
-    fn follow(&self, duration: f64) -> Option<Plan> {
-        let (segments, covered) = (self.path.segments, self.covered_at(duration));
+    /// The plan by this scaling; none where it would leave the path.
+    fn follow(&self, scaling: &TimeOptimalScaling, window: f64) -> Option<Plan> {
+        let (duration, segments) = (scaling.duration() + window, self.segments);
         let mut knots = vec![Knot { t: 0.0, states: segment::states_at(segments, 0.0) }];
         for piece in 1..PIECES {
             let t = duration * piece as f64 / PIECES as f64;
-            let length = covered.at(t);
-            if length.velocity < 0.0 || length.position <= 0.0 || length.position >= self.covered[MEASURED] {
+            let length = scaling.mean(t - 0.5 * window, window);
+            if length.velocity < 0.0 || length.position <= 0.0 || length.position >= self.path.length() {
                 return None;
             }
-            knots.push(Knot { t, states: self.states_at(length) });
+            knots.push(Knot { t, states: self.path.states_at(length) });
         }
-        let end = segment::states_at(segments, segment::duration(segments));
-        knots.push(Knot { t: duration, states: end });
-        let passed = |own: f64| {
-            let point = ((own / self.path.step).round() as usize).min(MEASURED);
-            knots.iter().find(|knot| covered.at(knot.t).position >= self.covered[point] - ROUNDING)
-        };
-        let ends = segment::ends(segments);
-        let ends = ends.map(|(kind, own)| (kind, passed(own).map_or(duration, |knot| knot.t))).collect();
-        Some(Plan { knots, segments: ends, bounces: false, target: None })
+        knots.push(Knot { t: duration, states: segment::states_at(segments, segment::duration(segments)) });
+        let ends = segment::ends(segments).map(|(kind, own)| (kind, self.time_of(own, scaling, window)));
+        Some(Plan { knots, segments: ends.collect(), ..Plan::default() })
     }
 
-    /// States of all joints where the path is covered so far and so fast: the chain rule.
-    fn states_at(&self, length: MotionState) -> [MotionState; 7] {
-        let (own, speed, speed_change) = self.own_time(length.position);
-        let rate = length.velocity / speed.max(TINY_SPEED);
-        let rate_change = (length.acceleration - speed_change * rate * rate) / speed.max(TINY_SPEED);
-        segment::states_at(self.path.segments, own).map(|state| MotionState {
-            position: state.position,
-            velocity: state.velocity * rate,
-            acceleration: state.acceleration * rate * rate + state.velocity * rate_change,
-        })
+    /// When the plan is where the segments are in their own time, s.
+    fn time_of(&self, own: f64, scaling: &TimeOptimalScaling, window: f64) -> f64 {
+        let (length, duration) = (self.path.length_at(own), scaling.duration() + window);
+        if length >= self.path.length() {
+            return duration;
+        }
+        let (mut low, mut high) = (0.0, duration);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let is_before = scaling.mean(middle - 0.5 * window, window).position < length;
+            if is_before { low = middle } else { high = middle }
+        }
+        high
     }
 
-    /// Whether a plan of this time scaling keeps clear between its knots, too.
-    fn keeps(&self, plan: &Plan, keeps: &dyn Fn(f64, &Posture) -> bool) -> bool {
-        let covered = self.covered_at(plan.duration());
+    /// Whether a plan by this scaling keeps clear between its knots, too.
+    fn is_clear(
+        &self,
+        plan: &Plan,
+        scaling: &TimeOptimalScaling,
+        window: f64,
+        keeps: &dyn Fn(f64, &Posture) -> bool,
+    ) -> bool {
+        let slower = plan.duration() / (scaling.duration() + window);
         plan.instants(CHECKED).all(|t| {
-            let (own, ..) = self.own_time(covered.at(t).position);
-            keeps(own, &plan.at(t).map(|state| state.position))
+            let length = scaling.mean(t / slower - 0.5 * window, window).position;
+            keeps(self.path.own_time(length), &plan.at(t).map(|state| state.position))
         })
     }
 }

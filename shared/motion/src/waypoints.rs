@@ -19,6 +19,9 @@ pub(crate) struct Waypoints {
     pub blend: Blend,
     /// Bounce of the reach, rad: see [`SegmentMotion`].
     pub bounce: Posture,
+    /// Fraction of the shortest duration within the limits that a movement under way takes in its own time. The less, the tighter it turns;
+    /// below 1 only a time scaling that slows it down in the turn keeps the limits.
+    pub haste: f64,
 }
 
 /// What a change of the joints counts for in the length of a segment, m/rad: it matters where the hand only turns.
@@ -75,7 +78,7 @@ impl Waypoints {
             let after = if segment + 1 == ends.len() { 1.0 } else { passed[segment] };
             (after - before).max(LEAST_WEIGHT)
         });
-        Self { start, weights: weights.collect(), ends, blend, bounce: [0.0; 7] }
+        Self { start, weights: weights.collect(), ends, blend, bounce: [0.0; 7], haste: 1.0 }
     }
 
     /// The same waypoints with the durations for which the hand moves most smoothly.
@@ -124,6 +127,7 @@ impl Waypoints {
         for _ in 0..LONGER_TRIES {
             let segments = self.segments(duration);
             match broken(&segments, &limits, 1.0 - ROUNDING) {
+                None if self.haste < 1.0 => return Ok(self.segments(self.haste * duration)),
                 None => return Ok(segments),
                 Some(broken) => joint = broken,
             }

@@ -44,9 +44,4 @@ impl ActivityPhase {
             Self::Withdraw => PartnerPhase::Withdraw,
         }
     }
-
-    /// Whether the person can do nothing but wait for the robot.
-    pub fn waits_for_robot(self) -> bool {
-        matches!(self, Self::AwaitSteadying | Self::Give | Self::Show | Self::AwaitRelease)
-    }
 }

@@ -28,8 +28,10 @@ impl Person {
             state.until = around.tick + 1;
             return;
         }
-        match self.policy.next(around, state, &can_hide, &mut rng) {
-            Undertaking::Rest(pause) => state.until = around.tick + pause.max(1),
+        let next = self.policy.next(around, state, &can_hide, &mut rng);
+        state.awaits_robot = Flag::from(matches!(next, Undertaking::Await(_)));
+        match next {
+            Undertaking::Rest(pause) | Undertaking::Await(pause) => state.until = around.tick + pause.max(1),
             Undertaking::Begin(intention) => {
                 self.take_up(self.with_either_hand(intention, around), state, around)
             }

@@ -22,4 +22,6 @@ pub enum Undertaking {
     Begin(Intention),
     /// Rest for so many cycles, then think again.
     Rest(u64),
+    /// The same because nothing can be done before the robot has done something.
+    Await(u64),
 }

@@ -2,8 +2,8 @@ use crate::live_hand::LiveHand;
 use crate::{Activity, ActivityPhase, HandMovement, HandPose, Hesitation, Intention, ReachTurn, Variation};
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use coact_joint_task::Task;
-use coact_messages::{ArmSide, PartnerError};
-use coact_stage_state::{Implausible, Slot, ensure, finite};
+use coact_messages::{ArmSide, PartnerError, PersonWait};
+use coact_stage_state::{Flag, Implausible, Slot, ensure, finite};
 use glam::DQuat;
 
 /// Everything about the person that changes from tick to tick.
@@ -81,6 +81,8 @@ pub struct PersonState {
     pub(crate) live: LiveHand,
     /// The part between its open fingers.
     pub(crate) between: Slot,
+    /// Whether nothing could be done, when the person last thought about it, before the robot has done something.
+    pub(crate) awaits_robot: Flag,
 }
 
 impl PersonState {
@@ -92,6 +94,18 @@ impl PersonState {
     /// The present activity.
     pub fn activity(&self) -> Activity {
         self.activity
+    }
+
+    /// What the person can do nothing but wait for.
+    pub fn waits_for(&self) -> PersonWait {
+        match self.phase {
+            ActivityPhase::AwaitSteadying => PersonWait::Steadying,
+            ActivityPhase::Give => PersonWait::Receiving,
+            ActivityPhase::Show => PersonWait::Part,
+            ActivityPhase::AwaitRelease => PersonWait::Release,
+            ActivityPhase::Rest if self.awaits_robot.is_set() => PersonWait::Subgoal,
+            _ => PersonWait::Nothing,
+        }
     }
 
     /// Goes over to another phase, which ends at tick `until` at the latest.

@@ -51,7 +51,7 @@ pub(crate) fn choose<R: Rng>(
     };
     let idles = drawn >= 1.0 - idle;
     match special.or(valid) {
-        None => Undertaking::Rest(rng.random_range(synthetic_policy::RETHINK)),
+        None => Undertaking::Await(rng.random_range(synthetic_policy::RETHINK)),
         Some(_) if idles && special.is_none() => {
             Undertaking::Rest(rng.random_range(synthetic_policy::IDLE_TIME))
         }

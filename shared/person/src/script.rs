@@ -59,7 +59,7 @@ impl Script {
         let Some(entry) = self.entries.get(index) else { return Undertaking::Rest(AT_THE_END) };
         if around.parts.achieved() & entry.once != entry.once {
             state.ended = around.tick;
-            return Undertaking::Rest(LOOK_AGAIN);
+            return Undertaking::Await(LOOK_AGAIN);
         }
         let due = match entry.due {
             Due::At(tick) => tick,
@@ -75,7 +75,7 @@ impl Script {
             }
             ScriptedAction::Chain(chain, variation) => match intend(around, chain, variation) {
                 Some(intention) => Undertaking::Begin(intention),
-                None if !is_patience_over(around.tick, state) => return Undertaking::Rest(LOOK_AGAIN),
+                None if !is_patience_over(around.tick, state) => return Undertaking::Await(LOOK_AGAIN),
                 None => return leave_out(around.tick, state),
             },
         };

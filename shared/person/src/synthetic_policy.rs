@@ -30,7 +30,7 @@ pub(crate) fn choose<R: Rng>(around: &Surroundings, rng: &mut R) -> Undertaking 
         return Undertaking::Begin(intention);
     }
     match draw(around, rng, |_| true) {
-        None => Undertaking::Rest(rng.random_range(RETHINK)),
+        None => Undertaking::Await(rng.random_range(RETHINK)),
         Some(_) if rng.random_bool(IDLES) => Undertaking::Rest(rng.random_range(IDLE_TIME)),
         Some(intention) => Undertaking::Begin(intention),
     }

@@ -225,7 +225,7 @@ fn a_held_part_follows_the_hand_turns_to_its_socket_and_is_let_go_by_open_finger
     table.go((beside, TOP, table.hand.2), 700);
     table.stay(800);
     assert_eq!(table.state.phase(), ActivityPhase::AwaitSteadying);
-    assert!(table.state.phase().waits_for_robot());
+    assert!(table.state.waits_for().is_within_action());
     table.robot.steadying_since = table.tick;
     table.stay(20);
     assert_eq!(table.state.phase(), ActivityPhase::Mount);

@@ -1,4 +1,4 @@
-use crate::{ActionEvent, FaultEvent, Record, WaitEvent};
+use crate::{ActionEvent, FaultEvent, Record, TimelineSpan, WaitEvent};
 use serde::{Deserialize, Serialize};
 
 /// One line of the event log, `events.jsonl`: what happened in a run. Times are ms from its start.
@@ -61,6 +61,8 @@ pub enum Event {
     Action(ActionEvent),
     /// One of the two waited for the other (truth).
     Wait(WaitEvent),
+    /// What one of the two did for a time (truth).
+    Span(TimelineSpan),
     /// A fault, and how the set came over it.
     Fault(FaultEvent),
     /// The monitor did not see what happened: it stood still for so long, or was restarted, that messages were lost.
@@ -81,6 +83,14 @@ impl Event {
     pub fn as_action(&self) -> Option<&ActionEvent> {
         match self {
             Self::Action(action) => Some(action),
+            _ => None,
+        }
+    }
+
+    /// What one of the two did, if the event is about that.
+    pub fn as_span(&self) -> Option<&TimelineSpan> {
+        match self {
+            Self::Span(span) => Some(span),
             _ => None,
         }
     }

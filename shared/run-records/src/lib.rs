@@ -55,6 +55,7 @@ mod snapshot;
 mod summary;
 mod supervisor_event;
 mod task_report;
+mod timeline_span;
 mod tracking_report;
 mod wait_event;
 
@@ -81,5 +82,6 @@ pub use snapshot::{JOINTS, KEYPOINTS, SeenPart, Snapshot};
 pub use summary::Summary;
 pub use supervisor_event::{SupervisorEvent, SupervisorEventKind};
 pub use task_report::{Decided, Said, TaskReport};
+pub use timeline_span::{Occupation, TimelineSpan};
 pub use tracking_report::TrackingReport;
 pub use wait_event::{WaitEvent, Waiting};

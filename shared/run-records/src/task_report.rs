@@ -80,6 +80,7 @@ impl TaskReport {
                 | Event::Forgotten { .. }
                 | Event::Action(_)
                 | Event::Wait(_)
+                | Event::Span(_)
                 | Event::Fault(_)
                 | Event::Blind { .. } => {}
             }

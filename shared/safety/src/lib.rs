@@ -13,10 +13,12 @@
 //! # Ok::<(), coact_safety::SafetyError>(())
 //! ```
 
+mod comfort;
 mod range;
 mod safety_error;
 mod safety_file;
 mod safety_limits;
 
+pub use comfort::Comfort;
 pub use safety_error::SafetyError;
 pub use safety_limits::{DriveLimits, GuardLimits, PersonLimits, PlannerLimits, SafetyLimits, StaleLimits};

@@ -1,7 +1,7 @@
 //! From the text of the file to [`SafetyLimits`], with the place of every mistake.
 
 use crate::range::{Fault, within};
-use crate::{DriveLimits, GuardLimits, PersonLimits, PlannerLimits, SafetyLimits, StaleLimits};
+use crate::{Comfort, DriveLimits, GuardLimits, PersonLimits, PlannerLimits, SafetyLimits, StaleLimits};
 use serde::Deserialize;
 use std::time::Duration;
 use toml::Spanned;
@@ -57,6 +57,8 @@ struct GuardTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PlannerTable {
+    comfort: Comfort,
+    hand_speed_mps: Spanned<f64>,
     path_clearance_m: Spanned<f64>,
     goal_clearance_m: Spanned<f64>,
     insertion_clearance_m: Spanned<f64>,
@@ -152,6 +154,8 @@ impl GuardTable {
 impl PlannerTable {
     fn limits(&self) -> Result<PlannerLimits, Fault> {
         Ok(PlannerLimits {
+            comfort: self.comfort,
+            hand_speed: within("hand_speed_mps", &self.hand_speed_mps, 0.1..=2.0)?,
             path_clearance: within("path_clearance_m", &self.path_clearance_m, 0.0..=0.5)?,
             goal_clearance: within("goal_clearance_m", &self.goal_clearance_m, 0.0..=0.5)?,
             insertion_clearance: within("insertion_clearance_m", &self.insertion_clearance_m, 0.0..=0.5)?,

@@ -1,4 +1,4 @@
-use crate::{SafetyError, safety_file};
+use crate::{Comfort, SafetyError, safety_file};
 use std::path::Path;
 use std::time::Duration;
 
@@ -79,9 +79,14 @@ pub struct GuardLimits {
     pub blocked: Duration,
 }
 
-/// Distances that planned movements keep, m.
+/// How fast planned movements are, and the distances that they keep, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlannerLimits {
+    /// How much of the hand's speeds is used: of the next one, and of [`GuardLimits::contact_speed`] where it leaves something and comes
+    /// to something.
+    pub comfort: Comfort,
+    /// Most speed of the hand on its way, m/s.
+    pub hand_speed: f64,
     /// From everything, on the way.
     pub path_clearance: f64,
     /// From everything, at the goal.

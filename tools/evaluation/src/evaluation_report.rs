@@ -1,6 +1,7 @@
 use crate::statistics::{Estimate, Proportion, Spread};
 use crate::{
-    ChangesOfMind, Detection, ErrorKind, Hesitations, Inference, NetworkVariant, PartnerAction, Trial,
+    ChangesOfMind, Detection, ErrorKind, Hesitations, Inference, NetworkVariant, PartnerAction, TimeReport,
+    Trial,
 };
 use coact_run_records::SeparationReport;
 use serde::Serialize;
@@ -88,6 +89,8 @@ pub struct EvaluationReport {
     pub answer_delay_ms: Option<Estimate>,
     /// Waiting of the person within actions.
     pub human_waits: Option<Estimate>,
+    /// Where the time went.
+    pub time: TimeReport,
     /// Changes of mind in mid-reach to what was valid; none where nobody made one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changes_of_mind: Option<ChangesOfMind>,
@@ -231,6 +234,7 @@ impl EvaluationReport {
             functional_delay: mean(&|trial| trial.fluency.functional_delay),
             answer_delay_ms: mean(&Trial::answer_delay_ms),
             human_waits: mean(&|trial| trial.fluency.human_waits),
+            time: TimeReport::new(trials),
             changes_of_mind: ChangesOfMind::new(valid.iter().copied()),
             changes_to_errors: ChangesOfMind::new(wrong.iter().copied()),
             hesitations: Hesitations::new(valid.iter().copied()),

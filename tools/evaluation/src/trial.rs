@@ -1,5 +1,5 @@
-use crate::{Fluency, HesitantReach, TurnedReach};
-use coact_run_records::SeparationReport;
+use crate::{Fluency, HesitantReach, MovementTime, SkillTime, TurnedReach};
+use coact_run_records::{SeparationReport, TimelineSpan};
 use serde::Serialize;
 
 /// What one assembly was like. Times are ms from its start.
@@ -31,6 +31,12 @@ pub struct Trial {
     pub fluency: Fluency,
     /// How near robot and person came.
     pub separation: SeparationReport,
+    /// Who did what, and who waited for whom.
+    pub timeline: Vec<TimelineSpan>,
+    /// How long it took until what the robot decided was done.
+    pub skills: Vec<SkillTime>,
+    /// How long the arm's movements took.
+    pub movements: Vec<MovementTime>,
 }
 
 impl Trial {

@@ -1,13 +1,15 @@
 use crate::fluency::FluencyCounter;
 use crate::hidden_goals::hidden_goals;
+use crate::movement_times::MovementTimes;
 use crate::nearest_angle::nearest_angle;
 use crate::open_action::{Meant, OpenAction, meant};
+use crate::skill_times::SkillTimes;
 use crate::trial::{Alarm, Detection, DoublePeak, Inference, PartnerAction, Trial};
 use crate::{HesitantReach, TurnedReach};
 use coact_joint_task::{Act, Agent, NetworkPlan, Role, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{ArmSide, FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
-use coact_monitor::{ActiveAgents, Anticipation, Intentions};
+use coact_monitor::{ActiveAgents, Anticipation, Intentions, Timeline};
 use coact_run_records::{Event, SeparationReport};
 use coact_seen_parts::SeenParts;
 use coact_separation::SeparationMeter;
@@ -33,6 +35,9 @@ pub(crate) struct TrialRecorder<'a> {
     anticipation: Anticipation,
     fluency: FluencyCounter,
     separation: SeparationMeter,
+    timeline: Timeline,
+    skills: SkillTimes,
+    movements: MovementTimes,
     /// What the camera has shown of the parts.
     parts: SeenParts,
     trial: Trial,
@@ -47,6 +52,9 @@ impl<'a> TrialRecorder<'a> {
             anticipation: Anticipation::new(task, Intentions::from(plan)),
             fluency: FluencyCounter::default(),
             separation,
+            timeline: Timeline::new(task),
+            skills: SkillTimes::default(),
+            movements: MovementTimes::default(),
             parts: SeenParts::none(),
             trial: Trial {
                 task: task.name.clone(),
@@ -62,6 +70,9 @@ impl<'a> TrialRecorder<'a> {
                 first_double: None,
                 fluency: crate::Fluency::default(),
                 separation: SeparationReport::default(),
+                timeline: Vec::new(),
+                skills: Vec::new(),
+                movements: Vec::new(),
             },
             open: None,
             alarmed: vec![false; plan.populations.len()],
@@ -75,6 +86,9 @@ impl<'a> TrialRecorder<'a> {
         let (truth, frame) = (&*stages.truth, &*stages.frame);
         self.fluency.tick(ActiveAgents::now(self.task, truth, &stages.command));
         self.separation.tick(truth, &stages.command);
+        self.timeline.tick(truth, &stages.command, &mut self.trial.timeline);
+        self.skills.tick(self.task, &frame.decision, &stages.command, truth);
+        self.movements.tick(&stages.command.path, truth.header.cycle);
         self.parts.see(&stages.sample.scene, self.task);
         let mut events = Vec::new();
         self.anticipation.observe(truth, frame, &mut events);
@@ -90,6 +104,7 @@ impl<'a> TrialRecorder<'a> {
         self.anticipation.finish(&mut events);
         self.add_answers(&events);
         self.close();
+        self.timeline.finish(stages.truth.header.cycle, &mut self.trial.timeline);
         let achieved = stages.truth.achieved;
         let done = |goal: &usize| achieved & (1 << goal) != 0;
         let names =
@@ -105,6 +120,8 @@ impl<'a> TrialRecorder<'a> {
             achieved,
             fluency: self.fluency.fluency(),
             separation: self.separation.report().clone(),
+            skills: self.skills.finish(),
+            movements: self.movements.finish(),
             ..self.trial
         }
     }

@@ -40,6 +40,8 @@ pub struct Measurement {
     pub normalised_jerk: f64,
     /// Median duration of the movement, s.
     pub duration_s: f64,
+    /// The same over the shortest time in which the path can be followed whatever the jerk: median.
+    pub over_shortest: f64,
     /// Largest distance from the goal at the end, m.
     pub position_error: f64,
     /// Smallest clearance on a reach, m.
@@ -133,6 +135,7 @@ fn summary(setting: &Setting, scenario: Scenario, outcomes: &[Outcome]) -> Measu
         single_unit: fraction(&|(.., quality)| quality.units == 1),
         normalised_jerk: quantile(&sorted(&|(.., quality)| quality.normalised_jerk), 0.5),
         duration_s: quantile(&sorted(&|(.., quality)| quality.duration_s), 0.5),
+        over_shortest: quantile(&sorted(&|(.., quality)| quality.over_shortest), 0.5),
         position_error: quantile(&sorted(&|(.., quality)| quality.position_error), 1.0),
         clearance: quantile(&sorted(&|(.., quality)| quality.clearance), 0.0),
         refusals: refusals.collect(),

@@ -5,6 +5,8 @@ use coact_motion::{Clearance, Goal, HandPath, Plan, Problem, SegmentKind};
 pub struct Quality {
     /// Time that it takes, s.
     pub duration_s: f64,
+    /// The same over the shortest time in which its path can be followed whatever the jerk: see [`Plan::shortest`].
+    pub over_shortest: f64,
     /// Length of the hand's path, m.
     pub path_m: f64,
     /// Largest speed of the hand, m/s.
@@ -34,6 +36,7 @@ impl Quality {
         let path = path(problem, plan);
         Self {
             duration_s: plan.duration(),
+            over_shortest: plan.duration() / plan.shortest,
             path_m: path.length(),
             peak_speed: path.speed.iter().copied().fold(0.0, f64::max),
             units: path.units(),

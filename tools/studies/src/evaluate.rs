@@ -10,7 +10,7 @@ use coact::partner;
 use coact_control::PlannerDelay;
 use coact_evaluation::{
     Ablation, Campaign, Comparison, EvaluationReport, NetworkVariant, RecordedPerson, Trial, draw_fluency,
-    draw_leads,
+    draw_leads, draw_timeline,
 };
 use coact_joint_task::NetworkPlan;
 use coact_pipeline::{Layout, RunSettings, WorldMode};
@@ -334,6 +334,7 @@ fn write(out: &Path, evaluation: &Evaluation, trials: &[Trial], baseline: Option
         save("baseline.jsonl", lines(baseline)?)?;
     }
     draw_leads(trials, &out.join("leads.svg"))?;
+    draw_timeline(trials, &out.join("timeline.svg"))?;
     let whole = evaluation.without.map_or("the robot".into(), |lacks| format!("with {lacks}"));
     let mut variants = vec![(whole.as_str(), &evaluation.report)];
     variants.extend(evaluation.baseline.as_ref().map(|report| ("without", report)));

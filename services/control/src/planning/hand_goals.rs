@@ -63,8 +63,19 @@ impl HandGoals {
         }
     }
 
-    /// The goals of the hand that serve a query; none for parking.
+    /// The goals of the hand that serve a query; none for parking. A hand that only gets ready stops where its approach would begin.
     pub fn of(&self, query: &PlanningQuery) -> Vec<GripGoal> {
+        let mut goals = self.of_skill(query);
+        if query.prepares && query.skill != Skill::Receive {
+            for GripGoal { goal, .. } in &mut goals {
+                (goal.point, goal.back) = (goal.point - goal.along * goal.back, 0.0);
+            }
+        }
+        goals
+    }
+
+    /// The same, without regard to whether the hand only gets ready.
+    fn of_skill(&self, query: &PlanningQuery) -> Vec<GripGoal> {
         let at = Point3::from(query.place.translation.vector);
         let held = query.held.filter(|(kind, _)| query.kind == Some(*kind));
         match (query.skill, query.kind) {
@@ -75,9 +86,11 @@ impl HandGoals {
                 held.map_or_else(Vec::new, |held| self.putting(held, &query.place, query.skill))
             }
             (Skill::Pick, Some(kind)) => self.grasping(kind, query.next_use, &query.place),
-            (Skill::Receive, Some(kind)) => self.receiving(kind, &query.place, query.stops_before),
+            (Skill::Receive, Some(kind)) => {
+                self.receiving(kind, &query.place, query.stops_before.then_some(WAITS))
+            }
             (Skill::Request, _) => vec![self.requesting()],
-            (Skill::Steady, _) => vec![self.steadying()],
+            (Skill::Steady, _) => self.steadying(),
             (Skill::Point, _) => vec![self.pointing(&at)],
             (Skill::Park | Skill::Pick | Skill::Receive, _) => Vec::new(),
         }
@@ -88,13 +101,13 @@ impl HandGoals {
         self.grips.goals(kind, next, frame, BACK, self.scene.table_height).collect()
     }
 
-    /// The goals with the hand on a part that the person gives, or before it.
-    fn receiving(&self, kind: usize, frame: &Isometry3<f64>, stops_before: bool) -> Vec<GripGoal> {
+    /// The goals with the hand on a part that the person gives, or so far `before` it, m.
+    fn receiving(&self, kind: usize, frame: &Isometry3<f64>, before: Option<f64>) -> Vec<GripGoal> {
         let mut goals = self.grasping(kind, NextUse::Anything, frame);
         goals.retain(|goal| goal.grip == Some(self.grips.received(kind)));
         for GripGoal { goal, .. } in &mut goals {
-            goal.point -= if stops_before { goal.along * WAITS } else { Vector3::zeros() };
-            goal.back = if stops_before { 0.0 } else { STRAIGHT };
+            goal.point -= goal.along * before.unwrap_or(0.0);
+            goal.back = if before.is_some() { 0.0 } else { STRAIGHT };
         }
         goals
     }
@@ -150,10 +163,15 @@ impl HandGoals {
 
     /// How deep a part goes that comes to `place`, m; 0 where that is no socket.
     pub fn insertion_depth(&self, place: &Isometry3<f64>) -> f64 {
+        self.subgoal_of(place).map_or(0.0, |subgoal| self.depths[subgoal])
+    }
+
+    /// The subgoal whose place this is.
+    fn subgoal_of(&self, place: &Isometry3<f64>) -> Option<usize> {
         let at = |socket: &Isometry3<f64>| {
             (socket.translation.vector - place.translation.vector).norm() < SAME_PLACE
         };
-        self.sockets.iter().position(at).map_or(0.0, |socket| self.depths[socket])
+        self.sockets.iter().position(at)
     }
 
     /// A part's frame as it is seen; it stands on the table at the lowest.
@@ -201,9 +219,19 @@ impl HandGoals {
         Vector3::new(out.x, out.y, 0.0).try_normalize(1e-6).unwrap_or_else(Vector3::x)
     }
 
-    /// Pressing on the base from above.
-    pub fn steadying(&self) -> GripGoal {
-        self.freely(Point3::from(self.scene.steady), -Vector3::z(), BACK)
+    /// Pressing on the base from above, at any of the places for that.
+    pub fn steadying(&self) -> Vec<GripGoal> {
+        let places = self.scene.steady.iter().map(|place| Point3::from(*place));
+        places.map(|place| self.freely(place, -Vector3::z(), BACK)).collect()
+    }
+
+    /// Where the person's hand will be that works at `place`: a capsule around it.
+    pub fn working(&self, place: &Isometry3<f64>, limits: &PersonLimits) -> Capsule {
+        let start = Point3::from(place.translation.vector);
+        let back = Point3::from(self.scene.person_shoulder) - start;
+        let end = start + back.try_normalize(1e-6).unwrap_or_else(Vector3::z) * limits.hand_length;
+        let [.., radius] = limits.radii;
+        Capsule { start, end, radius }
     }
 
     /// Pointing to `target` from a distance.

@@ -19,6 +19,8 @@ pub(crate) struct PlanningQuery {
     pub next_place: Option<Isometry3<f64>>,
     /// Whether the hand stops before the place, to wait for the person.
     pub stops_before: bool,
+    /// Whether the hand only gets ready for a preshaped action.
+    pub prepares: bool,
     /// Whether a part may be put down lying or leaning.
     pub loosely: bool,
     /// State of the arm in which the movement shall begin.
@@ -52,7 +54,8 @@ impl PlanningQuery {
     /// ask for the same movement in the same cycle may see what surrounds it a sample apart.
     pub fn fingerprint(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        (self.skill as u64, self.kind, self.stops_before, self.loosely, self.held_in).hash(&mut hasher);
+        (self.skill as u64, self.kind, self.stops_before, self.prepares, self.loosely, self.held_in)
+            .hash(&mut hasher);
         let place = self.place.to_homogeneous();
         let starts = self.start.iter().flat_map(|joint| [joint.position, joint.velocity, joint.acceleration]);
         place.iter().copied().chain(starts).for_each(|number| number.to_bits().hash(&mut hasher));

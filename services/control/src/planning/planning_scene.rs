@@ -60,7 +60,7 @@ impl PlanningScene {
         Scene { obstacles, allowed_leaving, allowed_at_goal }
     }
 
-    /// The person's arms now, a moment from now and where a part will be brought; of the acting one only the upper arm when the robot
+    /// The person's arms now, a moment from now and where a part will be brought, or mounted while the base is steadied; of the acting one only the upper arm when the robot
     /// receives something from its hand.
     pub fn person(&self, query: &PlanningQuery, goals: &HandGoals) -> Vec<Capsule> {
         let Some(person) = query.person else { return Vec::new() };
@@ -68,9 +68,10 @@ impl PlanningScene {
         let awaited = query.kind.filter(|_| query.awaits_person());
         let part = awaited.and_then(|kind| self.part_capsules.get(kind));
         let coming = part.map(|part| goals.coming(part, &self.limits.person)).into_iter().flatten();
+        let works = (query.skill == Skill::Steady).then(|| goals.working(&query.place, &self.limits.person));
         let ahead = self.limits.planner.person_ahead.as_secs_f64();
         let arms = |ahead| person.acting_after(ahead).take(count).chain(person.other_after(ahead));
-        [0.0, ahead].into_iter().flat_map(arms).chain(coming).collect()
+        [0.0, ahead].into_iter().flat_map(arms).chain(coming).chain(works).collect()
     }
 
     /// Distance of arm, hand and held part from the person, m, and the direction away from there.

@@ -3,7 +3,9 @@ use super::{HandGoals, PlanningQuery, PlanningResult, PlanningScene};
 use crate::robot::{CollisionModels, FingerShape, GripGoal, RobotModel};
 use crate::state::{ArmTrajectory, Skill};
 use coact_joint_task::Task;
-use coact_motion::{CollisionModel, Goal, MinClearance, Plan, Problem, Refusal, Scene, SearchHeartbeat};
+use coact_motion::{
+    CollisionModel, Goal, HandSpeedLimits, MinClearance, Plan, Problem, Refusal, Scene, SearchHeartbeat,
+};
 use coact_robot::{HandGoal, MotionState, RobotError};
 use coact_safety::{PlannerLimits, SafetyLimits};
 use coact_stage_state::Flag;
@@ -18,6 +20,7 @@ pub(crate) struct SkillPlanner {
     goals: HandGoals,
     scene: PlanningScene,
     limits: PlannerLimits,
+    hand_speeds: HandSpeedLimits,
     heartbeat: SearchHeartbeat,
 }
 
@@ -32,6 +35,8 @@ const SEARCH_FOR_PERSON: u32 = 10_000;
 /// comes to the base that it steadies, along a straight line, m. Sockets that are deeper, or axles that stick out farther, ask for
 /// more of the latter.
 pub(crate) const INSERTION_DEPTH: f64 = 0.03;
+/// Least speed at which the hand comes to something, m/s: however little contact is allowed to hurt, parts are to be taken. Chosen by hand.
+const SLOWEST_CONTACT: f64 = 0.05;
 /// Fraction of a withdrawal that is a straight line: the rest rounds the corner to its end.
 const STRAIGHT_WITHDRAWAL: f64 = 0.9;
 
@@ -54,7 +59,11 @@ impl SkillPlanner {
         let heartbeat = SearchHeartbeat::default();
         models.mechanism = models.mechanism.beating(heartbeat.clone());
         let scene = PlanningScene::new(&robot, &models, task, limits);
-        Self { robot, models, goals, scene, limits: limits.planner, heartbeat }
+        let SafetyLimits { planner, guard, .. } = limits;
+        let comfort = planner.comfort.fraction();
+        let contact = guard.contact_speed.clamp(SLOWEST_CONTACT, planner.hand_speed);
+        let hand_speeds = HandSpeedLimits { free: comfort * planner.hand_speed, contact: comfort * contact };
+        Self { robot, models, goals, scene, limits: planner, hand_speeds, heartbeat }
     }
 
     /// Beats while it searches.
@@ -184,7 +193,7 @@ impl SkillPlanner {
         let PlannerLimits { path_clearance, goal_clearance, .. } = self.limits;
         let problem = Problem::new(&self.models.mechanism, collision_model, scene, start, goal);
         let min_clearance = MinClearance { path: path_clearance, goal: goal_clearance };
-        Problem { min_clearance, ..problem }
+        Problem { min_clearance, hand_speeds: self.hand_speeds, ..problem }
     }
 
     fn goal_clearance(&self, skill: Skill) -> f64 {

@@ -17,6 +17,8 @@ pub(crate) struct ArmTrajectory {
     pub fingers_begin: f64,
     /// When its segment of approach begins, s.
     pub approach_begins: f64,
+    /// The shortest time in which its path could be followed, whatever the jerk, s; 0: not known.
+    shortest: f64,
     /// Whether it only withdraws the hand from where it is: the skill's own movement is planned at its end.
     pub withdraws: Flag,
 }
@@ -41,6 +43,7 @@ impl ArmTrajectory {
         };
         trajectory.leave_ends = end_of(SegmentKind::Leave).unwrap_or(0.0);
         trajectory.fingers_begin = trajectory.leave_ends;
+        trajectory.shortest = if plan.shortest.is_finite() { plan.shortest } else { 0.0 };
         trajectory.approach_begins = match end_of(SegmentKind::Approach) {
             Some(_) => end_of(SegmentKind::Reach).unwrap_or(trajectory.leave_ends),
             None => plan.duration(),
@@ -51,7 +54,7 @@ impl ArmTrajectory {
     pub fn check(&self, field: &'static str) -> Result<(), Implausible> {
         ensure((1..=Plan::KNOTS as u64).contains(&self.count), field, "as many knots as a plan may have")?;
         bounded(field, bytemuck::cast_slice(self.knots()), MOST)?;
-        finite(field, &[self.leave_ends, self.fingers_begin, self.approach_begins])
+        finite(field, &[self.leave_ends, self.fingers_begin, self.approach_begins, self.shortest])
     }
 
     /// State of the arm `t` s after the start.
@@ -98,7 +101,7 @@ impl ArmTrajectory {
     /// Writes the knots into the path of a command.
     pub fn write(&self, path: &mut ArmPath) {
         let knots = self.knots();
-        path.count = knots.len() as u64;
+        (path.count, path.shortest) = (knots.len() as u64, self.shortest);
         path.knots[..knots.len()].copy_from_slice(bytemuck::cast_slice(knots));
     }
 

@@ -23,7 +23,7 @@ pub(crate) struct ControlState {
 
 impl StageState for ControlState {
     const STAGE: &'static str = "control";
-    const LAYOUT: u32 = 8;
+    const LAYOUT: u32 = 9;
 
     fn check(&self) -> Result<(), Implausible> {
         let Self { arm, fingers, skill, hand, planning, decisions: _, seen } = self;
@@ -62,6 +62,7 @@ impl ControlState {
         let leaves = stays || self.arm.trajectory.is_leaving(t);
         (self.hand.hands_over.is_set() && leaves)
             || match self.skill.skill {
+                _ if self.skill.prepares.is_set() => false,
                 Skill::Receive => !self.skill.stops_before.is_set() || self.waits_for_fingers(),
                 Skill::Give => self.arm.trajectory.is_approach(t) || self.skill.phase() == SkillPhase::Open,
                 _ => false,

@@ -17,6 +17,8 @@ pub(crate) struct SkillState {
     pub place: StoredPose,
     /// Whether the hand stops before that place, to wait for the person.
     pub stops_before: Flag,
+    /// Whether the action is not decided, but preshaped: the hand gets ready for it, and no more.
+    pub prepares: Flag,
     phase: SkillPhase,
     pub progress: PhaseProgress,
 }
@@ -35,6 +37,11 @@ impl SkillState {
     /// Whether nothing is asked of the arm and hand: the robot stands, or goes, to its park posture.
     pub fn is_parking(&self) -> bool {
         self.skill == Skill::Park
+    }
+
+    /// Whether no decision asks for what it does.
+    pub fn is_undecided(&self) -> bool {
+        self.is_parking() || self.prepares.is_set()
     }
 
     pub fn check(&self) -> Result<(), Implausible> {

@@ -186,6 +186,12 @@ impl KinematicWorld {
         self.robot.grasp_point(&self.command.position)
     }
 
+    /// How far the hand is from the nearest place where the base is steadied, m.
+    pub fn away_from_base(&self) -> f64 {
+        let away = |place: &[f64; 3]| (self.grasp_point() - Point3::from(*place)).norm();
+        self.task.scene.steady.iter().map(away).fold(f64::INFINITY, f64::min)
+    }
+
     /// Puts a part into the robot's hand, however it lies in there.
     pub fn give(&mut self, part: usize, in_palm: Isometry3<f64>) {
         self.parts[part].holder = Holder::Robot;
@@ -368,7 +374,5 @@ impl KinematicWorld {
 }
 
 fn phase(word: u32) -> MotionPhase {
-    use MotionPhase::*;
-    let all = [Rest, Reach, Approach, Grasp, Transport, Release, Retreat, Dwell, Brake];
-    all.into_iter().find(|phase| *phase as u32 == word).unwrap_or_else(|| panic!("phase {word}"))
+    MotionPhase::ALL.into_iter().find(|phase| *phase as u32 == word).unwrap_or_else(|| panic!("phase {word}"))
 }

@@ -3,5 +3,6 @@
 mod invariants;
 mod kinematic_world;
 mod other_instance;
+mod preparation;
 mod skills;
 mod surroundings;

@@ -6,7 +6,6 @@ use coact_control::Control;
 use coact_joint_task::ActionType;
 use coact_messages::{ARM_JOINTS, MotionPhase};
 use coact_period::PERIOD;
-use nalgebra::Point3;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -29,7 +28,7 @@ fn dwells(world: &mut KinematicWorld) -> f64 {
         world.step();
         std::thread::sleep(PERIOD / 4);
         if world.phase() == MotionPhase::Dwell {
-            return (world.grasp_point() - Point3::from(world.task.scene.steady)).norm();
+            return world.away_from_base();
         }
     }
     panic!("the hand never came to its goal: {:?}", world.phases);

@@ -34,8 +34,10 @@ fn source(plan: &NetworkPlan, from: usize) -> String {
 /// A hand that grasps reaches as well.
 const REACH: &str = "AOL reach";
 const GRASP: &str = "AOL grasp";
+/// What is there whatever happens: no source is without it.
+const ALWAYS: &str = "always";
 
-/// The most that each source can contribute to population `to` by itself.
+/// The most that each source can contribute to population `to` by itself, with what is always there.
 fn strongest(plan: &NetworkPlan, to: usize) -> BTreeMap<String, f64> {
     let synapses: Vec<Synapse> = plan.synapses.iter().copied().filter(|synapse| synapse.to == to).collect();
     let mut most = BTreeMap::new();
@@ -50,6 +52,9 @@ fn strongest(plan: &NetworkPlan, to: usize) -> BTreeMap<String, f64> {
             }
         }
     }
+    let always = synapses.iter().filter(|synapse| source(plan, synapse.from) == ALWAYS);
+    let always: f64 = always.map(|synapse| synapse.weight).sum();
+    most.iter_mut().filter(|(source, _)| *source != ALWAYS).for_each(|(_, most)| *most += always);
     if let (Some(reach), Some(grasp)) = (most.get(REACH).copied(), most.get_mut(GRASP)) {
         *grasp += reach;
     }

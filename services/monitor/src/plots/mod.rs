@@ -1,9 +1,11 @@
 //! Plots of a report, as SVG: one percentile curve for each histogram, and the timeline of anticipation.
 
 mod curve;
+mod gantt;
 mod timeline;
 
 pub use curve::percentile_curve;
+pub use gantt::gantt;
 pub use timeline::anticipation_timeline;
 
 /// A picture could not be drawn or written.

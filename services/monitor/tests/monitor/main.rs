@@ -8,4 +8,5 @@ mod process_counters;
 mod report;
 mod snapshot_log;
 mod support;
+mod timeline;
 mod waits;

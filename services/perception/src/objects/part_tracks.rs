@@ -5,13 +5,16 @@ use bytemuck::{Pod, Zeroable};
 use coact_messages::{MAX_PARTS, SceneView, Sighting};
 use coact_period::{cycles, seconds};
 use coact_stage_state::{Implausible, bounded, ensure};
-use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use std::time::Duration;
 
 /// How far a part may have moved between two sightings, m: at the recogniser's 30 Hz, in a hand of 3.6 m/s.
 const GATE: f64 = 0.12;
 /// How far a part that is carried goes from one frame of the recogniser to the next, m: a hand at 1.5 m/s. Chosen by hand.
 const GONE_ON: f64 = 0.05;
+/// How long a part that is out of sight is taken to go along with the person's hand, cycles. Chosen by hand: an arm that passes hides it for as long,
+/// and a hand that has put it down out of sight has not gone far by then.
+const CARRIED_UNSEEN: u64 = cycles(Duration::from_millis(500));
 /// How long a place must be in view and empty before its part is taken to be gone: ten frames of the recogniser, which
 /// misses single ones.
 const ABSENT: u32 = cycles(Duration::from_millis(350)) as u32;
@@ -28,6 +31,8 @@ pub(crate) struct PartTracks {
     pub captured: u64,
     /// The robot's palm at the newest frame: place, m, and quaternion x, y, z, w; zeros: not known.
     palm: [f64; 7],
+    /// The middle of the person's fingers then, m; zeros: not known.
+    fingers: [f64; 3],
     /// No track from this index on is in use: most scenes have few parts, and they are gone through many times in each cycle.
     used: u64,
     tracks: [PartTrack; MAX_PARTS],
@@ -81,6 +86,7 @@ impl PartTracks {
         ensure(self.seen > 0 || self.captured == 0, "parts.captured", "0 before the first frame")?;
         cycle("parts.captured", self.captured)?;
         bounded("parts.palm", &self.palm, FARTHEST)?;
+        bounded("parts.fingers", &self.fingers, FARTHEST)?;
         let others = self.tracks.get(self.used as usize..);
         let unused = others.is_some_and(|others| others.iter().all(|track| track.kind().is_none()));
         ensure(unused, "parts.used", "no track in use from this index on")?;
@@ -104,11 +110,12 @@ impl PartTracks {
         let cycles = view.captured_cycle - self.captured;
         self.seen = view.frame.wrapping_add(1);
         self.captured = view.captured_cycle;
-        let carries = around.person.map_or(Vector3::zeros(), |hand| hand.velocity);
+        let carries = around.person.map_or(Vector3::zeros(), |hand| hand.velocity * seconds(cycles));
         self.associate(view, cycles, places, carries);
         self.used =
             self.tracks.iter().rposition(|track| track.kind().is_some()).map_or(0, |last| last as u64 + 1);
         self.follow_robot(around.palm);
+        self.follow_person(around.person.map(|hand| hand.centre));
         self.miss(sight, cycles, places);
         let counted = (0..places.kinds()).filter_map(|kind| Some((kind, places.count(kind)?)));
         counted.for_each(|(kind, most)| self.forget_surplus(kind, most));
@@ -150,7 +157,7 @@ impl PartTracks {
     }
 
     /// Gives every sighting to the nearest track of its kind, those of what lies still first; what is left, to a part that it may be another
-    /// sight of, or to a new track. The person `carries` what she holds so fast, m/s.
+    /// sight of, or to a new track. The person `carries` what she holds so far in a frame, m.
     fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces, carries: Vector3<f64>) {
         let mut left = [None; MAX_PARTS];
         let plausible = view.sightings().iter().filter(|sighting| is_plausible(sighting, places));
@@ -185,11 +192,10 @@ impl PartTracks {
     }
 
     /// The track of the sighting's kind that lies nearest to it, within so many m, and has no sighting in this frame yet.
-    /// One that the person holds is looked for where her hand has carried it since it was seen.
+    /// One that the person holds is looked for where her hand, which `carries` it so far in a frame, m, has brought it.
     fn nearest(&self, sighting: &Sighting, within: f64, carries: Vector3<f64>) -> Option<usize> {
         let away = |track: &PartTrack| {
-            let carried = carries * seconds(self.captured.saturating_sub(track.seen));
-            let carried = if track.is_with_the_person() { carried } else { Vector3::zeros() };
+            let carried = if track.is_with_the_person() { carries } else { Vector3::zeros() };
             (Vector3::from(track.position) + carried - Vector3::from(sighting.position)).norm()
         };
         let waiting = |track: &PartTrack| {
@@ -207,6 +213,20 @@ impl PartTracks {
             self.tracks.iter_mut().filter(unseen).for_each(|track| track.go_along(&moved));
         }
         self.palm = palm.map_or([0.0; 7], pose_words);
+    }
+
+    /// What the person holds goes where her hand goes, also where it is not seen for a moment.
+    fn follow_person(&mut self, fingers: Option<Vector3<f64>>) {
+        let before = Some(Vector3::from(self.fingers)).filter(|before| *before != Vector3::zeros());
+        if let (Some(before), Some(now)) = (before, fingers) {
+            let moved = Translation3::from(now - before).into();
+            let unseen = |track: &&mut PartTrack| {
+                let since = self.captured.saturating_sub(track.seen);
+                track.is_with_the_person() && (1..CARRIED_UNSEEN).contains(&since)
+            };
+            self.tracks.iter_mut().filter(unseen).for_each(|track| track.go_along(&moved));
+        }
+        self.fingers = fingers.unwrap_or_default().into();
     }
 
     /// Gives up parts whose place has been in view and empty for long enough; those that were not believed in yet, at once. What the robot's

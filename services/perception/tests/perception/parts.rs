@@ -84,6 +84,26 @@ fn carry_the_nut_that_is_taken_for(other: &str) {
 }
 
 #[test]
+fn a_carried_part_that_is_out_of_sight_for_a_moment_is_still_in_the_hand() {
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("nut"), stage.kind("nut"));
+    let start = stage.hand;
+    let [x, y, z] = start.centre;
+    let there = support::Hand { centre: [x + 0.3, y + 0.3, z + 0.1], pitch: -1.3, aperture: 0.03 };
+    stage.things[part].position = [x, y, z - 0.01];
+    stage.run(800, |_, _| {});
+    // The hand has gone on by 0.2 m when the part is seen again.
+    stage.run(900, |stage, time| {
+        stage.hand = start.towards(&there, support::smooth(time as f64 / 900.0));
+        let [x, y, z] = stage.hand.centre;
+        stage.things[part].position = [x, y, z - 0.01];
+        stage.things[part].visible = !(300..600).contains(&time);
+        let held = stage.percept.person_holds[kind];
+        assert!(time < 300 || held > 0.9, "after {time} ms: {held}");
+    });
+}
+
+#[test]
 fn a_part_that_is_always_taken_for_another_is_one() {
     let [own, other] = taken_for_a_nut(|time| time > 1000);
     assert!(own < 0.1 && other > 0.9, "{own} {other}");

@@ -104,7 +104,7 @@ impl World {
         truth.held = [Holder::Robot, Holder::Person].map(|holder| self.parts.held_by(holder));
         truth.assemblies = self.simulation.assemblies;
         truth.error = if phase == PartnerPhase::Idle { 0 } else { person.error as u32 };
-        truth.waiting = u32::from(person.phase().waits_for_robot());
+        truth.waiting = person.waits_for() as u32;
         truth.joints = self.joints.position;
         truth.arms = self.person_arms();
         truth.side = person.side as u32;

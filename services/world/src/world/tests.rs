@@ -64,7 +64,7 @@ pub(super) fn task() -> Task {
     scene.table_centre = [-0.6, 0.0];
     scene.table_size = [0.8, 1.2];
     scene.platform = [-0.6, 0.0, 0.9];
-    scene.steady = [-0.5, 0.0, 1.0];
+    scene.steady = vec![[-0.5, 0.0, 1.0]];
     scene.handover = [-0.6, 0.3, 1.1];
     scene.person_rest = [-1.0, 0.2, 0.93];
     scene.person_shoulder = [-1.15, 0.15, 1.25];

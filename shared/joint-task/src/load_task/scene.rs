@@ -18,7 +18,7 @@ pub(super) fn scene(entry: &SceneEntry) -> Scene {
         platform: entry.platform.at,
         platform_radius: entry.platform.radius,
         platform_height: entry.platform.height,
-        steady: entry.steady,
+        steady: entry.steady.0.clone(),
         handover: entry.handover,
         person_rest: entry.person_rest,
         person_shoulder: entry.person_shoulder,

@@ -4,3 +4,4 @@ mod foreign_robots;
 mod grips;
 mod heartbeat;
 mod planning;
+mod timing;

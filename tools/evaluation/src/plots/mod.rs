@@ -2,9 +2,11 @@
 
 mod fluency_plot;
 mod lead_plot;
+mod timeline_plot;
 
 pub use fluency_plot::draw_fluency;
 pub use lead_plot::draw_leads;
+pub use timeline_plot::draw_timeline;
 
 use plotters::prelude::RGBColor;
 

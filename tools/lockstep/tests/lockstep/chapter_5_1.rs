@@ -44,6 +44,6 @@ fn the_robot_asks_helps_asks_again_and_receives() {
     run_for(&mut stages, cycles(Duration::from_millis(200)));
     assert_eq!(decision(&stages), Some("receive: wheel on the robot's side"), "a grip from the side");
 
-    run_for(&mut stages, 15 * CYCLES_PER_SECOND);
+    run_for(&mut stages, 9 * CYCLES_PER_SECOND);
     assert_eq!(stages.truth.achieved, 0b11, "the robot has mounted the wheel that it was given");
 }

@@ -5,15 +5,16 @@ use crate::shipped::settings;
 use coact_lockstep::Lockstep;
 use coact_period::CYCLES_PER_SECOND;
 
-/// Ticks with evidence of a loss, and subgoals achieved, in so many seconds.
+/// Ticks with evidence of a loss, and the most subgoals achieved at a time, in so many seconds: a new assembly follows one that is complete.
 fn watch(seed: u64, partner: &str, seconds: u64) -> (u64, u32) {
     let mut stages = Lockstep::new(&settings(seed, partner)).unwrap();
-    let mut lost = 0;
+    let (mut lost, mut achieved) = (0, 0);
     for _ in 0..seconds * CYCLES_PER_SECOND {
         stages.step();
         lost += u64::from(stages.percept.lost.iter().any(|evidence| *evidence > 0.0));
+        achieved = achieved.max(stages.truth.achieved.count_ones());
     }
-    (lost, stages.truth.achieved.count_ones())
+    (lost, achieved)
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::{Case, Setting};
 use coact_joint_task::{Agent, Fixture, Task};
-use coact_motion::{Goal, Scene};
+use coact_motion::{CollisionModel, Goal, Scene};
 use coact_robot::{Graspable, Grip, Grips, HandGoal, MotionState, NextUse, Posture};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::RngExt;
@@ -57,6 +57,11 @@ fn pick_of(setting: &Setting, next: NextUse, random: &mut Pcg64) -> Option<Pick>
 
 /// With a part that was picked into its socket.
 pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
+    insert_of(setting, random).map(|(case, _)| case)
+}
+
+/// An insertion, and the hand as it came to the part.
+fn insert_of(setting: &Setting, random: &mut Pcg64) -> Option<(Case, CollisionModel)> {
     let task = setting.task.as_ref()?;
     let Pick { case: picked, part, object, grips } =
         pick_of(setting, NextUse::Insert { depth: DEEP }, random)?;
@@ -102,16 +107,16 @@ pub(super) fn insert(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
         goal: Goal::Hand(goals),
         insertion_depth: DEEP,
     };
-    Some(case)
+    Some((case, picked.collision_model))
 }
 
-/// From a socket back to rest.
+/// From a socket back to rest, with fingers that have let the part go as they came to it.
 pub(super) fn park(setting: &Setting, random: &mut Pcg64) -> Option<Case> {
-    let inserted = insert(setting, random)?;
+    let (inserted, collision_model) = insert_of(setting, random)?;
     let plan = inserted.problem(&setting.mechanism).plan().ok()?;
     let palm = setting.mechanism.arm.palm(&plan.end());
     Some(Case {
-        collision_model: setting.open.clone(),
+        collision_model,
         scene: inserted.scene.clone(),
         start: plan.end().map(MotionState::at_rest),
         leave: Some((palm.rotation * -Vector3::z(), BEFORE)),

@@ -2,7 +2,7 @@
 
 use super::Evaluation;
 use coact_evaluation::{
-    ChangesOfMind, Comparison, Estimate, EvaluationReport, Hesitations, Proportion, Spread,
+    ChangesOfMind, Comparison, Estimate, EvaluationReport, Hesitations, Proportion, Spread, TimeReport,
 };
 use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 
@@ -130,12 +130,44 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
         row("functional delay of answers, ms", interval(report.answer_delay_ms, 1.0, 1, "")),
         row("person waits within actions", percent(report.human_waits)),
     ]);
+    rows.extend(rows_of_time(&report.time));
     for (changes, to) in
         [(report.changes_of_mind, "mind changed"), (report.changes_to_errors, "mind changed to a mistake")]
     {
         rows.extend(changes.iter().flat_map(|changes| rows_of_changes(changes, to)));
     }
     rows.extend(report.hesitations.iter().flat_map(rows_of_hesitations));
+    rows
+}
+
+/// Name and value of every metric of where the time went.
+fn rows_of_time(time: &TimeReport) -> Vec<(String, String)> {
+    let seconds = |spread: Option<Spread>, digits: usize| {
+        let shown = |Spread { p5, p50, p95 }| format!("{p5:.digits$} {p50:.digits$} {p95:.digits$}");
+        spread.map_or("-".into(), shown)
+    };
+    let mut rows = vec![
+        ("an assembly p5 p50 p95, s".into(), seconds(time.seconds, 1)),
+        ("  the person waits, s".into(), interval(time.person_waits_s, 1.0, 1, "")),
+    ];
+    for (who, spent) in [("person", &time.person), ("robot", &time.robot)] {
+        rows.extend(spent.iter().map(|own| {
+            let name = format!("    {who} {}, s", own.occupation.name());
+            (name, interval(Some(own.seconds), 1.0, 1, ""))
+        }));
+    }
+    rows.extend(time.skills.iter().map(|own| {
+        let shown =
+            format!("{}; longest {:.1} of {}", seconds(Some(own.seconds), 1), own.longest_s, own.count);
+        (format!("  decided to done: {}, p5 p50 p95, s", own.skill.name()), shown)
+    }));
+    rows.extend([
+        (
+            "  movements over their shortest time p5 p50 p95: planned".into(),
+            seconds(time.planned_over_shortest, 2),
+        ),
+        ("    and as made".into(), seconds(time.taken_over_shortest, 2)),
+    ]);
     rows
 }
 

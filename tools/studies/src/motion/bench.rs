@@ -96,6 +96,7 @@ fn print(measured: &[(Scenario, Measurement)]) {
         "jerk",
         "bounced",
         "time s",
+        "of shortest",
         "error mm",
         "clearance mm",
     ]);
@@ -117,6 +118,7 @@ fn print(measured: &[(Scenario, Measurement)]) {
             format!("{:.0}", one.normalised_jerk),
             format!("{:.0} %", 100.0 * one.bounced),
             format!("{:.2}", one.duration_s),
+            format!("{:.2}", one.over_shortest),
             format!("{:.2}", 1e3 * one.position_error),
             format!("{:.0}", 1e3 * one.clearance),
         ]);

@@ -71,7 +71,7 @@ pub fn task() -> Task {
             platform: [0.0; 3],
             platform_radius: 0.1,
             platform_height: 0.1,
-            steady: [0.0; 3],
+            steady: vec![[0.0; 3]],
             handover: [0.0; 3],
             person_rest: [0.0; 3],
             person_shoulder: [0.0; 3],

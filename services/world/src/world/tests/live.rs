@@ -4,7 +4,7 @@ use super::fake_robot::FakeRobot;
 use super::{Out, held_by, robot, task};
 use crate::{Partner, World};
 use bytemuck::zeroed_box;
-use coact_messages::{HandPoints, KeypointName, PartnerPhase, WorldState};
+use coact_messages::{HandPoints, KeypointName, PartnerPhase, PersonWait, WorldState};
 use coact_period::cycles;
 use coact_person::{FINGERS, HandModel, Holder};
 use coact_pipeline::WorldMode;
@@ -96,7 +96,8 @@ fn a_part_is_grasped_carried_and_mounted_where_the_fingers_open() {
     let place = DVec3::from(goal.socket) + 0.0125 * DVec3::from(goal.axis);
     bench.go((place, bench.hand.1), 900);
     bench.go(bench.hand, 600);
-    assert_eq!((bench.out.truth.phase, bench.out.truth.waiting), (PartnerPhase::Act as u32, 1));
+    assert_eq!(bench.out.truth.phase, PartnerPhase::Act as u32);
+    assert_eq!(bench.out.truth.person_wait(), PersonWait::Steadying);
     assert_eq!(bench.out.truth.achieved, 0);
     bench.go((place, bench.hand.1 + 0.03), 150);
     bench.go(bench.hand, 30);

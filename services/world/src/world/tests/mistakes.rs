@@ -89,7 +89,11 @@ fn error_is_noticed_one_to_three_seconds_after_the_grasp() {
     let mut noticed = 0;
     run(3, 400, "goal=0.5,request=0,means=0", |tick, world, out, before| {
         let turns_back = world.simulation.person.phase() == ActivityPhase::Return;
-        if out.truth.error != 0 && before.waiting == 1 && turns_back && out.truth.waiting == 0 {
+        if out.truth.error != 0
+            && before.person_wait().is_within_action()
+            && turns_back
+            && out.truth.waiting == 0
+        {
             let since = tick - out.truth.grasp_cycle;
             assert!((1000..=3001).contains(&since), "noticed after {since} ms");
             noticed += 1;
