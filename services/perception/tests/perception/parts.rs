@@ -336,6 +336,36 @@ fn a_part_that_falls_when_the_robot_lets_it_go_is_lost_and_one_that_is_taken_is_
 }
 
 #[test]
+fn a_part_that_lies_below_the_closed_hand_is_lost_and_one_that_is_felt_again_is_not() {
+    /// By how much the elbow is straighter than parked, rad: the fingers are 5 cm above the table then.
+    const LOWERED: f64 = 0.3;
+    let lost_when_felt_again_after = |cycles: u64| {
+        let mut stage = Stage::new();
+        let (part, kind) = (stage.part("top floor"), stage.kind("top floor"));
+        let robot = Robot::load(&support::configuration("robots/aros.toml")).unwrap();
+        stage.perception = support::perception(&stage.task).with_robot(robot.clone());
+        let mut joints = [0.0; JOINTS];
+        joints[..7].copy_from_slice(&robot.park);
+        joints[3] += LOWERED;
+        joints[8..11].fill(1.4);
+        let point = robot.grasp_point(&joints);
+        let in_the_fingers = [point.x, point.y, point.z - 0.5 * stage.task.kinds[kind].shape.height()];
+        stage.run(1000, |stage, _| {
+            (stage.sample.joints.position, stage.sample.joints.touch) = (joints, 5.0);
+            stage.things[part].position = in_the_fingers;
+        });
+        assert!(stage.percept.robot_holds[kind] > 0.9);
+        stage.run(1200, |stage, time| {
+            stage.sample.joints.touch = if time < cycles { 0.0 } else { 5.0 };
+            stage.things[part].position[2] = stage.task.scene.table_height;
+        });
+        stage.percept.lost[kind]
+    };
+    assert!(lost_when_felt_again_after(u64::MAX) > 0.9);
+    assert!(lost_when_felt_again_after(150) < 0.1, "the fingers feel it again");
+}
+
+#[test]
 fn a_resting_hand_that_comes_back_to_sight_over_a_part_has_not_taken_it() {
     let mut stage = Stage::new();
     let (part, kind) = (stage.part("nut"), stage.kind("nut"));
