@@ -22,6 +22,9 @@ pub(crate) const LET_GO: f64 = 0.3;
 /// After so long, a handover that does not come about is given up. Chosen by hand: people who assemble are busy for longer than
 /// 10 s at times, and another action may be possible by then.
 const PATIENCE: u64 = cycles(Duration::from_secs(30));
+/// The same of a request, which is made again then. Chosen by hand: the hand that is held out hides from the robot's eye what is behind it; it may have been
+/// taken apart, and nothing be missing that is requested.
+const REQUESTS: u64 = cycles(Duration::from_secs(10));
 /// A part that has moved farther than this while the hand reaches for it is followed, m. Chosen by hand: above the scatter of
 /// its estimate, below what the open fingers leave room for.
 const MOVED: f64 = 0.008;
@@ -133,11 +136,16 @@ impl Control {
         }
     }
 
-    /// Stands at the goal; a part that is given is let go when the person pulls at it.
+    /// Stands at the goal; a part that is given is let go when the person pulls at it, and nothing is given or requested for ever.
     fn dwell(&mut self, inputs: &Inputs) {
+        let most = match self.state.skill.skill {
+            Skill::Give => PATIENCE,
+            Skill::Request => REQUESTS,
+            _ => u64::MAX,
+        };
         if self.is_taken(inputs) {
             self.move_fingers(SkillPhase::Open);
-        } else if self.state.skill.skill == Skill::Give && self.state.skill.progress.age > PATIENCE {
+        } else if self.state.skill.progress.age > most {
             self.give_up();
         }
     }

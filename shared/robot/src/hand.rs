@@ -84,6 +84,11 @@ impl Hand {
         self.fingers[0].joints[0].origin.translation.y.abs() + self.pad[0]
     }
 
+    /// Clear width between fingers 1 and 2 with the spread of grasps, at their knuckles, m.
+    pub fn gap_aside(&self) -> f64 {
+        2.0 * (self.reach_aside() - 2.0 * self.pad[0])
+    }
+
     /// The hand around something round on the palm's axis, `width` m wide, with `gap` m between it and each finger. With a
     /// negative gap the fingers are commanded to close so far into it, which makes them press.
     ///

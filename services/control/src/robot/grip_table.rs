@@ -1,7 +1,7 @@
 use super::PartGrip;
 use crate::ControlError;
 use coact_joint_task::Task;
-use coact_robot::{Graspable, GripSide, Grips, HAND_JOINTS, Hand, HandGoal, NextUse};
+use coact_robot::{Graspable, Grip, GripSide, Grips, HAND_JOINTS, Hand, HandGoal, NextUse};
 use nalgebra::Isometry3;
 
 /// All the grips in which the hand can grasp the parts of a task. Control's state names each of them by its index.
@@ -22,6 +22,11 @@ pub(crate) struct GripGoal {
 /// How far into a part each finger is told to close, as a fraction of its width. The fingers' servos turn the difference
 /// between that and where the part stops them into force. Chosen by hand: parts neither slip nor slide away.
 const SQUEEZE: f64 = 0.3;
+/// Something round is wedged between fingers 1 and 2 when it is narrower than so many times the gap between them: with 2 their inner edges press
+/// on it at 30 degrees and more to where they close.
+const WEDGED: f64 = 2.0;
+/// How far their spread opens to let it go, rad. Chosen by hand: a nut of 25 mm was seen to come free at 0.15, and not at 0.06.
+const APART: f64 = 0.2;
 
 impl GripTable {
     /// # Errors
@@ -94,6 +99,41 @@ fn part_grips(hand: &Hand, kind: usize, grips: &Grips) -> impl Iterator<Item = P
         kind,
         grip: *grip,
         closed: grip.fingers(hand, &grips.object, -SQUEEZE * grips.object.width),
-        open: grip.open(hand, &grips.object),
+        open: let_go(hand, grip, &grips.object),
     })
+}
+
+/// The hand that has let go. What is so narrow that it stands between fingers 1 and 2 is wedged there by their grasp, and would leave with them
+/// though the third finger has opened: these two go apart as well.
+fn let_go(hand: &Hand, grip: &Grip, object: &Graspable) -> [f64; HAND_JOINTS] {
+    let mut open = grip.open(hand, object);
+    if object.flat.is_none() && object.width < WEDGED * hand.gap_aside() {
+        open[0] += APART;
+    }
+    open
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use coact_robot::Robot;
+    use std::path::Path;
+
+    #[test]
+    fn what_stands_between_the_fingers_comes_out_when_the_hand_lets_go() {
+        let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
+        let hand = Robot::load(&shipped.join("robots/aros.toml")).unwrap().hand;
+        let task = Task::load(&shipped.join("tasks/toy-vehicle.toml")).unwrap();
+        let table = GripTable::new(&hand, &task).unwrap();
+        for PartGrip { kind, open, .. } in table.all() {
+            let [one, two, _] = hand.ends(open);
+            let between = (one.y - two.y).abs() - 2.0 * hand.pad[0];
+            match task.kinds[*kind].name.as_str() {
+                "nut" => assert!(between > task.kinds[*kind].width, "{between} m"),
+                name => assert!((between - hand.gap_aside()).abs() < 1e-3, "{name}: {between} m"),
+            }
+        }
+    }
 }

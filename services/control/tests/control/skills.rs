@@ -122,6 +122,17 @@ fn a_request_holds_the_open_hand_out_to_the_person() {
     assert_eq!(world.phase(), MotionPhase::Dwell);
 }
 
+#[test]
+fn a_request_that_nobody_answers_is_made_again_after_a_look_at_what_the_hand_has_hidden() {
+    let mut world = KinematicWorld::new();
+    world.decide(Some(world.action(ActionType::Request, WHEEL)));
+    world.until(4.0, "held out", |world| world.phase() == MotionPhase::Dwell);
+    world.until(11.0, "taken back", |world| world.phase() != MotionPhase::Dwell);
+    let place = Point3::from(world.task.scene.handover);
+    world.until(2.0, "out of the way", |world| (world.grasp_point() - place).norm() > 0.25);
+    world.until(5.0, "held out again", |world| world.phase() == MotionPhase::Dwell);
+}
+
 /// The person holds a part of the wheel's kind, at the handover place.
 fn hold_out(world: &mut KinematicWorld) -> usize {
     let kind = world.task.subgoals.iter().find(|goal| goal.name == WHEEL).unwrap().kind;
