@@ -22,8 +22,8 @@ pub(crate) const LET_GO: f64 = 0.3;
 /// After so long, a handover that does not come about is given up. Chosen by hand: people who assemble are busy for longer than
 /// 10 s at times, and another action may be possible by then.
 const PATIENCE: u64 = cycles(Duration::from_secs(30));
-/// The same of a request, which is made again then. Chosen by hand: the hand that is held out hides from the robot's eye what is behind it; it may have been
-/// taken apart, and nothing be missing that is requested.
+/// The same of a request, which is made again then. Chosen by hand: the hand that is held out hides from the robot's eye what is behind it, and
+/// what the robot believes to be mounted there may be so no more.
 const REQUESTS: u64 = cycles(Duration::from_secs(10));
 /// A part that has moved farther than this while the hand reaches for it is followed, m. Chosen by hand: above the scatter of
 /// its estimate, below what the open fingers leave room for.

@@ -78,7 +78,7 @@ impl Loss {
         let Some(track) = self.held.get().filter(|_| self.suspected > 0) else { return };
         let seen = parts.track(track).filter(|part| part.kind() == Some(self.kind as usize));
         let after = |cycle: u64| cycle > self.suspected;
-        let missed = after(parts.captured.saturating_sub(MISSED));
+        let missed = parts.captured > self.suspected + MISSED;
         let lost = match seen {
             Some(part) if part.is_held() || places.is_mounted(self.kind as usize, part.position) => {
                 self.forget();

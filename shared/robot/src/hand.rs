@@ -84,9 +84,16 @@ impl Hand {
         self.fingers[0].joints[0].origin.translation.y.abs() + self.pad[0]
     }
 
-    /// Clear width between fingers 1 and 2 with the spread of grasps, at their knuckles, m.
+    /// Clear width between fingers 1 and 2 with the spread of grasps, m.
     pub fn gap_aside(&self) -> f64 {
-        2.0 * (self.reach_aside() - 2.0 * self.pad[0])
+        let [knuckle, direction] = self.side_finger();
+        2.0 * (direction.perp(&knuckle).abs() - self.pad[0])
+    }
+
+    /// Place of finger 1's knuckle in the palm's plane, m, and the direction in which the finger reaches from there in a grasp.
+    fn side_finger(&self) -> [Vector2<f64>; 2] {
+        let knuckle = self.fingers[0].joints[0].origin.translation.vector.xy();
+        [knuckle, Vector2::new(self.grasp_spread.cos(), self.grasp_spread.sin())]
     }
 
     /// The hand around something round on the palm's axis, `width` m wide, with `gap` m between it and each finger. With a
@@ -95,11 +102,10 @@ impl Hand {
     /// Fingers 1 and 2 stand beside the palm's axis and meet a narrow part with their inner edges, so that their
     /// angles differ from finger 3's.
     pub fn grasp(&self, width: f64, gap: f64) -> Grasp {
-        let [half_width, thickness] = self.pad;
+        let [_, thickness] = self.pad;
         let radius = 0.5 * width + gap;
-        let knuckle = self.fingers[0].joints[0].origin.translation.vector.xy();
-        let finger = Vector2::new(self.grasp_spread.cos(), self.grasp_spread.sin());
-        let aside = (finger.perp(&knuckle).abs() - half_width).clamp(0.0, 0.5 * width);
+        let [knuckle, finger] = self.side_finger();
+        let aside = (0.5 * self.gap_aside()).clamp(0.0, 0.5 * width);
         let across = (0.25 * width * width - aside * aside).sqrt() + gap;
         // A finger that leans over reaches less far inwards than it is thick.
         let base = |reach: f64| {

@@ -66,7 +66,7 @@ impl HandGoals {
     /// The goals of the hand that serve a query; none for parking. A hand that only gets ready stops where its approach would begin.
     pub fn of(&self, query: &PlanningQuery) -> Vec<GripGoal> {
         let mut goals = self.of_skill(query);
-        if query.prepares && query.skill != Skill::Receive {
+        if query.prepares {
             for GripGoal { goal, .. } in &mut goals {
                 (goal.point, goal.back) = (goal.point - goal.along * goal.back, 0.0);
             }

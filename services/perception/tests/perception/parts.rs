@@ -277,16 +277,19 @@ fn a_touched_part_in_the_air_is_in_the_robots_hand() {
     assert!(stage.percept.robot_holds[kind] < 0.1);
 }
 
-#[test]
-fn what_the_robot_holds_out_of_sight_goes_where_its_palm_goes() {
-    let mut stage = Stage::new();
+/// The robot, parked but for what is added to its joints, rad, has the top floor in its fingers. Tells its joints, and where the part is held in
+/// others.
+fn holding_the_top_floor(
+    stage: &mut Stage,
+    added: [f64; JOINTS],
+) -> ([f64; JOINTS], impl Fn(&[f64; JOINTS]) -> [f64; 3] + use<>) {
     let robot = Robot::load(&support::configuration("robots/aros.toml")).unwrap();
     stage.perception = support::perception(&stage.task).with_robot(robot.clone());
     let (part, kind) = (stage.part("top floor"), stage.kind("top floor"));
-    let mut joints = [0.0; JOINTS];
-    joints[..7].copy_from_slice(&robot.park);
+    let mut joints = added;
+    (0..7).for_each(|joint| joints[joint] += robot.park[joint]);
     let middle = 0.5 * stage.task.kinds[kind].shape.height();
-    let held_at = |joints: &[f64; JOINTS]| {
+    let held_at = move |joints: &[f64; JOINTS]| {
         let point = robot.grasp_point(joints);
         [point.x, point.y, point.z - middle]
     };
@@ -295,6 +298,14 @@ fn what_the_robot_holds_out_of_sight_goes_where_its_palm_goes() {
         stage.things[part].position = held_at(&joints);
     });
     assert!(stage.percept.robot_holds[kind] > 0.9);
+    (joints, held_at)
+}
+
+#[test]
+fn what_the_robot_holds_out_of_sight_goes_where_its_palm_goes() {
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("top floor"), stage.kind("top floor"));
+    let (mut joints, held_at) = holding_the_top_floor(&mut stage, [0.0; JOINTS]);
     stage.sample.scene.surface.height.fill(200);
     stage.things[part].visible = false;
     stage.run(1000, |stage, _| {
@@ -342,19 +353,10 @@ fn a_part_that_lies_below_the_closed_hand_is_lost_and_one_that_is_felt_again_is_
     let lost_when_felt_again_after = |cycles: u64| {
         let mut stage = Stage::new();
         let (part, kind) = (stage.part("top floor"), stage.kind("top floor"));
-        let robot = Robot::load(&support::configuration("robots/aros.toml")).unwrap();
-        stage.perception = support::perception(&stage.task).with_robot(robot.clone());
-        let mut joints = [0.0; JOINTS];
-        joints[..7].copy_from_slice(&robot.park);
-        joints[3] += LOWERED;
-        joints[8..11].fill(1.4);
-        let point = robot.grasp_point(&joints);
-        let in_the_fingers = [point.x, point.y, point.z - 0.5 * stage.task.kinds[kind].shape.height()];
-        stage.run(1000, |stage, _| {
-            (stage.sample.joints.position, stage.sample.joints.touch) = (joints, 5.0);
-            stage.things[part].position = in_the_fingers;
-        });
-        assert!(stage.percept.robot_holds[kind] > 0.9);
+        let mut added = [0.0; JOINTS];
+        added[3] = LOWERED;
+        added[8..11].fill(1.4);
+        _ = holding_the_top_floor(&mut stage, added);
         stage.run(1200, |stage, time| {
             stage.sample.joints.touch = if time < cycles { 0.0 } else { 5.0 };
             stage.things[part].position[2] = stage.task.scene.table_height;
