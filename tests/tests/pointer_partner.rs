@@ -191,12 +191,18 @@ impl Player {
     }
 
     fn hands_over(&mut self, kind: &str) {
+        self.brings(kind);
+        self.stay(300);
+        self.let_go_and_rest();
+    }
+
+    /// Brings a part to where parts change hands; the robot's fingers have closed on it, and so have the hand's.
+    fn brings(&mut self, kind: &str) -> usize {
         let part = self.lying(kind, Agent::Person);
         self.grasp(part, SIDE);
         self.go(DVec3::from(self.stages.task().scene.handover).truncate());
         self.wait_for("the robot's hand", |own| own.stages.sample.joints.touch > 1.0);
-        self.stay(300);
-        self.let_go_and_rest();
+        part
     }
 
     fn requests_and_inserts(&mut self, kind: &str, goal: &str) {
@@ -271,6 +277,27 @@ fn build(runs: std::ops::Range<u64>) -> (usize, usize) {
 fn people_at_a_pointer_build_the_vehicle_and_are_understood_before_their_grasps() {
     let (expected, right) = build(1..4);
     assert!(expected >= 15 && right * 10 >= expected * 8, "{right} of {expected}");
+}
+
+/// Somebody who is in no hurry: the robot pulls nothing out of a hand that has not let go of it.
+#[test]
+fn a_part_that_is_held_on_to_stays_where_it_is_and_is_mounted_once_it_is_let_go() {
+    for holds_on in [600, 1_500] {
+        let mut player = Player::new(7, 2);
+        player.stay(1_500);
+        player.takes_and_inserts("wheel", "wheel on the person's side");
+        let part = player.brings("wheel");
+        let joints = |player: &Player| player.stages.sample.joints.position;
+        player.stay(150);
+        let before = joints(&player);
+        player.stay(holds_on - 150);
+        let moved = (0..7).map(|joint| (joints(&player)[joint] - before[joint]).abs()).fold(0.0, f64::max);
+        assert!(moved < 0.01, "held on for {holds_on} ms: a joint has moved by {moved} rad");
+        assert!(player.parts().is(part, Holder::Person), "held on for {holds_on} ms");
+        player.let_go_and_rest();
+        let wheel = player.goal("wheel on the robot's side");
+        player.wait_for("the robot's wheel", |own| own.is_achieved(wheel));
+    }
 }
 
 /// Tables that nobody has arranged, one part after the other: what is asked for is what is pointed at.

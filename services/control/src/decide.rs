@@ -2,6 +2,7 @@
 
 use crate::Control;
 use crate::inputs::Inputs;
+use crate::pursue::LET_GO;
 use crate::skill_choice::{self, SkillChoice};
 use crate::state::{Skill, SkillPhase, StoredPose};
 use coact_messages::{PERSON, ROBOT};
@@ -35,7 +36,7 @@ impl Control {
         let is_done = phase == SkillPhase::Idle && !self.state.skill.is_undecided();
         let is_silent = (1..SILENCE).contains(&self.state.decisions.silent);
         let goes_on = choice.is_under_way(&self.state.skill) || (choice.is_undecided() && is_silent);
-        if phase.is_firm() || (goes_on && !is_done) {
+        if phase.is_firm() || (goes_on && !is_done) || self.is_still_given(inputs) {
             return;
         }
         if choice.can_begin(inputs) {
@@ -46,6 +47,14 @@ impl Control {
         } else if !self.state.skill.is_parking() || is_done {
             self.begin_skill(&choice.parked(), inputs);
         }
+    }
+
+    /// Whether the person, too, holds the part that the robot has received: an arm that set off would pull it out of her fingers. She has let go
+    /// when no force of hers is felt any more, or when she is seen to.
+    fn is_still_given(&self, inputs: &Inputs) -> bool {
+        let received = self.state.hand.held().filter(|_| self.state.skill.skill == Skill::Receive);
+        let is_felt = inputs.pull().is_none_or(|force| force > LET_GO);
+        is_felt && received.is_some_and(|kind| inputs.in_person_hand(kind))
     }
 
     /// The same, but to park where the hand has been ready for long, and nothing has come of it: it may hide something.

@@ -16,7 +16,7 @@ const AWAY: f64 = 0.08;
 /// How long after the loss of touch a part must be unseen, or lie on the table, to be lost: seven frames of the recogniser,
 /// which misses single ones.
 const MISSED: u64 = cycles(Duration::from_millis(250));
-/// How long the suspicion lasts: what fell has come to lie by then. Chosen by hand.
+/// How long the suspicion lasts: what fell has come to lie by then. What was let go in mid-air is suspected until it is seen. Chosen by hand.
 const SUSPECTED: u64 = cycles(Duration::from_secs(1));
 /// How long a loss is told: until the robot has decided what to do about it. Chosen by hand.
 const TOLD: u64 = cycles(Duration::from_secs(3));
@@ -67,7 +67,7 @@ impl Loss {
             if put_down {
                 self.forget();
             }
-        } else if self.suspected > 0 && tick > self.suspected + SUSPECTED {
+        } else if !self.opened.is_set() && self.suspected > 0 && tick > self.suspected + SUSPECTED {
             self.forget();
         }
     }

@@ -111,8 +111,9 @@ impl TaskPlaces {
             approach(&mut out.robot_holds[kind], holds(BY_ROBOT), RAMP);
             approach(&mut out.person_holds[kind], holds(BY_PERSON), RAMP);
         }
-        (0..self.subgoals.len().min(MAX_SUBGOALS))
-            .for_each(|goal| self.report_subgoal(goal, parts, sight, followed, out));
+        for goal in 0..self.subgoals.len().min(MAX_SUBGOALS) {
+            self.report_subgoal(tick, goal, parts, sight, followed, out);
+        }
     }
 
     /// Whether each part of `kind` that there is has been seen lately, wherever it is.
@@ -167,6 +168,7 @@ impl TaskPlaces {
 
     fn report_subgoal(
         &self,
+        tick: u64,
         goal: usize,
         parts: &PartTracks,
         sight: &Sight,
@@ -180,7 +182,8 @@ impl TaskPlaces {
         let achieved = own.clone().find(|(_, part)| mounted(part));
         let rise = if achieved.is_some_and(|(_, part)| !part.is_put_by_robot()) { ACHIEVES } else { RAMP };
         let face = Vector3::from(socket) + Vector3::from(axis) * self.size(kind).height;
-        let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && !sight.hides(face);
+        let is_known = || !sight.hides(face) || self.are_all_seen(tick, kind, parts);
+        let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && is_known();
         approach(&mut out.achieved[goal], achieved.is_some(), rise);
         approach(&mut out.open[goal], empty, RAMP);
     }

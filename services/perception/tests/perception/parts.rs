@@ -229,6 +229,18 @@ fn a_subgoal_is_open_until_its_part_lies_in_the_socket() {
 }
 
 #[test]
+fn a_place_that_cannot_be_seen_is_empty_where_every_part_that_fits_is_seen_elsewhere() {
+    let mut stage = Stage::new();
+    let goal = stage.task.subgoals.iter().position(|goal| goal.name == "column 1 in its hole").unwrap();
+    let (part, socket) = (stage.part("column 1"), stage.task.subgoals[goal].socket);
+    stands_before(&stage.task, &mut stage.sample.scene.surface, socket, 0.3);
+    stage.run(500, |_, _| {});
+    assert!(stage.percept.open[goal] > 0.9, "it lies on the table");
+    stage.run(1500, |stage, _| stage.things[part].visible = false);
+    assert!(stage.percept.open[goal] < 0.1, "it may be anywhere");
+}
+
+#[test]
 fn a_part_that_stands_beside_its_socket_is_not_in_it() {
     for (away, mounted) in [(0.012, true), (0.016, false), (0.025, false)] {
         let mut stage = Stage::new();
@@ -318,9 +330,9 @@ fn what_the_robot_holds_out_of_sight_goes_where_its_palm_goes() {
     stage.run(200, |stage, _| assert!(stage.percept.robot_holds[kind] > 0.9, "seen where it was carried to"));
 }
 
-/// The robot holds the top floor 0.2 m above the table, and opens its fingers; `then` moves things from there on. Tells
-/// the evidence that the part is lost.
-fn lost_after_opening(then: impl Fn(&mut Stage, usize)) -> f64 {
+/// The robot holds the top floor 0.2 m above the table, and opens its fingers; `then` moves things from there on, told for how long, ms. Tells
+/// the evidence that the part is lost `after` so long.
+fn lost_after_opening(after: u64, then: impl Fn(&mut Stage, usize, u64)) -> f64 {
     let mut stage = Stage::new();
     let (part, kind) = (stage.part("top floor"), stage.kind("top floor"));
     stage.run(1000, |stage, time| {
@@ -329,21 +341,26 @@ fn lost_after_opening(then: impl Fn(&mut Stage, usize)) -> f64 {
         stage.sample.joints.position[8..11].fill(1.4);
     });
     assert!(stage.percept.robot_holds[kind] > 0.9);
-    stage.run(800, |stage, _| {
+    stage.run(after, |stage, time| {
         stage.sample.joints.touch = 0.0;
         stage.sample.joints.position[8..11].fill(1.0);
-        then(stage, part);
+        then(stage, part, time);
     });
     stage.percept.lost[kind]
 }
 
 #[test]
 fn a_part_that_falls_when_the_robot_lets_it_go_is_lost_and_one_that_is_taken_is_not() {
-    let table = |stage: &Stage| stage.task.scene.table_height;
-    assert!(lost_after_opening(|stage, part| stage.things[part].position[2] = table(stage)) > 0.9);
-    assert!(lost_after_opening(|_, _| {}) < 0.1, "somebody has it");
-    let taken_away = |stage: &mut Stage, part: usize| stage.things[part].visible = false;
-    assert!(lost_after_opening(taken_away) < 0.1, "a hand hides it");
+    let falls = |stage: &mut Stage, part: usize| stage.things[part].position[2] = stage.task.scene.table_height;
+    assert!(lost_after_opening(800, |stage, part, _| falls(stage, part)) > 0.9);
+    assert!(lost_after_opening(800, |_, _, _| {}) < 0.1, "somebody has it");
+    let hide = |stage: &mut Stage, part: usize, hides: bool| stage.things[part].visible = !hides;
+    assert!(lost_after_opening(800, |stage, part, _| hide(stage, part, true)) < 0.1, "a hand hides it");
+    let found_later = lost_after_opening(4_000, |stage, part, time| {
+        hide(stage, part, time < 3_000);
+        falls(stage, part);
+    });
+    assert!(found_later > 0.9, "{found_later}: where it fell could not be seen");
 }
 
 #[test]
