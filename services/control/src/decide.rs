@@ -89,17 +89,25 @@ impl Control {
         }
     }
 
-    /// Begins a skill, or parks when what it is about is not there.
+    /// Begins a skill, or parks when what it is about is not there. One that leads to where the hand goes already, or is, takes that up.
     fn begin_skill(&mut self, choice: &SkillChoice, inputs: &Inputs) {
         if self.state.skill.action != choice.action {
             self.state.decisions.misses = 0;
         }
         let skill = &mut self.state.skill;
+        let goes_on = skill.leads_to(choice.skill, choice.kind);
         (skill.skill, skill.action, skill.kind) = (choice.skill, choice.action, choice.kind);
         skill.prepares = Flag::from(choice.prepares);
         self.state.planning.refusals = 0;
         let place = self.place(inputs);
         let skill = &mut self.state.skill;
+        if goes_on {
+            skill.stops_before = Flag::Set;
+            if skill.phase() == SkillPhase::Dwell {
+                skill.enter(SkillPhase::Wait);
+            }
+            return;
+        }
         match place {
             Some(place) => skill.place = StoredPose::from(place),
             None => (skill.skill, skill.prepares) = (Skill::Park, Flag::Unset),

@@ -32,10 +32,9 @@ fn needed(goals: &HandGoals, action: &Action) -> Vec<GripGoal> {
         (ActionType::Insert, Some(kind), Some(subgoal)) => {
             goals.grasping(kind, NextUse::Insert { depth: INSERTION_DEPTH }, &goals.socket(subgoal))
         }
-        (ActionType::Receive | ActionType::Give, Some(kind), _) => {
+        (ActionType::Request | ActionType::Receive | ActionType::Give, Some(kind), _) => {
             goals.grasping(kind, NextUse::Anything, &goals.handover_frame())
         }
-        (ActionType::Request, ..) => vec![goals.requesting()],
         (ActionType::Steady, ..) => goals.steadying(),
         _ => Vec::new(),
     }

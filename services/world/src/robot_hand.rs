@@ -27,6 +27,8 @@ const OPENED: f64 = 0.01;
 const LOOKS_OPEN: f64 = 0.06;
 /// Distance of the grasp point from a place within which the person sees the hand as being there, m: about a hand's length.
 const AT_PLACE: f64 = 0.18;
+/// An open hand so far above a place, m, is seen as held out there: it requests what it will take from above. Chosen by hand.
+const ABOVE: f64 = 0.32;
 /// Distance of the grasp point from where it took a part within which the part is not carried yet, m. Chosen by hand.
 const LIFTED: f64 = 0.03;
 /// Without dynamics: grip force when the fingers just touch, N, and its growth with the angle by which the part stops the
@@ -197,7 +199,9 @@ impl RobotHand {
 
     /// Records since when the hand has stood where the person pays attention to it, and what the person puts into it.
     pub fn notice(&self, tick: u64, palm: &Palm, state: &mut RobotHandState, parts: &Parts, task: &Task) {
-        let at_handover = palm.grasp_point.distance(self.handover) < AT_PLACE;
+        let from_handover = palm.grasp_point - self.handover;
+        let at_handover = from_handover.length() < AT_PLACE;
+        let above = from_handover.truncate().length() < AT_PLACE && (0.0..ABOVE).contains(&from_handover.z);
         let at_base = self.steady.iter().any(|place| palm.grasp_point.distance(*place) < AT_PLACE);
         let empty = state.held.get().is_none();
         let since = |yes: bool, since: u64| match (yes, since) {
@@ -207,7 +211,7 @@ impl RobotHand {
         };
         state.brought = Flag::from(!empty && (state.brought.is_set() || !at_handover));
         state.requesting_since =
-            since(at_handover && empty && palm.finger_closure < self.open, state.requesting_since);
+            since((at_handover || above) && empty && palm.finger_closure < self.open, state.requesting_since);
         state.giving_since = since(at_handover && state.brought.is_set(), state.giving_since);
         state.steadying_since = since(at_base && empty, state.steadying_since);
         let between = |part: &usize| {

@@ -22,8 +22,8 @@ pub(crate) struct HandGoals {
 /// Distance at which the approach to a grasp, or to a place where a part is put, begins, m. Chosen by hand: from there the hand
 /// comes straight, between what stands around its goal.
 const BACK: f64 = 0.15;
-/// How far before the handover place the hand waits for a part that the person gives, m. A trade-off: from farther away it comes later,
-/// nearer to the person's hand the guard slows it down on its way there.
+/// How far before the handover place the hand waits for a part that the person gives, or that it requests, m. A trade-off: from farther away it
+/// comes later; nearer to the person's hand the guard slows it down on its way there, and it hides from the robot's eye what she brings.
 const WAITS: f64 = 0.20;
 /// Last part of the way to a part that the person gives, on which the hand moves straight, m. Shorter than elsewhere, for the
 /// hand has waited straight before that place already.
@@ -32,13 +32,6 @@ const STRAIGHT: f64 = 0.03;
 const ROUND_TURNS: u32 = 12;
 /// Turns in which a part with flat sides is put on the table: along its sides.
 const FLAT_TURNS: u32 = 4;
-/// How far the palm of the hand that requests a part is raised above the horizontal, rad: 15 degrees. Chosen by hand: a part
-/// that is put into it does not slide off.
-const RAISED: f64 = 0.262;
-/// Distance from the palm to the middle of the open hand, where a part would lie, m. Chosen by hand for our robot's hand.
-const HOLLOW: f64 = 0.065;
-/// How far before the handover place the open hand is held out, m: there the person's hand, 0.18 m long, comes with a part.
-const SHORT: f64 = 0.22;
 /// How far a part falls at most that is laid down as it comes, m. Chosen by hand: room for the error of its height.
 const DROPPED: f64 = 0.02;
 /// How far the pointing hand stays from what it points to, m. Chosen by hand: near enough to tell which part is meant.
@@ -89,10 +82,10 @@ impl HandGoals {
             (Skill::Receive, Some(kind)) => {
                 self.receiving(kind, &query.place, query.stops_before.then_some(WAITS))
             }
-            (Skill::Request, _) => vec![self.requesting()],
+            (Skill::Request, Some(kind)) => self.receiving(kind, &query.place, Some(WAITS)),
             (Skill::Steady, _) => self.steadying(),
             (Skill::Point, _) => vec![self.pointing(&at)],
-            (Skill::Park | Skill::Pick | Skill::Receive, _) => Vec::new(),
+            (Skill::Park | Skill::Pick | Skill::Request | Skill::Receive, _) => Vec::new(),
         }
     }
 
@@ -193,14 +186,6 @@ impl HandGoals {
     /// The same as a part's frame, upright.
     pub fn handover_frame(&self) -> Isometry3<f64> {
         Isometry3::from_parts(self.handover().into(), UnitQuaternion::identity())
-    }
-
-    /// The open hand held out to the handover place, and short of it: away from the shoulder, raised.
-    pub fn requesting(&self) -> GripGoal {
-        let level = self.outwards();
-        let approach = level * RAISED.cos() + Vector3::z() * RAISED.sin();
-        let point = self.handover() - level * SHORT + approach * (self.hand.grasp_distance - HOLLOW);
-        self.freely(point, approach, 0.0)
     }
 
     /// Where the person's hand will come with a part in it: capsules around the hand and the part. `part`: the part's, in its

@@ -13,8 +13,6 @@ pub(crate) enum FingerShape {
     Open(usize),
     /// Together, to press on something or to point.
     Slender,
-    /// Wide open, for the person to put a part in.
-    Offered,
 }
 
 impl FingerShape {
@@ -29,8 +27,7 @@ impl FingerShape {
         match (skill, held_in, kind) {
             (_, Some(grip), _) => Self::Closed(grip),
             (Skill::Pick, _, Some(kind)) => Self::Around(kind),
-            (Skill::Receive, _, Some(kind)) => Self::Open(received_in(kind)),
-            (Skill::Request, ..) => Self::Offered,
+            (Skill::Request | Skill::Receive, _, Some(kind)) => Self::Open(received_in(kind)),
             (Skill::Steady | Skill::Point, ..) => Self::Slender,
             _ => Self::Relaxed,
         }

@@ -12,9 +12,6 @@ use nalgebra::Isometry3;
 const RELAXED: f64 = 0.10;
 /// Clear width of the hand that steadies or points, m. Chosen by hand: nearly closed, yet the finger ends do not touch.
 const SLENDER: f64 = 0.03;
-/// Base angle of the fingers of the hand that requests a part, rad. Chosen by hand: open wider than any part, and clearly
-/// an open hand to the person.
-const OFFERED: f64 = 0.6;
 
 /// The robot in terms of messages: all [`JOINTS`] angles, the last of which is reserved.
 #[derive(Debug, Clone)]
@@ -58,7 +55,6 @@ impl RobotModel {
             FingerShape::Closed(grip) => self.grips.all()[grip].closed,
             FingerShape::Open(grip) => self.grips.all()[grip].open,
             FingerShape::Slender => self.slender,
-            FingerShape::Offered => self.robot.hand.posture(OFFERED),
         }
     }
 

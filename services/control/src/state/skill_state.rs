@@ -34,6 +34,13 @@ impl SkillState {
         self.progress = PhaseProgress::zeroed();
     }
 
+    /// Whether the hand goes, or is, where another skill begins: a part is requested where it is received.
+    pub fn leads_to(&self, skill: Skill, kind: Slot) -> bool {
+        let stands_or_comes = matches!(self.phase, SkillPhase::Plan | SkillPhase::Move | SkillPhase::Dwell);
+        let requests = self.skill == Skill::Request && skill == Skill::Receive;
+        requests && stands_or_comes && self.kind == kind && kind != Slot::EMPTY
+    }
+
     /// Whether nothing is asked of the arm and hand: the robot stands, or goes, to its park posture.
     pub fn is_parking(&self) -> bool {
         self.skill == Skill::Park

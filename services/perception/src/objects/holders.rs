@@ -79,12 +79,12 @@ impl PartTrack {
     }
 
     /// Finds out whether a hand that is `free` takes the part: bits [`BY_ROBOT`] and [`BY_PERSON`]. A hand holds one part.
-    /// `airborne`: the part hangs in the air, on nothing that could carry it.
-    pub(super) fn take(&mut self, free: u32, size: PartSize, around: &Hands, airborne: bool) {
+    /// `airborne`: the part hangs in the air, on nothing that could carry it. `captured`: cycle of the frame that tells.
+    pub(super) fn take(&mut self, free: u32, size: PartSize, around: &Hands, airborne: bool, captured: u64) {
         if let Some(hand) = around.person.filter(|_| free & BY_PERSON != 0)
             && self.is_taken_by_person(size, &hand, airborne)
         {
-            self.is_taken_by_the_person();
+            self.is_taken_by_the_person(captured);
         }
         let reached = around
             .hand_axis

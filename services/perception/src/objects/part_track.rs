@@ -66,7 +66,7 @@ pub(crate) struct PartTrack {
     put_by_robot: u8,
     /// Frames that have shown it, as far as they are needed to believe in it.
     frames: u8,
-    /// Cycle of the newest sighting.
+    /// Cycle of the newest sighting, or of the frame by which the person had taken it: where her fingers have closed on it, there it is.
     pub seen: u64,
     /// Centre of the underside, m.
     pub position: [f64; 3],
@@ -209,9 +209,10 @@ impl PartTrack {
         }
     }
 
-    /// The person has it.
-    pub fn is_taken_by_the_person(&mut self) {
+    /// The person has it, as a frame shows.
+    pub fn is_taken_by_the_person(&mut self, captured: u64) {
         self.holder |= BY_PERSON;
+        self.seen = captured;
         (self.taken_out, self.put_by_robot) = (self.lay_mounted, 0);
     }
 

@@ -12,8 +12,8 @@ use std::time::Duration;
 const GATE: f64 = 0.12;
 /// How far a part that is carried goes from one frame of the recogniser to the next, m: a hand at 1.5 m/s. Chosen by hand.
 const GONE_ON: f64 = 0.05;
-/// How long a part that is out of sight is taken to go along with the person's hand, cycles. Chosen by hand: an arm that passes hides it for as long,
-/// and a hand that has put it down out of sight has not gone far by then.
+/// How long a part that is out of sight is taken to go along with the person's hand that has it, cycles. Chosen by hand: an arm that passes hides it
+/// for as long, and a hand that has put it down out of sight has not gone far by then.
 const CARRIED_UNSEEN: u64 = cycles(Duration::from_millis(500));
 /// How long a place must be in view and empty before its part is taken to be gone: ten frames of the recogniser, which
 /// misses single ones.
@@ -140,7 +140,7 @@ impl PartTracks {
             if let Some(kind) = track.believed_kind() {
                 let airborne = places.is_airborne(kind, track.position);
                 let beside = if nearest == Some(index) { FREE } else { BY_PERSON };
-                track.take(!(busy | beside), places.size(kind), around, airborne);
+                track.take(!(busy | beside), places.size(kind), around, airborne, self.captured);
                 busy |= track.holder;
             }
         }
@@ -221,8 +221,7 @@ impl PartTracks {
         if let (Some(before), Some(now)) = (before, fingers) {
             let moved = Translation3::from(now - before).into();
             let unseen = |track: &&mut PartTrack| {
-                let since = self.captured.saturating_sub(track.seen);
-                track.is_with_the_person() && (1..CARRIED_UNSEEN).contains(&since)
+                track.seen < self.captured && is_carried_unseen(track, self.captured)
             };
             self.tracks.iter_mut().filter(unseen).for_each(|track| track.go_along(&moved));
         }
@@ -230,12 +229,12 @@ impl PartTracks {
     }
 
     /// Gives up parts whose place has been in view and empty for long enough; those that were not believed in yet, at once. What the robot's
-    /// fingers feel needs no eye.
+    /// fingers feel needs no eye, and where in the person's hand a part is that her fingers hide is not known as exactly as a view is empty.
     fn miss(&mut self, sight: &Sight, cycles: u64, places: &TaskPlaces) {
         for track in &mut self.tracks {
             let Some(kind) = track.kind().filter(|_| track.seen < self.captured) else { continue };
-            let felt = track.is_with_the_robot();
-            if !felt && !sight.hides(track.upper_face(places.size(kind))) {
+            let in_hand = track.is_with_the_robot() || is_carried_unseen(track, self.captured);
+            if !in_hand && !sight.hides(track.upper_face(places.size(kind))) {
                 track.absent = track.absent.saturating_add(cycles as u32);
             }
             if track.absent > ABSENT || !track.is_believed() {
@@ -257,6 +256,11 @@ impl PartTracks {
             }
         }
     }
+}
+
+/// Whether the person has had the part in the hand, out of sight, for no longer than it is taken to be there.
+fn is_carried_unseen(track: &PartTrack, captured: u64) -> bool {
+    track.is_with_the_person() && captured.saturating_sub(track.seen) < CARRIED_UNSEEN
 }
 
 fn is_plausible(sighting: &Sighting, places: &TaskPlaces) -> bool {
