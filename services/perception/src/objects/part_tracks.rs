@@ -156,27 +156,28 @@ impl PartTracks {
         reached.min_by(|(_, one), (_, other)| one.total_cmp(other)).map(|(index, _)| index)
     }
 
-    /// Gives every sighting to the nearest track of its kind, those of what lies still first; what is left, to a part that it may be another
-    /// sight of, or to a new track. The person `carries` what she holds so far in a frame, m.
+    /// Gives every sighting to the nearest track of its kind, those of what lies still first; then to a part of another kind that is there, and may be
+    /// mistaken for its own; then to one that may have moved there; what is left, to a new track. The person `carries` what she holds so far in a
+    /// frame, m.
     fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces, carries: Vector3<f64>) {
         let mut left = [None; MAX_PARTS];
         let plausible = view.sightings().iter().filter(|sighting| is_plausible(sighting, places));
         left.iter_mut().zip(plausible).for_each(|(left, sighting)| *left = Some(sighting));
-        for within in [MOVED, GATE] {
+        let mut give = |own: &mut Self, find: &dyn Fn(&Self, &Sighting) -> Option<usize>| {
             for left in &mut left {
-                let found = left.and_then(|one| Some((one, self.nearest(one, within, carries)?)));
+                let found = left.and_then(|one| Some((one, find(own, one)?)));
                 if let Some((sighting, index)) = found {
-                    self.tracks[index].follow(sighting, self.captured, cycles);
+                    own.tracks[index].follow(sighting, own.captured, cycles);
                     *left = None;
                 }
             }
-        }
+        };
+        give(self, &|own, sighting| own.nearest(sighting, MOVED, carries));
+        give(self, &Self::at_its_place);
+        give(self, &|own, sighting| own.nearest(sighting, GATE, carries));
         for sighting in left.into_iter().flatten() {
-            let known = self.at_its_place(sighting);
-            match known.or_else(|| self.tracks.iter().position(|track| track.kind().is_none())) {
-                Some(index) if known.is_some() => self.tracks[index].follow(sighting, self.captured, cycles),
-                Some(index) => self.tracks[index] = PartTrack::new(sighting, self.captured),
-                None => {}
+            if let Some(index) = self.tracks.iter().position(|track| track.kind().is_none()) {
+                self.tracks[index] = PartTrack::new(sighting, self.captured);
             }
         }
     }

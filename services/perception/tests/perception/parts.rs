@@ -229,6 +229,27 @@ fn a_subgoal_is_open_until_its_part_lies_in_the_socket() {
 }
 
 #[test]
+fn a_part_that_is_taken_for_its_unseen_neighbour_has_not_moved_it() {
+    let mut stage = Stage::new();
+    let parts = ["column 1", "column 2"].map(|kind| stage.part(kind));
+    let goals = ["column 1 in its hole", "column 2 in its hole"]
+        .map(|name| stage.task.subgoals.iter().position(|goal| goal.name == name).unwrap());
+    for (part, goal) in parts.into_iter().zip(goals) {
+        stage.things[part].position = stage.task.subgoals[goal].socket;
+    }
+    // Less far apart than a part may go from frame to frame.
+    stage.things[parts[1]].position[0] += 0.004;
+    stage.run(700, |_, _| {});
+    let kinds = parts.map(|part| stage.things[part].kind);
+    stage.run(300, |stage, time| {
+        let mistaken = (100..135).contains(&time);
+        stage.things[parts[0]].visible = !mistaken;
+        stage.things[parts[1]].kind = kinds[usize::from(!mistaken)];
+        assert!(goals.iter().all(|goal| stage.percept.achieved[*goal] > 0.9), "{time}");
+    });
+}
+
+#[test]
 fn a_place_that_cannot_be_seen_is_empty_where_every_part_that_fits_is_seen_elsewhere() {
     let mut stage = Stage::new();
     let goal = stage.task.subgoals.iter().position(|goal| goal.name == "column 1 in its hole").unwrap();
