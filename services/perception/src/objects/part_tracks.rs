@@ -12,9 +12,9 @@ use std::time::Duration;
 const GATE: f64 = 0.12;
 /// How far a part that is carried goes from one frame of the recogniser to the next, m: a hand at 1.5 m/s. Chosen by hand.
 const GONE_ON: f64 = 0.05;
-/// How long a part that is out of sight is taken to go along with the person's hand that has it, cycles. Chosen by hand: an arm that passes hides it
-/// for as long, and a hand that has put it down out of sight has not gone far by then.
-const CARRIED_UNSEEN: u64 = cycles(Duration::from_millis(500));
+/// How long a part that is out of sight is taken to go along with the person's hand that has it, cycles. Chosen by hand: fingers that take
+/// it from above hide it until they have brought it to its place, for about 1 s.
+const CARRIED_UNSEEN: u64 = cycles(Duration::from_millis(1200));
 /// How long a place must be in view and empty before its part is taken to be gone: ten frames of the recogniser, which
 /// misses single ones.
 const ABSENT: u32 = cycles(Duration::from_millis(350)) as u32;
@@ -157,8 +157,8 @@ impl PartTracks {
     }
 
     /// Gives every sighting to the nearest track of its kind, those of what lies still first; then to a part of another kind that is there, and may be
-    /// mistaken for its own; then to one that may have moved there; what is left, to a new track. The person `carries` what she holds so far in a
-    /// frame, m.
+    /// mistaken for its own; then to one that may have moved there; what is left, to a new track, unless each part of that kind that there is has been
+    /// seen in this frame: then it is none. The person `carries` what she holds so far in a frame, m.
     fn associate(&mut self, view: &SceneView, cycles: u64, places: &TaskPlaces, carries: Vector3<f64>) {
         let mut left = [None; MAX_PARTS];
         let plausible = view.sightings().iter().filter(|sighting| is_plausible(sighting, places));
@@ -176,10 +176,19 @@ impl PartTracks {
         give(self, &Self::at_its_place);
         give(self, &|own, sighting| own.nearest(sighting, GATE, carries));
         for sighting in left.into_iter().flatten() {
+            if self.are_all_seen_now(sighting.kind as usize, places) {
+                continue;
+            }
             if let Some(index) = self.tracks.iter().position(|track| track.kind().is_none()) {
                 self.tracks[index] = PartTrack::new(sighting, self.captured);
             }
         }
+    }
+
+    /// Whether as many parts of the kind as there are have been seen in this frame.
+    fn are_all_seen_now(&self, kind: usize, places: &TaskPlaces) -> bool {
+        let seen = self.parts().filter(|(own, track)| *own == kind && track.seen == self.captured);
+        places.count(kind).is_some_and(|count| seen.count() >= count)
     }
 
     /// The track of a part that no sighting of this frame was given to, and that is where this one of another kind is: no two parts lie so

@@ -1,7 +1,7 @@
 //! Parts, places and hands: seen, gone, or out of view.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::support::{self, Hand, Stage, smooth, stands_before};
+use crate::support::{self, Hand, Stage, Thing, smooth, stands_before};
 use coact_joint_task::Subgoal;
 use coact_messages::{JOINTS, PERSON, ROBOT};
 use coact_robot::Robot;
@@ -118,12 +118,44 @@ fn what_single_frames_show_is_not_there() {
     let index = stage.things.len() - 1;
     stage.things[index].kind = nut;
     stage.things[index].position[1] += 0.07;
+    // One of the two has been taken away: what is seen may be that one.
+    let own = stage.part("nut");
+    stage.things[own].visible = false;
     stage.run(3000, |stage, time| {
         stage.things[index].visible = time / 33 % 4 < 2;
         assert!(stage.percept.workspace[PERSON].seen[nut] < 0.1, "after {time} ms");
     });
     stage.run(300, |stage, _| stage.things[index].visible = true);
     assert!(stage.percept.workspace[PERSON].seen[nut] > 0.9, "what stays is there");
+}
+
+#[test]
+fn what_looks_like_a_part_is_none_while_each_of_its_kind_is_seen_elsewhere() {
+    let mut stage = Stage::new();
+    let (top, other) = (stage.kind("top floor"), stage.part("column 1"));
+    stage.things.push(Thing { kind: top, ..stage.things[other] });
+    stage.things.last_mut().unwrap().position[1] += 0.07;
+    stage.run(1000, |_, _| {});
+    assert!(stage.percept.workspace[PERSON].seen[top] < 0.1);
+    let own = stage.part("top floor");
+    stage.run(1000, |stage, _| stage.things[own].visible = false);
+    assert!(stage.percept.workspace[PERSON].seen[top] > 0.9, "it has been brought there");
+}
+
+#[test]
+fn a_part_that_the_hand_hides_all_the_way_is_still_in_it() {
+    let mut stage = Stage::new();
+    let (part, kind) = (stage.part("column 1"), stage.kind("column 1"));
+    let over = stage.grasping(part, 0);
+    stage.move_to(over.open(), 600, |_| {});
+    stage.things[part].visible = false;
+    stage.move_to(over, 200, |_| {});
+    stage.run(150, |_, _| {});
+    assert!(stage.percept.person_holds[kind] > 0.9, "taken");
+    let [x, y, z] = over.centre;
+    stage.move_to(Hand { centre: [x + 0.35, y - 0.1, z + 0.08], ..over }, 900, |stage| {
+        assert!(stage.percept.person_holds[kind] > 0.9);
+    });
 }
 
 #[test]
