@@ -404,7 +404,8 @@ fn lost_after_opening(after: u64, then: impl Fn(&mut Stage, usize, u64)) -> f64 
 
 #[test]
 fn a_part_that_falls_when_the_robot_lets_it_go_is_lost_and_one_that_is_taken_is_not() {
-    let falls = |stage: &mut Stage, part: usize| stage.things[part].position[2] = stage.task.scene.table_height;
+    let falls =
+        |stage: &mut Stage, part: usize| stage.things[part].position[2] = stage.task.scene.table_height;
     assert!(lost_after_opening(800, |stage, part, _| falls(stage, part)) > 0.9);
     assert!(lost_after_opening(800, |_, _, _| {}) < 0.1, "somebody has it");
     let hide = |stage: &mut Stage, part: usize, hides: bool| stage.things[part].visible = !hides;
