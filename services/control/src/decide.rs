@@ -49,20 +49,20 @@ impl Control {
         }
     }
 
-    /// Whether the person, too, holds the part that the robot has received: an arm that set off would pull it out of her fingers. She has let go
-    /// when no force of hers is felt any more, or when she is seen to.
-    fn is_still_given(&self, inputs: &Inputs) -> bool {
-        let received = self.state.hand.held().filter(|_| self.state.skill.skill == Skill::Receive);
-        let is_felt = inputs.pull().is_none_or(|force| force > LET_GO);
-        is_felt && received.is_some_and(|kind| inputs.in_person_hand(kind))
-    }
-
     /// The same, but to park where the hand has been ready for long, and nothing has come of it: it may hide something.
     fn unless_in_vain(&self, choice: SkillChoice) -> SkillChoice {
         let skill = &self.state.skill;
         let is_ready = skill.prepares.is_set() && skill.phase() == SkillPhase::Idle;
         let in_vain = is_ready && choice.is_under_way(skill) && skill.progress.age > READY;
         if in_vain { choice.parked() } else { choice }
+    }
+
+    /// Whether the person, too, holds the part that the robot has received: an arm that set off would pull it out of her fingers. She has let go
+    /// when no force of hers is felt any more, or when she is seen to.
+    fn is_still_given(&self, inputs: &Inputs) -> bool {
+        let received = self.state.hand.held().filter(|_| self.state.skill.skill == Skill::Receive);
+        let is_felt = inputs.pull().is_none_or(|force| force > LET_GO);
+        is_felt && received.is_some_and(|kind| inputs.in_person_hand(kind))
     }
 
     /// Notices a part in the hand of which nothing is known, as it is seen there, and one that was lost.
@@ -99,8 +99,6 @@ impl Control {
         (skill.skill, skill.action, skill.kind) = (choice.skill, choice.action, choice.kind);
         skill.prepares = Flag::from(choice.prepares);
         self.state.planning.refusals = 0;
-        let place = self.place(inputs);
-        let skill = &mut self.state.skill;
         if goes_on {
             skill.stops_before = Flag::Set;
             if skill.phase() == SkillPhase::Dwell {
@@ -108,6 +106,8 @@ impl Control {
             }
             return;
         }
+        let place = self.place(inputs);
+        let skill = &mut self.state.skill;
         match place {
             Some(place) => skill.place = StoredPose::from(place),
             None => (skill.skill, skill.prepares) = (Skill::Park, Flag::Unset),

@@ -38,7 +38,7 @@ impl SkillState {
     pub fn leads_to(&self, skill: Skill, kind: Slot) -> bool {
         let stands_or_comes = matches!(self.phase, SkillPhase::Plan | SkillPhase::Move | SkillPhase::Dwell);
         let requests = self.skill == Skill::Request && skill == Skill::Receive;
-        requests && stands_or_comes && self.kind == kind && kind != Slot::EMPTY
+        requests && stands_or_comes && self.kind == kind
     }
 
     /// Whether nothing is asked of the arm and hand: the robot stands, or goes, to its park posture.

@@ -176,19 +176,13 @@ impl PartTracks {
         give(self, &Self::at_its_place);
         give(self, &|own, sighting| own.nearest(sighting, GATE, carries));
         for sighting in left.into_iter().flatten() {
-            if self.are_all_seen_now(sighting.kind as usize, places) {
+            if places.are_all_seen(sighting.kind as usize, self, self.captured) {
                 continue;
             }
             if let Some(index) = self.tracks.iter().position(|track| track.kind().is_none()) {
                 self.tracks[index] = PartTrack::new(sighting, self.captured);
             }
         }
-    }
-
-    /// Whether as many parts of the kind as there are have been seen in this frame.
-    fn are_all_seen_now(&self, kind: usize, places: &TaskPlaces) -> bool {
-        let seen = self.parts().filter(|(own, track)| *own == kind && track.seen == self.captured);
-        places.count(kind).is_some_and(|count| seen.count() >= count)
     }
 
     /// The track of a part that no sighting of this frame was given to, and that is where this one of another kind is: no two parts lie so

@@ -105,27 +105,27 @@ impl TaskPlaces {
         if !parts.is_seeing(tick) {
             return;
         }
+        let since = tick.saturating_sub(RECENT - 1);
         for kind in 0..self.kinds() {
-            (0..WORKSPACES).for_each(|side| self.report_workspace(tick, side, kind, parts, sight, out));
+            (0..WORKSPACES).for_each(|side| self.report_workspace(since, side, kind, parts, sight, out));
             let holds = |bit: u32| parts.parts().any(|(own, part)| own == kind && part.holder & bit != 0);
             approach(&mut out.robot_holds[kind], holds(BY_ROBOT), RAMP);
             approach(&mut out.person_holds[kind], holds(BY_PERSON), RAMP);
         }
         for goal in 0..self.subgoals.len().min(MAX_SUBGOALS) {
-            self.report_subgoal(tick, goal, parts, sight, followed, out);
+            self.report_subgoal(since, goal, parts, sight, followed, out);
         }
     }
 
-    /// Whether each part of `kind` that there is has been seen lately, wherever it is.
-    fn are_all_seen(&self, tick: u64, kind: usize, parts: &PartTracks) -> bool {
-        let seen =
-            |(own, part): &(usize, &PartTrack)| *own == kind && tick.saturating_sub(part.seen) < RECENT;
+    /// Whether each part of `kind` that there is has been seen in the cycle `since` or later, wherever it is.
+    pub fn are_all_seen(&self, kind: usize, parts: &PartTracks, since: u64) -> bool {
+        let seen = |(own, part): &(usize, &PartTrack)| *own == kind && part.seen >= since;
         self.count(kind).is_some_and(|count| parts.parts().filter(seen).count() >= count)
     }
 
     fn report_workspace(
         &self,
-        tick: u64,
+        since: u64,
         side: usize,
         kind: usize,
         parts: &PartTracks,
@@ -136,14 +136,14 @@ impl TaskPlaces {
         let away = |part: &PartTrack| (Vector3::from(part.position) - self.owner(side)).norm();
         let nearest = parts.parts().filter(here).min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)));
         let place = &mut out.workspace[side];
-        let seen = nearest.is_some_and(|(_, part)| tick.saturating_sub(part.seen) < RECENT);
+        let seen = nearest.is_some_and(|(_, part)| part.seen >= since);
         if let Some((_, part)) = nearest {
             place.position[kind] = part.position;
             place.orientation[kind] = part.orientation.map(f64::from);
         }
         let last = self.last_place(side, place.position[kind]);
         let is_bare = || !sight.hides(Vector3::from(last) + Vector3::z() * self.size(kind).height);
-        let gone = nearest.is_none() && (is_bare() || self.are_all_seen(tick, kind, parts));
+        let gone = nearest.is_none() && (is_bare() || self.are_all_seen(kind, parts, since));
         approach(&mut place.seen[kind], seen, RAMP);
         approach(&mut place.gone[kind], gone, RAMP);
     }
@@ -168,7 +168,7 @@ impl TaskPlaces {
 
     fn report_subgoal(
         &self,
-        tick: u64,
+        since: u64,
         goal: usize,
         parts: &PartTracks,
         sight: &Sight,
@@ -182,7 +182,7 @@ impl TaskPlaces {
         let achieved = own.clone().find(|(_, part)| mounted(part));
         let rise = if achieved.is_some_and(|(_, part)| !part.is_put_by_robot()) { ACHIEVES } else { RAMP };
         let face = Vector3::from(socket) + Vector3::from(axis) * self.size(kind).height;
-        let is_known = || !sight.hides(face) || self.are_all_seen(tick, kind, parts);
+        let is_known = || !sight.hides(face) || self.are_all_seen(kind, parts, since);
         let empty = !own.clone().any(|(_, part)| away(part) < EMPTY) && is_known();
         approach(&mut out.achieved[goal], achieved.is_some(), rise);
         approach(&mut out.open[goal], empty, RAMP);

@@ -109,15 +109,19 @@ fn a_part_that_is_always_taken_for_another_is_one() {
     assert!(own < 0.1 && other > 0.9, "{own} {other}");
 }
 
+/// What looks like a part of this kind stands 7 cm beside column 1: tells which thing it is.
+fn with_what_looks_like(kind: usize, stage: &mut Stage) -> usize {
+    let beside = stage.things[stage.part("column 1")];
+    let [x, y, z] = beside.position;
+    stage.things.push(Thing { kind, position: [x, y + 0.07, z], ..beside });
+    stage.things.len() - 1
+}
+
 #[test]
 fn what_single_frames_show_is_not_there() {
     let mut stage = Stage::new();
     let nut = stage.kind("nut");
-    let ghost = stage.part("column 1");
-    stage.things.push(stage.things[ghost]);
-    let index = stage.things.len() - 1;
-    stage.things[index].kind = nut;
-    stage.things[index].position[1] += 0.07;
+    let index = with_what_looks_like(nut, &mut stage);
     // One of the two has been taken away: what is seen may be that one.
     let own = stage.part("nut");
     stage.things[own].visible = false;
@@ -132,9 +136,8 @@ fn what_single_frames_show_is_not_there() {
 #[test]
 fn what_looks_like_a_part_is_none_while_each_of_its_kind_is_seen_elsewhere() {
     let mut stage = Stage::new();
-    let (top, other) = (stage.kind("top floor"), stage.part("column 1"));
-    stage.things.push(Thing { kind: top, ..stage.things[other] });
-    stage.things.last_mut().unwrap().position[1] += 0.07;
+    let top = stage.kind("top floor");
+    with_what_looks_like(top, &mut stage);
     stage.run(1000, |_, _| {});
     assert!(stage.percept.workspace[PERSON].seen[top] < 0.1);
     let own = stage.part("top floor");
