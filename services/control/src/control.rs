@@ -367,7 +367,7 @@ impl Control {
         out.reaction = u32::try_from(decisions.reaction).unwrap_or(u32::MAX);
         out.speed_override =
             if self.state.arm_has_arrived() { 1.0 } else { self.state.arm.progress.speed_override };
-        out.handover = u32::from(self.state.may_touch_person(self.state.arm.progress.elapsed));
+        out.handover = u32::from(self.state.moves_in_handover());
         self.state.store(&mut out.state);
     }
 

@@ -64,6 +64,11 @@ impl ArmState {
         !self.braking.is_set() && self.progress.elapsed >= self.trajectory.duration()
     }
 
+    /// Whether it becomes slower, along its trajectory or joint by joint.
+    pub fn brakes(&self) -> bool {
+        self.braking.is_set() || self.progress.override_rate < 0.0
+    }
+
     /// Whether the trajectory goes on at its planned speed.
     pub fn is_at_planned_speed(&self) -> bool {
         !self.braking.is_set() && self.progress.is_at_planned_speed()

@@ -69,6 +69,13 @@ impl ControlState {
             }
     }
 
+    /// Whether the arm's motion is part of a handover, as its command declares: where it may touch the person's hand, and while an arm that
+    /// breaks a handover off brakes, for no arm stands at once.
+    pub fn moves_in_handover(&self) -> bool {
+        let breaks_off = self.hand.hands_over.is_set() && self.skill.phase() == SkillPhase::Plan;
+        self.may_touch_person(self.arm.progress.elapsed) || (breaks_off && self.arm.brakes())
+    }
+
     /// Whether the arm is at its goal, and the fingers still move.
     pub fn waits_for_fingers(&self) -> bool {
         self.skill.phase() == SkillPhase::Move && self.arm_has_arrived() && !self.fingers.has_arrived()
@@ -110,8 +117,12 @@ pub(crate) fn split(position: [f64; JOINTS]) -> (Posture, [f64; FINGER_JOINTS]) 
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 mod tests {
     use super::*;
+    use crate::state::ArmTrajectory;
+    use coact_motion::Plan;
+    use coact_robot::{Knot, MotionState};
 
     #[test]
     fn a_handover_lasts_while_the_hand_stands_in_the_persons_and_until_it_has_left() {
@@ -130,5 +141,23 @@ mod tests {
         assert!(declared(Skill::Give, SkillPhase::Idle) && declared(Skill::Steady, SkillPhase::Plan));
         // A movement that leaves nothing ends it.
         assert!(!declared(Skill::Steady, SkillPhase::Move) && !declared(Skill::Steady, SkillPhase::Plan));
+    }
+
+    #[test]
+    fn an_arm_that_breaks_a_handover_off_declares_it_while_it_brakes() {
+        let knot = |t| Knot { t, states: [MotionState::at_rest(t); ARM_JOINTS] };
+        let plan = Plan { knots: vec![knot(0.0), knot(1.0)], ..Plan::default() };
+        let mut state = ControlState::at_rest([0.0; JOINTS]);
+        state.arm.follow(&ArmTrajectory::of(&plan).unwrap());
+        state.arm.progress.elapsed = 0.5;
+        state.skill.skill = Skill::Receive;
+        state.skill.enter(SkillPhase::Move);
+        state.note_handover();
+        assert!(state.moves_in_handover(), "it closes on the person's hand");
+        state.skill.skill = Skill::Steady;
+        state.skill.enter(SkillPhase::Plan);
+        assert!(!state.moves_in_handover(), "an arm that goes on keeps clear");
+        state.arm.progress.override_rate = -1.0;
+        assert!(state.moves_in_handover() && !state.may_touch_person(0.5), "what is left of it belongs to it");
     }
 }
