@@ -110,7 +110,7 @@ impl<'a> Problem<'a> {
     }
 
     /// How far the hand leaves straight, and the posture after that; none when it is not to leave first. Where the arm cannot reach as far as
-    /// it is asked to, less far.
+    /// it is asked to, less far; where it cannot go straight at all, as at the limit of a joint, the hand keeps clear of everything from the start.
     fn left(&self) -> Result<Option<(Leave, Posture)>, Refusal> {
         let posture = self.start.map(|state| state.position);
         let clearance = self.clearance(SegmentKind::Leave);
@@ -123,9 +123,7 @@ impl<'a> Problem<'a> {
         let solver = NumericalIk { clearance, from: &posture, min_clearance: 0.0 };
         let goal = |leave: &Leave| self.mechanism.goal_of(&(Translation3::from(leave.0 * leave.1) * palm));
         let leaves = LEAVING.map(|fraction| (direction, fraction * distance));
-        let left =
-            leaves.iter().find_map(|leave| Some((*leave, solver.solve(&goal(leave), 0.0, 0.0, &posture)?)));
-        left.map(Some).ok_or_else(|| Refusal::OutOfReach { point: goal(&leaves[0]).point.coords.into() })
+        Ok(leaves.iter().find_map(|leave| Some((*leave, solver.solve(&goal(leave), 0.0, 0.0, &posture)?))))
     }
 
     /// The postures that serve as an end, best first.

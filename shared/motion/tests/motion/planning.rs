@@ -312,21 +312,23 @@ fn what_only_passing_fingers_would_touch_counts_on_the_reach_alone() {
     assert_eq!(segments.map(|segment| near(&open, segment)), [false, true, true]);
 }
 
-/// A hand that had let a part go near the end of its reach could not rise straight by 15 cm: it was refused every movement, and stood for ever.
+/// A hand that had let a part go near the end of its reach could not rise straight by 15 cm, and one that had received a part at the limit of a
+/// joint not at all: each was refused every movement, and stood for ever.
 #[test]
-fn a_hand_that_cannot_leave_as_far_as_it_is_asked_to_leaves_less_far() {
+fn a_hand_that_cannot_leave_as_far_as_it_is_asked_to_leaves_less_far_or_not_straight() {
     let scene = Scene::default();
     let there = problem(&scene, parked(), grip_at(-0.4, 0.55, 0.8)).plan().unwrap().end();
     let start = there.map(MotionState::at_rest);
-    let leaving = |distance: f64| {
+    let leaving_in = |scene: &Scene, distance: f64| {
         let leave = Some((Vector3::z(), distance));
         Problem {
             leave,
             goal: Goal::Posture(AROS.0.park),
-            ..problem(&scene, start, grip_at(-0.4, 0.55, 0.8))
+            ..problem(scene, start, grip_at(-0.4, 0.55, 0.8))
         }
         .plan()
     };
+    let leaving = |distance| leaving_in(&scene, distance);
     let farthest = (1..40).map(|step| 0.05 * f64::from(step)).find(|distance| {
         let left = leaving(*distance).unwrap();
         let end = left.segments[0].1;
@@ -334,6 +336,12 @@ fn a_hand_that_cannot_leave_as_far_as_it_is_asked_to_leaves_less_far() {
         risen < 0.9 * distance
     });
     assert!(farthest.is_some_and(|distance| distance < 1.5), "{farthest:?}");
-    let refusal = leaving(9.0).unwrap_err();
-    assert!(matches!(refusal, Refusal::OutOfReach { .. }), "{refusal}");
+    let plan = leaving(9.0).unwrap();
+    assert!(matches!(plan.segments[..], [(SegmentKind::Reach, _)]), "{:?}", plan.segments);
+    // What the hand may touch only while it leaves keeps it.
+    let at = AROS.0.arm.palm(&there);
+    let ball = Capsule { start: Point3::origin(), end: Point3::origin(), radius: 0.02 };
+    let part = Obstacle::new("part", Solid::Capsule(ball), &at);
+    let around = Scene { obstacles: vec![part], ..Scene::default() }.touching(&["part"]);
+    assert!(leaving_in(&around, 0.1).is_ok() && leaving_in(&around, 9.0).is_err());
 }
