@@ -106,7 +106,8 @@ impl Perception {
             if onset {
                 state.likelihoods.begin();
             }
-            if self.percept.person_holds.iter().all(|held| *held < HELD) {
+            // A grip that was out of sight shows when the hand comes back with what it has taken.
+            if self.percept.person_holds.iter().all(|held| *held < HELD) || state.grip_pitch().is_none() {
                 let pitch = state.hand.pitch();
                 state.keep_pitch(pitch);
             }

@@ -43,7 +43,7 @@ pub(crate) struct PerceptionState {
     pub dwell: u64,
     /// Cycles that nothing has been seen of the hand.
     pub unseen: u64,
-    /// Pitch of the hand when it took what it holds, rad; of the empty hand, its pitch now.
+    /// Pitch of the hand when it took what it holds, or was first seen with it, rad; of the empty hand, its pitch now.
     grip_pitch: f64,
     /// Whether that pitch could be seen.
     grip_seen: Flag,
@@ -107,12 +107,12 @@ impl PerceptionState {
         self.dwell = 0;
     }
 
-    /// Pitch of the hand when it took what it holds, rad; `None` if it could not be seen.
+    /// Pitch of the hand when it took what it holds, or was first seen with it, rad; `None` if it could not be seen.
     pub fn grip_pitch(&self) -> Option<f64> {
         self.grip_seen.is_set().then_some(self.grip_pitch)
     }
 
-    /// Keeps the pitch of an empty hand.
+    /// Keeps the pitch of an empty hand, or of one whose grip was not seen yet.
     pub fn keep_pitch(&mut self, pitch: Option<f64>) {
         self.grip_seen = pitch.is_some().into();
         self.grip_pitch = pitch.unwrap_or(0.0);

@@ -238,11 +238,12 @@ impl TrackedHand {
     }
 
     /// Direction from wrist to the knuckles' middle against the table plane, rad; `None` while it cannot be seen,
-    /// because knuckles were never found or because the keypoints are those of a flat image.
+    /// because knuckles were not found for long or because the keypoints are those of a flat image.
     pub fn pitch(&self) -> Option<f64> {
         let knuckles = [KeypointName::IndexKnuckle, KeypointName::LittleKnuckle];
-        let known = knuckles.iter().all(|name| self.is_known(*name));
-        (known && !self.keypoints.are_flat()).then_some(self.pitch)
+        let is_recent = |name| self.age_of(name, self.captured).is_some_and(|age| age <= LONGEST_GAP);
+        let are_recent = knuckles.into_iter().all(is_recent);
+        (are_recent && !self.keypoints.are_flat()).then_some(self.pitch)
     }
 
     /// The pitch that the hand is turning to, rad.

@@ -184,6 +184,26 @@ fn a_part_in_the_hand_is_held_until_the_hand_leaves_it() {
 }
 
 #[test]
+fn a_grip_that_was_out_of_sight_shows_when_the_hand_comes_back() {
+    let mut stage = Stage::new();
+    let wheel = stage.part("wheel");
+    stage.run(900, |stage, _| stage.tracking = false);
+    let taken = stage.grasping(wheel, TOP);
+    let held = Hand { centre: [-0.75, 0.30, 0.95], ..taken };
+    stage.things[wheel].position[2] += held.centre[2] - taken.centre[2];
+    (stage.things[wheel].position[0], stage.things[wheel].position[1]) = (held.centre[0], held.centre[1]);
+    (stage.hand, stage.tracking) = (held, true);
+    let knuckles = [KeypointName::IndexKnuckle, KeypointName::LittleKnuckle];
+    stage.wrong = knuckles.map(|name| (name, bytemuck::Zeroable::zeroed())).to_vec();
+    stage.run(150, |_, _| {});
+    let act = Act::Grasp { grip: TOP, kind: stage.kind("wheel") };
+    assert!(stage.percept.person_holds[stage.kind("wheel")] > 0.9);
+    stage.wrong.clear();
+    stage.run(100, |_, _| {});
+    assert!(stage.act(act) > 0.9, "{:.2}", stage.act(act));
+}
+
+#[test]
 fn a_hand_that_comes_to_rest_over_a_part_has_not_taken_it() {
     for aperture in [0.02, 0.03, 0.04] {
         let mut stage = Stage::new();
