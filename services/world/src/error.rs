@@ -5,7 +5,7 @@ use std::path::PathBuf;
 pub enum WorldError {
     /// The partner's name is none of the known ones.
     #[error(
-        "partner \"{name}\" is unknown; expected synthetic, random, random:KEY=VALUE,..., script:FILE, recorded:DIR, recorded:FILE.mcap, left-arm:FILE, right-arm:FILE or hand"
+        "partner \"{name}\" is unknown; expected synthetic, active, random, random:KEY=VALUE,..., script:FILE, recorded:DIR, recorded:FILE.mcap, left-arm:FILE, right-arm:FILE or hand"
     )]
     Partner {
         /// What was given.

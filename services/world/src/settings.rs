@@ -51,6 +51,8 @@ impl Settings {
 pub enum Partner {
     /// Chooses at random among the plan's valid actions, and makes no mistakes.
     Synthetic,
+    /// Chooses like the synthetic one, loses no time, and prepares what comes next.
+    Active,
     /// Chooses like the synthetic one, but makes mistakes, idles and shows its grips unclearly.
     Random(RandomBehaviour),
     /// Follows a written sequence of actions, in a scene that is arranged for it.
@@ -69,7 +71,7 @@ impl Partner {
     /// The name of a partner whose hand comes from outside.
     pub const HAND: &str = RunSettings::HAND;
 
-    /// Reads a partner as it is named on a command line: `synthetic`, `random`,
+    /// Reads a partner as it is named on a command line: `synthetic`, `active`, `random`,
     /// `random:KEY=VALUE,...` (see [`RandomBehaviour`]), `script:FILE`, `recorded:DIR`, `recorded:FILE.mcap`, `left-arm:FILE`,
     /// `right-arm:FILE` or `hand`.
     ///
@@ -81,6 +83,7 @@ impl Partner {
     pub fn load(name: &str, task: &Task, seed: u64) -> Result<Self, WorldError> {
         match name.split_once(':') {
             None if name == "synthetic" => Ok(Self::Synthetic),
+            None if name == "active" => Ok(Self::Active),
             None if name == Self::HAND => Ok(Self::Hand),
             None if name == "random" => Ok(Self::Random(RandomBehaviour::default())),
             Some(("random", settings)) => Ok(Self::Random(RandomBehaviour::parse(settings)?)),

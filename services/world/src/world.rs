@@ -66,6 +66,7 @@ impl World {
         let mut again = None;
         let (policy, recorded, staging) = match settings.partner {
             Partner::Synthetic => (Policy::Synthetic, None, Staging::default()),
+            Partner::Active => (Policy::Active, None, Staging::default()),
             Partner::Random(behaviour) => (Policy::Random(behaviour), None, Staging::default()),
             Partner::Script(scenario) => (Policy::Script(scenario.script), None, scenario.staging),
             Partner::Arm(arm) => (Policy::Arm(arm), None, Staging::default()),

@@ -29,6 +29,8 @@ pub enum ActivityPhase {
     AwaitRelease = 10,
     /// The empty hand goes back to rest.
     Withdraw = 11,
+    /// The part is held ready over where it lay, until its step's turn has come.
+    AwaitTurn = 12,
 }
 
 impl ActivityPhase {
@@ -38,9 +40,12 @@ impl ActivityPhase {
             Self::Rest | Self::Prepare => PartnerPhase::Idle,
             Self::Reach => PartnerPhase::Reach,
             Self::Dwell | Self::Carry | Self::Return => PartnerPhase::Transport,
-            Self::AwaitSteadying | Self::Mount | Self::Give | Self::Show | Self::AwaitRelease => {
-                PartnerPhase::Act
-            }
+            Self::AwaitTurn
+            | Self::AwaitSteadying
+            | Self::Mount
+            | Self::Give
+            | Self::Show
+            | Self::AwaitRelease => PartnerPhase::Act,
             Self::Withdraw => PartnerPhase::Withdraw,
         }
     }

@@ -8,6 +8,7 @@ use coact_period::cycles;
 use coact_random::Stream;
 use coact_recordings::WayKind;
 use coact_stage_state::Slot;
+use glam::DVec3;
 use rand::RngExt;
 use std::ops::Range;
 use std::time::Duration;
@@ -19,6 +20,8 @@ use std::time::Duration;
 const STEADYING_PATIENCE: u64 = cycles(Duration::from_secs(3));
 /// How long a part is shown to the robot for it to take, cycles.
 const GIVING_PATIENCE: u64 = cycles(Duration::from_secs(15));
+/// How long a part is held ready for its turn, cycles.
+const TURN_PATIENCE: u64 = cycles(Duration::from_secs(15));
 /// How long a gesture is shown, cycles.
 const SHOWING_PATIENCE: u64 = cycles(Duration::from_secs(12));
 /// How long the person waits for the robot to let go, cycles.
@@ -28,6 +31,8 @@ const DWELL: Range<u64> = cycles(Duration::from_millis(80))..cycles(Duration::fr
 /// How long mounting takes, cycles. Chosen by hand.
 const MOUNTING: Range<u64> = cycles(Duration::from_millis(400))..cycles(Duration::from_millis(700));
 
+/// How far above where it lay a part is held ready, m. Chosen by hand.
+const HELD_READY: f64 = 0.08;
 /// How long after grasp completion a part is put back, cycles. Chosen by hand: it is then hardly lifted, on its way, or at its socket.
 const RETURNS: Range<u64> = cycles(Duration::from_millis(100))..cycles(Duration::from_millis(1500));
 
@@ -101,10 +106,15 @@ impl Person {
         if rng.random_bool(returns) { tick + rng.random_range(RETURNS) } else { 0 }
     }
 
-    /// Sets off with the grasped part to where it is wanted, or to be laid down.
+    /// Sets off with the grasped part to where it is wanted, or to be laid down; one whose turn is coming is held ready.
     pub(crate) fn lift(&self, state: &mut PersonState, around: &Surroundings) {
         if state.activity() == Activity::Undo {
             return self.take_back(state, around);
+        }
+        if state.activity() == Activity::Insert && is_coming(state, around) {
+            let place = DVec3::from(state.home) + HELD_READY * DVec3::Z;
+            self.carry_to(state, around, (place, DVec3::Z), WayKind::Carry);
+            return state.enter(ActivityPhase::AwaitTurn, around.tick + TURN_PATIENCE);
         }
         match (state.activity(), state.subgoal.get()) {
             (Activity::Insert | Activity::Receive, Some(subgoal)) => {
@@ -113,11 +123,22 @@ impl Person {
                 self.carry_to(state, around, place, WayKind::Carry);
             }
             _ => {
-                let place = (around.task.scene.handover.into(), glam::DVec3::Z);
+                let place = (around.task.scene.handover.into(), DVec3::Z);
                 self.carry_to(state, around, place, WayKind::Give);
             }
         }
         state.enter(ActivityPhase::Carry, state.movement.end);
+    }
+
+    /// Holds the part ready until its turn has come, or for as long as patience lasts.
+    pub(crate) fn await_turn(&self, state: &mut PersonState, around: &Surroundings, done: &mut Manipulation) {
+        done.moved = self.carry(state, around);
+        let goal = state.subgoal.get();
+        if goal.is_some_and(|goal| around.parts.is_available(goal, around.task)) {
+            self.lift(state, around);
+        } else if around.tick >= state.until {
+            self.take_back(state, around);
+        }
     }
 
     pub(crate) fn carry_on(&self, state: &mut PersonState, around: &Surroundings, done: &mut Manipulation) {
@@ -146,6 +167,11 @@ impl Person {
         let time = self.random.at(Stream::Movement, tick).random_range(MOUNTING);
         state.enter(ActivityPhase::Mount, tick + time);
     }
+}
+
+/// Whether the turn of the present activity's step is coming.
+fn is_coming(state: &PersonState, around: &Surroundings) -> bool {
+    state.subgoal.get().is_some_and(|goal| around.is_coming(goal))
 }
 
 /// Whether the part is still where the activity needs it: free to be taken, mounted to be taken out, or in the robot's hand to be handed

@@ -43,6 +43,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod active_policy;
 mod activity;
 mod activity_phase;
 mod arm_course;

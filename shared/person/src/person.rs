@@ -83,6 +83,7 @@ impl Person {
             ActivityPhase::Dwell if over => self.lift(state, around),
             ActivityPhase::Dwell => {}
             ActivityPhase::Carry | ActivityPhase::Return => self.carry_on(state, around, &mut done),
+            ActivityPhase::AwaitTurn => self.await_turn(state, around, &mut done),
             ActivityPhase::AwaitSteadying if over || around.robot.steadying_since > 0 => {
                 self.begin_mounting(state, around.tick)
             }
@@ -105,7 +106,7 @@ impl Person {
         match &self.policy {
             Policy::Script(script) => script.sentence(index),
             Policy::Random(_) => task.chains.get(state.chain.get()?)?.says.get(index).map(String::as_str),
-            Policy::Synthetic | Policy::Arm(_) | Policy::Live => None,
+            Policy::Synthetic | Policy::Active | Policy::Arm(_) | Policy::Live => None,
         }
     }
 
@@ -154,6 +155,7 @@ impl Person {
             ActivityPhase::AwaitRelease => self.put_down(state, around, done),
             ActivityPhase::Dwell
             | ActivityPhase::Carry
+            | ActivityPhase::AwaitTurn
             | ActivityPhase::AwaitSteadying
             | ActivityPhase::Mount
             | ActivityPhase::Give

@@ -103,6 +103,7 @@ impl PersonState {
             ActivityPhase::Give => PersonWait::Receiving,
             ActivityPhase::Show => PersonWait::Part,
             ActivityPhase::AwaitRelease => PersonWait::Release,
+            ActivityPhase::AwaitTurn => PersonWait::Subgoal,
             ActivityPhase::Rest if self.awaits_robot.is_set() => PersonWait::Subgoal,
             _ => PersonWait::Nothing,
         }

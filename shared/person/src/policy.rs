@@ -1,6 +1,6 @@
 use crate::{
-    Intention, PersonState, RandomBehaviour, RecordedArm, Script, Surroundings, Undertaking, random_policy,
-    synthetic_policy,
+    Intention, PersonState, RandomBehaviour, RecordedArm, Script, Surroundings, Undertaking, active_policy,
+    random_policy, synthetic_policy,
 };
 use coact_period::cycles;
 use coact_random::{RandomStreams, Stream};
@@ -10,13 +10,17 @@ use std::time::Duration;
 
 /// Pause between two activities of a person who chooses, cycles. Chosen by hand.
 const PAUSE: Range<u64> = cycles(Duration::from_millis(500))..cycles(Duration::from_millis(2000));
+/// The same of one who loses no time, cycles. Chosen by hand: about a reaction time.
+const SHORT_PAUSE: Range<u64> = cycles(Duration::from_millis(150))..cycles(Duration::from_millis(400));
 
 /// Where the person's intentions come from.
 #[derive(Debug, Clone)]
 pub enum Policy {
     /// Chosen at random among the plan's valid actions.
     Synthetic,
-    /// The same, but with mistakes, pauses and variations as this says.
+    /// The same, but without a pause, and at work on what comes next while the robot mounts what comes before it.
+    Active,
+    /// As the synthetic one, but with mistakes, pauses and variations as this says.
     Random(RandomBehaviour),
     /// Written down beforehand.
     Script(Script),
@@ -37,6 +41,7 @@ impl Policy {
     ) -> Undertaking {
         match self {
             Self::Synthetic => synthetic_policy::choose(around, rng),
+            Self::Active => active_policy::choose(around, rng),
             Self::Random(behaviour) => random_policy::choose(behaviour, around, can_hide, rng),
             Self::Script(script) => script.next(around, state),
             Self::Arm(_) | Self::Live => Undertaking::Rest(PAUSE.end),
@@ -47,6 +52,7 @@ impl Policy {
     pub(crate) fn pause(&self, random: &RandomStreams, tick: u64) -> u64 {
         match self {
             Self::Synthetic | Self::Random(_) => random.at(Stream::Choice, tick).random_range(PAUSE),
+            Self::Active => random.at(Stream::Choice, tick).random_range(SHORT_PAUSE),
             Self::Script(_) => 1,
             Self::Arm(_) | Self::Live => PAUSE.end,
         }
@@ -56,7 +62,7 @@ impl Policy {
     pub(crate) fn behaviour(&self) -> Option<&RandomBehaviour> {
         match self {
             Self::Random(behaviour) => Some(behaviour),
-            Self::Synthetic | Self::Script(_) | Self::Arm(_) | Self::Live => None,
+            Self::Synthetic | Self::Active | Self::Script(_) | Self::Arm(_) | Self::Live => None,
         }
     }
 }

@@ -37,7 +37,7 @@ impl Person {
         let (from, to) = (movement.from.wrist(), movement.to.wrist());
         let along = frame.progress.clamp(0.0, 1.0);
         let arch = movement.arch * 16.0 * along * along * (1.0 - along) * (1.0 - along);
-        let detour = frame.detour * arm.thumb_side(&pose);
+        let detour = frame.detour * from.distance(to) * arm.thumb_side(&pose);
         pose.wrist = (from + frame.progress * (to - from) + detour + arch * DVec3::Z).into();
         pose
     }

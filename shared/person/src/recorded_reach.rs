@@ -35,7 +35,7 @@ pub(crate) struct RecordedFrame {
     time: f64,
     /// Fraction of the displacement that the wrist has covered.
     pub progress: f64,
-    /// How far it is off the straight line, m, towards the thumb's side.
+    /// How far it is off the straight line, towards the thumb's side, as a fraction of the displacement's length.
     pub detour: f64,
     /// Joints against the wrist: along the hand (wrist to knuckles), and across it (towards the thumb), m.
     pub shape: [DVec2; 9],
@@ -73,7 +73,7 @@ impl RecordedReach {
             RecordedFrame {
                 time: frames[index].time,
                 progress: moved.dot(displacement) / displacement.length_squared(),
-                detour: scale * moved.dot(side),
+                detour: moved.dot(side) / displacement.length(),
                 shape: std::array::from_fn(|joint| shapes[joint][index]),
                 reported: std::array::from_fn(|joint| reported(index, joint).unwrap_or(shapes[joint][index])),
                 confidence: frames[index].joints.map(|joint| joint.confidence.clamp(0.0, 1.0)),

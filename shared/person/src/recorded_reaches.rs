@@ -6,8 +6,8 @@ use std::path::Path;
 
 /// Reaches of one recorded person, ready to drive the partner's hand.
 ///
-/// The image knows neither depth nor the scene: each reach keeps its time course, its detours and the shape of the
-/// hand, in m by the length of the person's forearm at rest; start and end are those of the simulated reach.
+/// The image knows neither depth nor the scene: each reach keeps its time course, its detours in proportion to its way, and the shape of
+/// the hand, in m by the length of the person's forearm at rest; start and end are those of the simulated reach.
 #[derive(Debug, Clone)]
 pub struct RecordedReaches {
     pub(crate) reaches: Vec<RecordedReach>,

@@ -38,12 +38,23 @@ impl Surroundings<'_> {
         self.task.goal_of(chain, |goal| self.parts.is_available(goal, self.task))
     }
 
-    /// What is wrong with an intention as things are now.
+    /// Whether the turn of `goal` comes as soon as the robot has mounted what is in its hand.
+    pub(crate) fn is_coming(&self, goal: usize) -> bool {
+        let (task, achieved) = (self.task, self.parts.achieved());
+        let held = self.robot.held.filter(|_| self.robot.giving_since == 0).map(|part| self.parts.kind(part));
+        let mut next = (0..task.subgoals.len()).filter(|&own| {
+            let step = &task.subgoals[own];
+            Some(step.kind) == held && step.side == Agent::Robot && task.is_available(own, achieved)
+        });
+        !task.is_available(goal, achieved) && next.any(|own| task.is_available(goal, achieved | (1 << own)))
+    }
+
+    /// What is wrong with an intention as things are now: nothing with one whose turn is coming.
     pub(crate) fn error_of(&self, intention: &Intention) -> PartnerError {
         let Some(goal) = intention.subgoal else { return PartnerError::None };
         if self.parts.achieved() & (1 << goal) != 0 {
             PartnerError::Done
-        } else if !self.parts.is_available(goal, self.task) {
+        } else if !self.parts.is_available(goal, self.task) && !self.is_coming(goal) {
             PartnerError::Early
         } else if intention.activity == Activity::Request
             && self.own_part(self.task.subgoals[goal].kind).is_some()

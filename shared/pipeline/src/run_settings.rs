@@ -25,7 +25,7 @@ pub struct RunSettings {
     pub report: PathBuf,
     /// Seed of every random generator of the run.
     pub seed: u64,
-    /// The partner: `synthetic`, `script:FILE`, `recorded:DIR`, `recorded:FILE.mcap`, `left-arm:FILE`, `right-arm:FILE` or `hand`; or `replay:PARTICIPANT:DIR`, a person's recorded
+    /// The partner: `synthetic`, `active`, `script:FILE`, `recorded:DIR`, `recorded:FILE.mcap`, `left-arm:FILE`, `right-arm:FILE` or `hand`; or `replay:PARTICIPANT:DIR`, a person's recorded
     /// reaches, played to the sensors in place of a world.
     pub partner: String,
     /// Where the parts lie when an assembly begins.

@@ -41,7 +41,7 @@ pub struct Args {
     /// The task [default: the toy vehicle]
     #[arg(long, value_name = "FILE")]
     task: Option<PathBuf>,
-    /// Who works with the robot: synthetic, random[:KEY=VALUE,...], script:FILE, recorded,
+    /// Who works with the robot: synthetic, active, random[:KEY=VALUE,...], script:FILE, recorded,
     /// recorded:DIR, recorded:FILE.mcap (the hand of a run that was recorded), left-arm:FILE, right-arm:FILE, or hand: a hand that comes from outside (coact hand)
     /// [default: synthetic; with --console: hand]
     #[arg(long)]

@@ -75,7 +75,7 @@ pub struct Args {
     /// Seed of the first assembly; the others follow
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Who works with the robot: random[:KEY=VALUE,...], synthetic, script:FILE, recorded,
+    /// Who works with the robot: random[:KEY=VALUE,...], synthetic, active, script:FILE, recorded,
     /// recorded:DIR, left-arm:FILE or right-arm:FILE
     #[arg(long, default_value = "random")]
     partner: String,

@@ -158,6 +158,9 @@ mod tests {
         state.skill.enter(SkillPhase::Plan);
         assert!(!state.moves_in_handover(), "an arm that goes on keeps clear");
         state.arm.progress.override_rate = -1.0;
-        assert!(state.moves_in_handover() && !state.may_touch_person(0.5), "what is left of it belongs to it");
+        assert!(
+            state.moves_in_handover() && !state.may_touch_person(0.5),
+            "what is left of it belongs to it"
+        );
     }
 }

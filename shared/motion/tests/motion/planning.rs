@@ -321,12 +321,8 @@ fn a_hand_that_cannot_leave_as_far_as_it_is_asked_to_leaves_less_far_or_not_stra
     let start = there.map(MotionState::at_rest);
     let leaving_in = |scene: &Scene, distance: f64| {
         let leave = Some((Vector3::z(), distance));
-        Problem {
-            leave,
-            goal: Goal::Posture(AROS.0.park),
-            ..problem(scene, start, grip_at(-0.4, 0.55, 0.8))
-        }
-        .plan()
+        Problem { leave, goal: Goal::Posture(AROS.0.park), ..problem(scene, start, grip_at(-0.4, 0.55, 0.8)) }
+            .plan()
     };
     let leaving = |distance| leaving_in(&scene, distance);
     let farthest = (1..40).map(|step| 0.05 * f64::from(step)).find(|distance| {

@@ -3,7 +3,7 @@
 
 use crate::shipped::{configuration, settings};
 use coact_lockstep::Lockstep;
-use coact_messages::ArmSide;
+use coact_messages::{ArmSide, LayerKind, Truth};
 use coact_period::cycles;
 use coact_pipeline::RunSettings;
 use std::collections::BTreeSet;
@@ -36,6 +36,25 @@ fn vehicle_is_built_with_every_partner_in_an_order_that_the_plan_allows() {
         assert_eq!(before.count_ones() as usize, all, "the robot knows what is true");
     }
     assert!(by_left, "nobody took anything with the left hand, or the robot did not notice");
+}
+
+#[test]
+fn who_gets_the_next_part_ready_while_the_robot_mounts_is_not_corrected() {
+    let mut prepared = 0;
+    for seed in 1..=3 {
+        let mut stages = Lockstep::new(&settings(seed, "active")).unwrap();
+        let errors = stages.plan().layer(LayerKind::ErrorMonitoring).populations.clone();
+        while !stages.complete() && stages.ticks() < LONGEST {
+            stages.step();
+            let Truth { held, .. } = *stages.truth;
+            prepared += u32::from(held.iter().all(|parts| *parts != 0));
+            let found = errors.clone().find(|error| stages.frame.signal[*error] > 0.5);
+            let name = found.map(|error| stages.plan().populations[error].label.clone());
+            assert_eq!(name, None, "partner {seed}, tick {}", stages.ticks());
+        }
+        assert!(stages.complete(), "partner {seed} is left alone");
+    }
+    assert!(prepared > 1000, "both had a part in their hands for {prepared} ms");
 }
 
 #[test]
