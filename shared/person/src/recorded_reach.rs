@@ -172,3 +172,45 @@ fn hand_axes(frame: &Frame, wrist: DVec2) -> Option<(DVec2, DVec2)> {
     let across = if (index - little).dot(ahead.perp()) > 0.0 { ahead.perp() } else { -ahead.perp() };
     Some((ahead, across))
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+mod tests {
+    use super::*;
+    use coact_recordings::{ImagePoint, Size};
+
+    /// A wrist that goes 60 px to the right in 0.6 s, and 9 px aside on its way.
+    fn bent() -> Reach {
+        let hand = [
+            (-60., 0.),
+            (-32., 0.),
+            (0., 0.),
+            (3., 3.),
+            (18., 9.),
+            (12., 4.),
+            (18., 0.),
+            (20., -2.),
+            (10., -5.),
+        ];
+        let frame = |index: i32| {
+            let time = f64::from(index) / 60.0;
+            let along = (time / 0.6).clamp(0.0, 1.0);
+            let (x, y) = (100.0 + 60.0 * along, 50.0 + 36.0 * along * (1.0 - along));
+            Frame { time, joints: hand.map(|(dx, dy)| ImagePoint { x: x + dx, y: y + dy, confidence: 0.8 }) }
+        };
+        let frames = (-30..60).map(frame).collect();
+        Reach { participant: 1, size: Size::Medium, trial: 1, movement_time: 0.6, frames }
+    }
+
+    #[test]
+    fn a_detour_is_in_proportion_to_the_way_whatever_the_size_of_the_hand() {
+        let most = |scale: f64| {
+            let reach = RecordedReach::new(&bent(), scale).unwrap();
+            let detours = reach.frames.iter().map(|frame| frame.detour);
+            (detours.fold(0.0, f64::max), reach.centre.length())
+        };
+        let ((detour, hand), (of_larger, larger)) = (most(0.001), most(0.002));
+        assert!((detour - 0.15).abs() < 0.01, "{detour} of the way");
+        assert!((detour - of_larger).abs() < 1e-12 && (larger / hand - 2.0).abs() < 1e-9);
+    }
+}
