@@ -183,7 +183,7 @@ fn fields_that_cannot_select_are_refused() {
             "spacing = [0.01, 0.01]",
             "destinations.spacing: 0.01 x 0.01 is too fine for a field that reaches ",
         ),
-        ("undue = 0.6", "undue = 0", "undue: expected a number above 0, at most 1"),
+        ("undue = 0.3", "undue = 0", "undue: expected a number above 0, at most 1"),
         ("input_sigma = [0.025,", "input_sigma = [0.001,", "destinations.input_sigma: 0.001 is too little"),
         ("h = -2.0", "h = 1.0", "destinations.h: expected a resting level below 0"),
         ("inhibition = 1.0", "inhibition = -1", "destinations.inhibition: -1 is too little"),
