@@ -3,7 +3,7 @@
 
 use crate::undoing::undoing;
 use crate::{Activity, Intention, RandomBehaviour, Surroundings, Undertaking, Variation, synthetic_policy};
-use coact_joint_task::{Act, Agent};
+use coact_joint_task::Agent;
 use coact_messages::PartnerError;
 use coact_period::{PERIOD_S, cycles};
 use coact_random::is_in_burst;
@@ -135,16 +135,7 @@ fn one_of<R: Rng>(
 
 /// To take an own part for a goal that is not available.
 fn wrong_goal(around: &Surroundings, chain: usize) -> Option<Intention> {
-    let rule = &around.task.chains[chain];
-    let grasps = matches!(rule.act, Act::Grasp { .. }) && rule.from == Agent::Person;
-    let part = around.own_part(rule.kind).filter(|_| grasps)?;
-    let intention = Intention {
-        activity: around.activity(chain),
-        chain,
-        subgoal: around.goal(chain),
-        part: Some(part),
-        variation: Variation::default(),
-    };
+    let intention = around.taking(chain, around.goal(chain))?;
     is_wrong_goal(around, &intention).then_some(intention)
 }
 

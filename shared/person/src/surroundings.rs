@@ -38,6 +38,15 @@ impl Surroundings<'_> {
         self.task.goal_of(chain, |goal| self.parts.is_available(goal, self.task))
     }
 
+    /// The intention to take an own part by `chain` for `subgoal`; none when the chain takes none, or none lies there.
+    pub(crate) fn taking(&self, chain: usize, subgoal: Option<usize>) -> Option<Intention> {
+        let rule = &self.task.chains[chain];
+        let takes = matches!(rule.act, Act::Grasp { .. }) && rule.from == Agent::Person;
+        let part = Some(self.own_part(rule.kind).filter(|_| takes)?);
+        let (activity, variation) = (self.activity(chain), Variation::default());
+        Some(Intention { activity, chain, subgoal, part, variation })
+    }
+
     /// Whether the turn of `goal` comes as soon as the robot has mounted what is in its hand.
     pub(crate) fn is_coming(&self, goal: usize) -> bool {
         let (task, achieved) = (self.task, self.parts.achieved());
