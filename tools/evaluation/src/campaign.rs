@@ -1,5 +1,5 @@
 use crate::parallel::in_parallel;
-use crate::trial_recorder::TrialRecorder;
+use crate::trial_recorder::{Ending, TrialRecorder};
 use crate::{NetworkVariant, RecordedPerson, Trial};
 use coact_control::PlannerDelay;
 use coact_lockstep::{Lockstep, LockstepError};
@@ -11,11 +11,11 @@ use std::time::Duration;
 /// An assembly without a new subgoal for so long is given up, ticks: about as long as the toy vehicle takes as a whole.
 const STALLED: u64 = cycles(Duration::from_secs(60));
 
-/// Many assemblies.
+/// Many trials: in each, one person builds one assembly with the robot, or several.
 #[derive(Debug, Clone)]
 pub struct Campaign<'a> {
-    /// Task, robot, model, partner; the seed is that of the first assembly, the next ones follow. A random layout is drawn anew for
-    /// each. All of an assembly follows from its seed, so that any of them can be looked at alone.
+    /// Task, robot, model, partner; the seed is that of the first trial, the next ones follow. A random layout is drawn anew for
+    /// each. All of a trial follows from its seed, so that any of them can be looked at alone.
     pub settings: &'a RunSettings,
     /// Tasks that the seeds take in turn; without any it is that of the settings.
     pub tasks: &'a [PathBuf],
@@ -27,13 +27,15 @@ pub struct Campaign<'a> {
     pub guarded: bool,
     /// How long its planner's answers are held back.
     pub planner_delay: PlannerDelay,
-    /// How many assemblies.
+    /// How many.
     pub trials: u64,
+    /// How many assemblies one person builds in each, one after another: the robot gets to know the person in them.
+    pub assemblies: u64,
     /// How many at the same time.
     pub threads: usize,
 }
 
-/// Runs all assemblies in parallel and returns them in the order of their seeds; `done` is called after each.
+/// Runs all trials in parallel and returns them in the order of their seeds; `done` is called after each.
 ///
 /// # Errors
 /// A file or setting that a stage refuses.
@@ -45,8 +47,8 @@ pub fn run(campaign: &Campaign, done: impl Fn() + Sync) -> Result<Vec<Trial>, Lo
     })
 }
 
-/// One assembly, until it is complete, nothing is achieved for a minute, or each of its subgoals could have been achieved in
-/// that time.
+/// One trial, until its assemblies are complete, nothing is achieved for a minute, or each of their subgoals could have been
+/// achieved in that time.
 fn assemble(campaign: &Campaign, index: u64) -> Result<Trial, LockstepError> {
     let settings = settings(campaign, index);
     let mut stages = Lockstep::with_plan(&settings, |plan| campaign.network.apply(plan))?;
@@ -56,7 +58,7 @@ fn assemble(campaign: &Campaign, index: u64) -> Result<Trial, LockstepError> {
     stages.hold_plans_back(campaign.planner_delay);
     let (task, plan) = (stages.task().clone(), stages.plan().clone());
     let mut recorder = TrialRecorder::new(&task, &plan, stages.separation_meter()?, settings.seed);
-    let longest = STALLED * task.subgoals.len() as u64;
+    let longest = STALLED * task.subgoals.len() as u64 * campaign.assemblies;
     let (mut achieved, mut advanced) = (0, 0);
     while stages.ticks() < longest && stages.ticks() < advanced + STALLED {
         stages.step();
@@ -64,15 +66,15 @@ fn assemble(campaign: &Campaign, index: u64) -> Result<Trial, LockstepError> {
         if stages.truth.achieved != achieved {
             (achieved, advanced) = (stages.truth.achieved, stages.ticks());
         }
-        if task.is_complete(achieved) {
-            return Ok(recorder.finish(&stages, false));
+        if stages.completed() == campaign.assemblies {
+            return Ok(recorder.finish(&stages, Ending::Completed));
         }
     }
     let stalled = stages.ticks() < longest;
-    Ok(recorder.finish(&stages, stalled))
+    Ok(recorder.finish(&stages, if stalled { Ending::Stalled } else { Ending::TooLong }))
 }
 
-/// Those of the assembly with this number, from 0.
+/// Those of the trial with this number, from 0.
 fn settings(campaign: &Campaign, index: u64) -> RunSettings {
     let Campaign { settings, tasks, people, .. } = *campaign;
     let seed = settings.seed.wrapping_add(index);
@@ -109,6 +111,7 @@ mod tests {
             guarded: true,
             planner_delay: PlannerDelay::None,
             trials: 3,
+            assemblies: 1,
             threads: 1,
         };
         let taken = [0, 1, 2].map(|index| settings(&campaign, index));
@@ -141,6 +144,7 @@ mod tests {
             guarded: true,
             planner_delay: PlannerDelay::None,
             trials: 5,
+            assemblies: 1,
             threads: 1,
         };
         let taken = |index| {

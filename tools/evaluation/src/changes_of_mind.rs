@@ -125,6 +125,7 @@ mod tests {
             fields: Vec::new(),
             turn: Some(turn),
             hesitation: None,
+            earlier_reaches: 0,
         }
     }
 

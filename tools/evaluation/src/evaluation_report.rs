@@ -1,7 +1,7 @@
 use crate::statistics::{Estimate, Proportion, Spread};
 use crate::{
-    ChangesOfMind, Detection, ErrorKind, Hesitations, Inference, NetworkVariant, PartnerAction, TimeReport,
-    Trial,
+    ChangesOfMind, Detection, ErrorKind, Hesitations, Inference, KnownPeople, NetworkVariant, PartnerAction,
+    TimeReport, Trial,
 };
 use coact_run_records::SeparationReport;
 use serde::Serialize;
@@ -11,7 +11,7 @@ use serde::Serialize;
 pub struct EvaluationReport {
     /// The robot's network.
     pub network: NetworkVariant,
-    /// Assemblies that were completed.
+    /// Assemblies that were completed; where a person builds several, all of them.
     pub completed: Proportion,
     /// Assemblies that came to a deadlock: see [`Trial::stalled`].
     pub deadlocks: Proportion,
@@ -35,6 +35,10 @@ pub struct EvaluationReport {
     pub first_absent: Proportion,
     /// The same of reaches for a part, by the angle to the nearest part of another kind, as seen from where the hand set out.
     pub first_by_angle: Vec<AngleCounts>,
+    /// The same of people whom the robot knows: of actions before which the person had completed ten reaches for a part; none where
+    /// nobody made so many.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub known_people: Option<KnownPeople>,
     /// Valid actions of hidden hands whose goal stood rightly in IL at grasp completion.
     pub right_of_hidden: Proportion,
     /// ... for which another one stood.
@@ -202,6 +206,7 @@ impl EvaluationReport {
             first_wrong: first(Inference::Wrong),
             first_absent: first(Inference::Absent),
             first_by_angle: AngleCounts::of(&valid),
+            known_people: KnownPeople::new(&valid),
             right_of_hidden: inferred(&hidden, Inference::Right),
             wrong_of_hidden: inferred(&hidden, Inference::Wrong),
             absent_of_hidden: inferred(&hidden, Inference::Absent),

@@ -1,7 +1,7 @@
 //! Whole assemblies with random partners, in lockstep and in parallel: how often and how soon the robot understood, what
 //! it noticed of the person's errors, and how fluently the two worked; with intervals, and against ablations.
 //!
-//! A [`Trial`] is what one assembly was like. [`run`] makes many of them, an [`EvaluationReport`] counts them, and a
+//! A [`Trial`] is what one assembly was like, or several of one person. [`run`] makes many of them, an [`EvaluationReport`] counts them, and a
 //! [`Comparison`] sets two [`NetworkVariant`]s side by side that had the same partners.
 //!
 //! An [`Encounter`] is the working robot beside a recorded person's arm, to measure how near they come.
@@ -17,6 +17,7 @@ mod fluency;
 mod hesitant_reach;
 mod hesitations;
 mod hidden_goals;
+mod known_people;
 mod movement_times;
 mod nearest_angle;
 mod network_variant;
@@ -40,6 +41,7 @@ pub use evaluation_report::{AngleCounts, ErrorCounts, EvaluationReport};
 pub use fluency::Fluency;
 pub use hesitant_reach::HesitantReach;
 pub use hesitations::Hesitations;
+pub use known_people::KnownPeople;
 pub use movement_times::MovementTime;
 pub use network_variant::{Ablation, NetworkVariant};
 pub use plots::{draw_fluency, draw_leads, draw_timeline};

@@ -1,6 +1,6 @@
 use crate::ErrorKind;
 use crate::first_goal::FirstGoal;
-use coact_joint_task::{Act, NetworkPlan, Population, Role, Task};
+use coact_joint_task::{Act, Agent, Chain, NetworkPlan, Population, Role, Task};
 use coact_messages::{LayerKind, PartnerError, Truth};
 
 /// The person's present action, as far as it says what should come of it.
@@ -12,6 +12,8 @@ pub(crate) struct OpenAction {
     pub errors: Vec<usize>,
     /// Its complementary action: index into `Task::actions`.
     pub answer: Option<usize>,
+    /// Whether it is a reach for a part on the person's side.
+    pub reaches: bool,
     /// The first goal that stood on the way.
     pub first: FirstGoal,
     /// Since when its goal has been the highest peak of IL, after the hand has turned.
@@ -52,6 +54,7 @@ pub(crate) fn meant(task: &Task, plan: &NetworkPlan, truth: &Truth) -> Option<Me
             goal: plan.goal(chain, subgoal),
             errors,
             answer,
+            reaches: is_reach(rule),
             first: FirstGoal::default(),
             stands_since: None,
         },
@@ -59,6 +62,11 @@ pub(crate) fn meant(task: &Task, plan: &NetworkPlan, truth: &Truth) -> Option<Me
         subgoal: goal.name.clone(),
         error,
     })
+}
+
+/// Whether that is a reach for a part on the person's side.
+pub(crate) fn is_reach(rule: &Chain) -> bool {
+    matches!(rule.act, Act::Grasp { .. }) && rule.from == Agent::Person
 }
 
 /// What is wrong with an action that `requests` something, or not.

@@ -2,14 +2,14 @@ use crate::{Fluency, HesitantReach, MovementTime, SkillTime, TurnedReach};
 use coact_run_records::{SeparationReport, TimelineSpan};
 use serde::Serialize;
 
-/// What one assembly was like. Times are ms from its start.
+/// What came of one person's assembly, or of several one after another. Times are ms from the start.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Trial {
     /// The task's name.
     pub task: String,
     /// Seed of partner, sensors and noise.
     pub seed: u64,
-    /// When the last part came into its place.
+    /// When the last part of the last assembly came into its place.
     pub completed_ms: Option<u64>,
     /// How long it was watched.
     pub ended_ms: u64,
@@ -17,7 +17,7 @@ pub struct Trial {
     pub stalled: bool,
     /// What the layers showed in the end of an assembly that was not completed.
     pub last_fields: Vec<String>,
-    /// Subgoals that were then achieved, by name.
+    /// Subgoals of the last assembly that were then achieved, by name.
     pub achieved: Vec<String>,
     /// The person's actions.
     pub actions: Vec<PartnerAction>,
@@ -63,6 +63,8 @@ pub struct PartnerAction {
     pub error: Option<ErrorKind>,
     /// Whether it led behind something that hid the part, and the hand at it.
     pub hidden: bool,
+    /// Reaches for a part that this person had completed before: what the robot could have learned of the person's hand.
+    pub earlier_reaches: u32,
     /// Whether it was made with the left hand.
     pub left_hand: bool,
     /// Of a hidden one: how many goals plan and memory left at grasp completion, by what the robot could know of them.

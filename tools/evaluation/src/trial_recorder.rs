@@ -2,11 +2,11 @@ use crate::fluency::FluencyCounter;
 use crate::hidden_goals::hidden_goals;
 use crate::movement_times::MovementTimes;
 use crate::nearest_angle::nearest_angle;
-use crate::open_action::{Meant, OpenAction, meant};
+use crate::open_action::{Meant, OpenAction, is_reach, meant};
 use crate::skill_times::SkillTimes;
 use crate::trial::{Alarm, Detection, DoublePeak, Inference, PartnerAction, Trial};
 use crate::{HesitantReach, TurnedReach};
-use coact_joint_task::{Act, Agent, NetworkPlan, Role, Task};
+use coact_joint_task::{NetworkPlan, Role, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{ArmSide, FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
 use coact_monitor::{ActiveAgents, Anticipation, Intentions, Timeline};
@@ -27,7 +27,18 @@ const FORMED: f64 = 0.5;
 /// Signal above which a population is named in a trial. Chosen by hand, above the noise of a field at rest; for reading only.
 const SHOWN: f64 = 0.05;
 
-/// Records one assembly, tick by tick.
+/// How a trial ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// All its assemblies are complete.
+    Completed,
+    /// Nothing was achieved for too long.
+    Stalled,
+    /// Something was, again and again, but nothing came of it.
+    TooLong,
+}
+
+/// Records one trial, tick by tick.
 #[derive(Debug)]
 pub(crate) struct TrialRecorder<'a> {
     task: &'a Task,
@@ -44,6 +55,8 @@ pub(crate) struct TrialRecorder<'a> {
     open: Option<OpenAction>,
     /// Populations of EML whose peaks stand.
     alarmed: Vec<bool>,
+    /// Reaches for a part that the person has completed.
+    reaches: u32,
 }
 
 impl<'a> TrialRecorder<'a> {
@@ -76,6 +89,7 @@ impl<'a> TrialRecorder<'a> {
             },
             open: None,
             alarmed: vec![false; plan.populations.len()],
+            reaches: 0,
             task,
             plan,
         }
@@ -98,8 +112,8 @@ impl<'a> TrialRecorder<'a> {
         self.look_for_doubles(frame);
     }
 
-    /// The record of the assembly, which ends now.
-    pub fn finish(mut self, stages: &Lockstep, stalled: bool) -> Trial {
+    /// The record of the trial, which ends now.
+    pub fn finish(mut self, stages: &Lockstep, ending: Ending) -> Trial {
         let mut events = Vec::new();
         self.anticipation.finish(&mut events);
         self.add_answers(&events);
@@ -110,12 +124,12 @@ impl<'a> TrialRecorder<'a> {
         let names =
             (0..self.task.subgoals.len()).filter(done).map(|goal| self.task.subgoals[goal].name.clone());
         let achieved: Vec<_> = names.collect();
-        let complete = self.task.is_complete(stages.truth.achieved);
+        let complete = ending == Ending::Completed;
         let last_fields = if complete { Vec::new() } else { self.shown(&stages.frame) };
         Trial {
             completed_ms: complete.then_some(stages.ticks()),
             ended_ms: stages.ticks(),
-            stalled,
+            stalled: ending == Ending::Stalled,
             last_fields,
             achieved,
             fluency: self.fluency.fluency(),
@@ -154,7 +168,7 @@ impl<'a> TrialRecorder<'a> {
         // What has stood since before the hand set out is of the action before, or predicted.
         let new = inferred.filter(|&goal| frame.since[goal] > truth.onset_cycle);
         open.first.see(frame.header.cycle, new);
-        let (goal, first) = (open.goal, open.first.goal().or(inferred));
+        let (goal, first, reaches) = (open.goal, open.first.goal().or(inferred), open.reaches);
         let judged = |inferred: Option<usize>| match inferred {
             None => Inference::Absent,
             Some(_) if inferred == goal => Inference::Right,
@@ -179,6 +193,7 @@ impl<'a> TrialRecorder<'a> {
             action.first_inferred = first.map(|goal| self.plan.populations[goal].label.clone());
             action.inferred = inferred.map(|goal| self.plan.populations[goal].label.clone());
             action.fields = fields;
+            self.reaches += u32::from(reaches);
         }
     }
 
@@ -232,6 +247,7 @@ impl<'a> TrialRecorder<'a> {
             subgoal,
             error,
             hidden: truth.hidden != 0,
+            earlier_reaches: self.reaches,
             left_hand: truth.side == ArmSide::Left as u32,
             hidden_goals: None,
             onset_ms: truth.onset_cycle,
@@ -255,9 +271,8 @@ impl<'a> TrialRecorder<'a> {
     /// How near another part is to the way of the reach that begins.
     fn nearest_deg(&self, stages: &Lockstep) -> Option<f64> {
         let chain = &self.task.chains[stages.truth.chain as usize];
-        let grasps = matches!(chain.act, Act::Grasp { .. }) && chain.from == Agent::Person;
         let [_, _, wrist, _] = stages.truth.arms[stages.truth.side as usize];
-        nearest_angle(self.task, &stages.sample, chain.kind, wrist).filter(|_| grasps)
+        nearest_angle(self.task, &stages.sample, chain.kind, wrist).filter(|_| is_reach(chain))
     }
 
     fn close(&mut self) {

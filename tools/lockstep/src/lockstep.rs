@@ -270,6 +270,11 @@ impl Lockstep {
         self.tick += 1;
     }
 
+    /// Assemblies that are complete, by the truth: the scene is laid out again after each.
+    pub fn completed(&self) -> u64 {
+        self.truth.assemblies + u64::from(self.task.is_complete(self.truth.achieved))
+    }
+
     /// Whether the robot knows all subgoals to be achieved that the plan asks for.
     pub fn complete(&self) -> bool {
         let row = self.plan().layer(LayerKind::SubgoalsAchieved).populations.clone();

@@ -33,6 +33,7 @@ use std::process::ExitCode;
   coact evaluate --partner random:changes=0.5         who changes the mind in mid-reach
   coact evaluate --layout random                      parts lie elsewhere in each
   coact evaluate --movement recorded                  the hand reaches as recorded people did
+  coact evaluate --assemblies 4                       what is understood of a person after ten reaches
   coact evaluate --person mine.toml                   people hold the hand as that file says
   coact evaluate --world physics --trials 20          with contact forces; takes longer
   coact evaluate --planner-delay measured             movements are there as late as in real time
@@ -72,6 +73,10 @@ pub struct Args {
     /// How many assemblies
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..))]
     trials: u64,
+    /// How many assemblies each person builds one after another: figures of people whom the robot knows are told apart; what is told of
+    /// one assembly, times as well, is then told of all that the person builds
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=100))]
+    assemblies: u64,
     /// Seed of the first assembly; the others follow
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -179,6 +184,8 @@ struct Evaluation {
     person: PathBuf,
     seed: u64,
     trials: u64,
+    /// How many each person built one after another.
+    assemblies: u64,
     report: EvaluationReport,
     /// What the baseline is without.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -232,6 +239,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         person: settings.person.clone(),
         seed: args.seed,
         trials: args.trials,
+        assemblies: args.assemblies,
         report: EvaluationReport::new(&network, &trials),
         without: args.baseline.map(Baseline::lacks),
         comparison: baseline.as_ref().map(|(_, rivals)| Comparison::new(&trials, rivals)),
@@ -315,9 +323,11 @@ fn assemble(
     let threads = args.threads.map_or(cores, usize::from);
     let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left")?;
     let bar = ProgressBar::new(args.trials).with_style(style).with_message(what);
-    let (tasks, trials) = (args.task.as_slice(), args.trials);
+    let Args { trials, assemblies, .. } = *args;
+    let tasks = args.task.as_slice();
     let planner_delay = args.planner_delay.unwrap_or_default();
-    let campaign = Campaign { settings, tasks, people, network, guarded, planner_delay, trials, threads };
+    let campaign =
+        Campaign { settings, tasks, people, network, guarded, planner_delay, trials, assemblies, threads };
     let trials = coact_evaluation::run(&campaign, || bar.inc(1));
     bar.finish_and_clear();
     Ok(trials?)

@@ -26,6 +26,7 @@ fn trials(partner: &str, network: &NetworkVariant, trials: u64, threads: usize) 
             guarded: true,
             planner_delay: PlannerDelay::None,
             trials,
+            assemblies: 1,
             threads,
         },
         || {},
@@ -45,6 +46,7 @@ fn same_seeds_give_the_same_trials_with_any_number_of_threads() {
         guarded: true,
         planner_delay: PlannerDelay::None,
         trials: 2,
+        assemblies: 1,
         threads: 2,
     };
     let one = run(&campaign, || _ = done.fetch_add(1, Ordering::Relaxed)).unwrap();
@@ -88,6 +90,7 @@ fn without_its_guard_the_robot_is_never_held_back_and_closes_on_people() {
             guarded,
             planner_delay: PlannerDelay::None,
             trials: 2,
+            assemblies: 1,
             threads: 2,
         };
         EvaluationReport::new(&network, &run(&campaign, || {}).unwrap())
@@ -176,6 +179,7 @@ fn a_robot_that_leaves_a_handover_closes_on_nobody() {
             guarded: true,
             planner_delay: PlannerDelay::None,
             trials: 1,
+            assemblies: 1,
             threads: 1,
         },
         || {},

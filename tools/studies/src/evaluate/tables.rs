@@ -2,7 +2,8 @@
 
 use super::Evaluation;
 use coact_evaluation::{
-    ChangesOfMind, Comparison, Estimate, EvaluationReport, Hesitations, Proportion, Spread, TimeReport,
+    ChangesOfMind, Comparison, Estimate, EvaluationReport, Hesitations, KnownPeople, Proportion, Spread,
+    TimeReport,
 };
 use comfy_table::{Table, presets::UTF8_HORIZONTAL_ONLY};
 
@@ -18,6 +19,7 @@ pub(super) fn print(evaluation: &Evaluation) {
         person,
         seed,
         trials,
+        assemblies,
         report,
         without,
         baseline,
@@ -27,11 +29,15 @@ pub(super) fn print(evaluation: &Evaluation) {
         [task] => task.clone(),
         tasks => format!("{} tasks", tasks.len()),
     };
+    let many = match assemblies {
+        1 => format!("{trials} assemblies"),
+        _ => format!("{trials} times {assemblies} assemblies one after another"),
+    };
     let lacks = without.unwrap_or_default();
     let (layout, movement, world) = (layout.told(), movement.told(), world.name());
     let delay = planner_delay.as_ref().map_or(String::new(), |delay| format!(", plans held back: {delay}"));
     println!(
-        "{task}: {trials} assemblies with {partner}, people as in {}, in the {world} world{layout}{movement}{delay}, seeds from {seed}; 95 % intervals",
+        "{task}: {many} with {partner}, people as in {}, in the {world} world{layout}{movement}{delay}, seeds from {seed}; 95 % intervals",
         person.display()
     );
     let mut table = Table::new();
@@ -105,6 +111,7 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
         row("lead of the others p5 p50 p95, ms", spread(report.lead_ms)),
         row("  mean", interval(report.mean_lead_ms, 1.0, 0, "")),
     ];
+    rows.extend(report.known_people.iter().flat_map(rows_of_known_people));
     for tally in report.first_by_angle.iter().filter(|tally| tally.right.of > 0) {
         let wrong = format!("; wrong {}", tally.wrong.count);
         let name = format!("first goal right, next part {} to {}°", tally.from_deg, tally.below_deg);
@@ -138,6 +145,18 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
     }
     rows.extend(report.hesitations.iter().flat_map(rows_of_hesitations));
     rows
+}
+
+/// Name and value of what was understood of people whom the robot knows.
+fn rows_of_known_people(known: &KnownPeople) -> Vec<(String, String)> {
+    let row = |name: &str, value: String| (name.to_owned(), value);
+    vec![
+        row("goal inferred rightly, after ten reaches", proportion(&known.right)),
+        row("  wrongly", proportion(&known.wrong)),
+        row("  first goal that stood 50 ms was right", proportion(&known.first_right)),
+        row("  wrong", proportion(&known.first_wrong)),
+        row("  lead p5 p50 p95, ms", spread(known.lead_ms)),
+    ]
 }
 
 /// Name and value of every metric of where the time went.
