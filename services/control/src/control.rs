@@ -41,6 +41,8 @@ pub struct Control {
     started: bool,
     /// Whether the guard has no say.
     unguarded: bool,
+    /// Whether the hand gets ready for nothing.
+    pub(crate) myopic: bool,
 }
 
 impl Control {
@@ -108,6 +110,7 @@ impl Control {
             limits: *limits,
             started: false,
             unguarded: false,
+            myopic: false,
         };
         Ok((control, thread))
     }
@@ -121,6 +124,11 @@ impl Control {
     /// From now on the guard admits everything: to measure in lockstep what it costs, never beside a person.
     pub fn leave_unguarded(&mut self) {
         self.unguarded = true;
+    }
+
+    /// From now on the hand gets ready for nothing that is not decided: to measure what it gains.
+    pub fn prepare_nothing(&mut self) {
+        self.myopic = true;
     }
 
     /// From now on movements that are planned within the step are there as much later: so lockstep shows what real time does. A planner

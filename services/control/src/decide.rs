@@ -49,12 +49,13 @@ impl Control {
         }
     }
 
-    /// The same, but to park where the hand has been ready for long, and nothing has come of it: it may hide something.
+    /// The same, but to park where the hand has been ready for long, and nothing has come of it: it may hide something. A myopic robot is never
+    /// ready.
     fn unless_in_vain(&self, choice: SkillChoice) -> SkillChoice {
         let skill = &self.state.skill;
         let is_ready = skill.prepares.is_set() && skill.phase() == SkillPhase::Idle;
         let in_vain = is_ready && choice.is_under_way(skill) && skill.progress.age > READY;
-        if in_vain { choice.parked() } else { choice }
+        if in_vain || (self.myopic && choice.prepares) { choice.parked() } else { choice }
     }
 
     /// Whether the person, too, holds the part that the robot has received: an arm that set off would pull it out of her fingers. She has let go

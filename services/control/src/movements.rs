@@ -10,14 +10,14 @@ use coact_robot::{MotionState, NextUse};
 use coact_stage_state::{Flag, Slot};
 use nalgebra::{Isometry3, Vector3};
 
-/// Refusals after which a part is put down as it comes. Chosen by hand: each takes a pause of 300 ms.
-const LOOSELY: u64 = 3;
+/// Refusals after which a part is put down as it comes. Chosen by hand: 1 s, for each takes a pause of 100 ms.
+const LOOSELY: u64 = 10;
 /// Refusals after which an action is given up for a while. Chosen by hand: 3 s, in which whoever is in the way may leave.
-const MOST_REFUSALS: u64 = 10;
+const MOST_REFUSALS: u64 = 30;
 /// How far a hand lifts a part that it has picked, m. Chosen by hand: out from between the parts beside it.
 const LIFT: f64 = 0.06;
 /// How far a hand goes back out of where it is otherwise, m. Chosen by hand: the fingers are clear of what they have let go.
-const RETREAT: f64 = 0.10;
+const RETREAT: f64 = 0.07;
 /// A hand less far in a narrow place than this fraction of the way is out of it: 5 mm of a retreat.
 const OUT: f64 = 0.05;
 /// Room that the person's fingers need on a part to take it, m: the height of two fingers.

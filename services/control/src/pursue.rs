@@ -48,12 +48,10 @@ impl Control {
             SkillPhase::Wait => self.wait_for_person(inputs),
             SkillPhase::Dwell => self.dwell(inputs),
             SkillPhase::Verify => self.verify(inputs),
-            SkillPhase::Close if self.state.fingers.has_arrived() => {
-                self.state.skill.enter(SkillPhase::Verify);
-            }
+            SkillPhase::Close if self.state.fingers.has_arrived() => self.state.skill.verify(),
             // She takes what she had let go of, before they have closed on it again.
             SkillPhase::Close if self.is_taken(inputs) => self.move_fingers(SkillPhase::Open),
-            SkillPhase::Close => {}
+            SkillPhase::Close => self.feel_and_look(inputs),
             SkillPhase::Open => self.open(inputs),
         }
     }

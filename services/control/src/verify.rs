@@ -14,7 +14,8 @@ const FELT: u64 = cycles(Duration::from_millis(40));
 const LONGEST: u64 = cycles(Duration::from_millis(400));
 /// Camera frames in which the part in the hand is looked at: their mean has half the scatter of one.
 const LOOKED: u64 = 4;
-/// How long a first sight of it is waited for: four camera frames. Mostly the hand itself hides what it has picked, and no later frame will show it.
+/// What no camera frame has shown for so long is out of sight: four of them. Mostly the hand itself hides what it picks, and no later frame will show
+/// it.
 const HIDDEN: u64 = cycles(Duration::from_millis(120));
 /// How near the part must be seen to where it was grasped, m: farther than closing fingers push it, nearer than other parts.
 /// Chosen by hand.
@@ -26,13 +27,8 @@ impl Control {
     /// Verifies that there is a part between the fingers: that a new one is, or that the held one still is, when the fingers
     /// have closed again on what was to be given.
     pub(crate) fn verify(&mut self, inputs: &Inputs) {
-        let touched = &mut self.state.skill.progress.touched;
-        match inputs.touch() {
-            Some(true) => *touched = touched.saturating_add(1),
-            Some(false) => *touched = 0,
-            None => {}
-        }
-        let is_felt = *touched >= FELT;
+        self.feel_and_look(inputs);
+        let is_felt = self.state.skill.progress.touched >= FELT;
         let is_late = self.state.skill.progress.age > LONGEST;
         if !self.state.hand.is_empty() {
             if is_felt {
@@ -48,20 +44,33 @@ impl Control {
         }
     }
 
-    /// Looks at what the fingers have closed on; true once some camera frames have shown it, or none does in time.
-    fn has_seen_part(&mut self, inputs: &Inputs) -> bool {
+    /// What the fingers feel, and whether the camera shows what they close on, from when they begin to close. Where it lies counts only once they
+    /// have closed: they push it.
+    pub(crate) fn feel_and_look(&mut self, inputs: &Inputs) {
         let skill = &mut self.state.skill;
         let expected = skill.place.isometry().translation.vector.into();
-        let since = inputs.tick().saturating_sub(skill.progress.age);
         let seen = skill.kind.get().and_then(|kind| inputs.sighting(kind, &expected, IN_SIGHT));
+        let closed = skill.phase() == SkillPhase::Verify;
+        let since = inputs.tick().saturating_sub(skill.progress.age);
         let progress = &mut skill.progress;
-        if let Some((_, at)) = seen.filter(|(frame, _)| *frame >= since && *frame != progress.seen_in) {
+        match inputs.touch() {
+            Some(true) => progress.touched = progress.touched.saturating_add(1),
+            Some(false) => progress.touched = 0,
+            None => {}
+        }
+        let Some((frame, at)) = seen.filter(|(frame, _)| *frame > progress.seen_in) else { return };
+        progress.seen_in = frame;
+        if closed && frame >= since {
             let in_palm = self.model.robot.palm(&self.servo.posture()).inverse() * at;
             progress.seen = (Vector3::from(progress.seen) + in_palm.translation.vector).into();
             progress.sightings = progress.sightings.saturating_add(1);
-            progress.seen_in = seen.map_or(0, |(frame, _)| frame);
         }
-        let is_hidden = progress.sightings == 0 && progress.age > HIDDEN;
+    }
+
+    /// Whether some camera frames have shown what the fingers have closed on, or none does any more.
+    fn has_seen_part(&self, inputs: &Inputs) -> bool {
+        let progress = &self.state.skill.progress;
+        let is_hidden = inputs.tick() > progress.seen_in.saturating_add(HIDDEN);
         progress.sightings >= LOOKED || is_hidden || progress.age > LONGEST
     }
 

@@ -131,5 +131,6 @@ pub use search_heartbeat::SearchHeartbeat;
 use segment::Segment;
 pub use segment_kind::SegmentKind;
 use segment_motion::SegmentMotion;
+pub use shortest_time::shortest_time;
 pub use solid::Solid;
 pub use target::Target;

@@ -2,7 +2,7 @@ use coact_robot::{JointLimits, MotionState, Posture};
 
 /// The shortest time in which all joints could come to these positions and rest there, each by itself, whatever is in the way, s; of joints
 /// under way a little less than that.
-pub(crate) fn shortest_time(from: &[MotionState; 7], to: &Posture, limits: &[JointLimits; 7]) -> f64 {
+pub fn shortest_time(from: &[MotionState; 7], to: &Posture, limits: &[JointLimits; 7]) -> f64 {
     let times = from.iter().zip(to).zip(limits).map(|((from, to), limits)| {
         let way = (to - from.position).abs();
         if from.is_at_rest() { rest_to_rest(way, limits) } else { way / limits.velocity }

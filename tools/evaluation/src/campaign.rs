@@ -55,6 +55,9 @@ fn assemble(campaign: &Campaign, index: u64) -> Result<Trial, LockstepError> {
     if !campaign.guarded {
         stages.leave_unguarded();
     }
+    if campaign.network.myopic {
+        stages.prepare_nothing();
+    }
     stages.hold_plans_back(campaign.planner_delay);
     let (task, plan) = (stages.task().clone(), stages.plan().clone());
     let mut recorder = TrialRecorder::new(&task, &plan, stages.separation_meter()?, settings.seed);

@@ -81,6 +81,10 @@ pub struct EvaluationReport {
     pub held_back: f64,
     /// See `held_back`.
     pub stopped: f64,
+    /// Assemblies in which no joint of the arm was ever farther than 20 mrad from where it was to be.
+    pub tracked: Proportion,
+    /// The farthest that one was, rad.
+    pub tracking_error_rad: f64,
     /// Fractions of the task time, of completed assemblies: see [`Fluency`](crate::Fluency).
     pub human_idle: Option<Estimate>,
     /// R-IDLE.
@@ -119,6 +123,8 @@ pub struct AngleCounts {
     pub wrong: Proportion,
 }
 
+/// A joint that is no farther from its setpoint follows it, rad: the aim for an arm in the physics world.
+const TRACKED: f64 = 0.02;
 /// Angles at which reaches are told apart, degrees.
 const ANGLES: [f64; 6] = [0.0, 4.0, 8.0, 12.0, 20.0, 180.0];
 
@@ -233,6 +239,8 @@ impl EvaluationReport {
                 .fold(0.0, f64::max),
             held_back: of_separation(|separation| separation.held_back_ms) as f64 / ticks,
             stopped: of_separation(|separation| separation.stopped_ms) as f64 / ticks,
+            tracked: of_trials(&|trial| trial.tracking.max <= TRACKED),
+            tracking_error_rad: trials.iter().map(|trial| trial.tracking.max).fold(0.0, f64::max),
             human_idle: mean(&|trial| trial.fluency.human_idle),
             robot_idle: mean(&|trial| trial.fluency.robot_idle),
             concurrent: mean(&|trial| trial.fluency.concurrent),

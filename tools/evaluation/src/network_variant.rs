@@ -11,11 +11,14 @@ use serde::Serialize;
 /// - Nothing is inferred from a hand that is hidden.
 /// - An inferred goal does not count as achieved before it is: synapses from IL to CSGL are removed.
 ///
-/// What the person says, what lies where and the robot's own initiative are no predictions, and stay.
+/// What the person says, what lies where and the robot's own initiative are no predictions, and stay. The myopic robot does not look ahead in its own
+/// work either: its hand gets ready for nothing that is not decided, and what it is about to mount opens no next step before it is done.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct NetworkVariant {
     /// Without anticipation.
     pub reactive: bool,
+    /// Without look-ahead.
+    pub myopic: bool,
     /// Layers, or the noise, that are removed.
     pub without: Vec<Ablation>,
 }
@@ -40,6 +43,9 @@ impl NetworkVariant {
         if self.reactive {
             remove_anticipation(&mut plan);
         }
+        if self.myopic {
+            remove_look_ahead(&mut plan);
+        }
         for ablation in &self.without {
             match ablation {
                 Ablation::Oml => {
@@ -63,6 +69,18 @@ fn silence(plan: &mut NetworkPlan, kinds: &[LayerKind]) {
     let apart =
         |synapse: &Synapse| !rows.iter().any(|row| row.contains(&synapse.from) || row.contains(&synapse.to));
     plan.synapses.retain(apart);
+}
+
+/// Removes what the robot's own next step, and the part in its hand, open before it is done.
+fn remove_look_ahead(plan: &mut NetworkPlan) {
+    let row = |kind: LayerKind| plan.layer(kind).populations.clone();
+    let (decided, next) = (row(LayerKind::ActionExecution), row(LayerKind::SubgoalsAvailable));
+    let synapses = plan.synapses.iter().copied();
+    let kept = synapses.filter(|synapse| {
+        let held = matches!(channel_of(plan, synapse.from), Some(Channel::RobotHolds(_)));
+        !(next.contains(&synapse.to) && (held || decided.contains(&synapse.from)))
+    });
+    plan.synapses = kept.collect();
 }
 
 /// Removes what anticipates: synapses that predict, and evidence of acts that are not completed.

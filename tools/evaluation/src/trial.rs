@@ -1,5 +1,5 @@
 use crate::{Fluency, HesitantReach, MovementTime, SkillTime, TurnedReach};
-use coact_run_records::{SeparationReport, TimelineSpan};
+use coact_run_records::{SeparationReport, TimelineSpan, TrackingReport};
 use serde::Serialize;
 
 /// What came of one person's assembly, or of several one after another. Times are ms from the start.
@@ -37,6 +37,8 @@ pub struct Trial {
     pub skills: Vec<SkillTime>,
     /// How long the arm's movements took.
     pub movements: Vec<MovementTime>,
+    /// How far the joints were from where they were to be.
+    pub tracking: TrackingReport,
 }
 
 impl Trial {

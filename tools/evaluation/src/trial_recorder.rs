@@ -9,8 +9,8 @@ use crate::{HesitantReach, TurnedReach};
 use coact_joint_task::{NetworkPlan, Role, Task};
 use coact_lockstep::Lockstep;
 use coact_messages::{ArmSide, FieldFrame, LayerKind, PartnerError, PartnerPhase, Truth};
-use coact_monitor::{ActiveAgents, Anticipation, Intentions, Timeline};
-use coact_run_records::{Event, SeparationReport};
+use coact_monitor::{ActiveAgents, Anticipation, Intentions, Timeline, Tracking};
+use coact_run_records::{Event, SeparationReport, TrackingReport};
 use coact_seen_parts::SeenParts;
 use coact_separation::SeparationMeter;
 
@@ -49,6 +49,7 @@ pub(crate) struct TrialRecorder<'a> {
     timeline: Timeline,
     skills: SkillTimes,
     movements: MovementTimes,
+    tracking: Tracking,
     /// What the camera has shown of the parts.
     parts: SeenParts,
     trial: Trial,
@@ -68,6 +69,7 @@ impl<'a> TrialRecorder<'a> {
             timeline: Timeline::new(task),
             skills: SkillTimes::default(),
             movements: MovementTimes::default(),
+            tracking: Tracking::new(),
             parts: SeenParts::none(),
             trial: Trial {
                 task: task.name.clone(),
@@ -86,6 +88,7 @@ impl<'a> TrialRecorder<'a> {
                 timeline: Vec::new(),
                 skills: Vec::new(),
                 movements: Vec::new(),
+                tracking: TrackingReport::default(),
             },
             open: None,
             alarmed: vec![false; plan.populations.len()],
@@ -103,6 +106,7 @@ impl<'a> TrialRecorder<'a> {
         self.timeline.tick(truth, &stages.command, &mut self.trial.timeline);
         self.skills.tick(self.task, &frame.decision, &stages.command, truth);
         self.movements.tick(&stages.command.path, truth.header.cycle);
+        self.tracking.command(&stages.command);
         self.parts.see(&stages.sample.scene, self.task);
         let mut events = Vec::new();
         self.anticipation.observe(truth, frame, &mut events);
@@ -136,6 +140,7 @@ impl<'a> TrialRecorder<'a> {
             separation: self.separation.report().clone(),
             skills: self.skills.finish(),
             movements: self.movements.finish(),
+            tracking: self.tracking.report(),
             ..self.trial
         }
     }

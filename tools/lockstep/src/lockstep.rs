@@ -24,6 +24,7 @@ pub struct Lockstep {
     network: Network,
     control: Control,
     unguarded: bool,
+    myopic: bool,
     planner_delay: PlannerDelay,
     seed: u64,
     tick: u64,
@@ -111,6 +112,7 @@ impl Lockstep {
             perception: Perception::new(&task, &model)?.with_robot(robot.clone()),
             control: Control::new(robot.clone(), &task, &limits)?,
             unguarded: false,
+            myopic: false,
             planner_delay: PlannerDelay::None,
             robot,
             limits,
@@ -136,6 +138,12 @@ impl Lockstep {
     pub fn leave_unguarded(&mut self) {
         self.unguarded = true;
         self.control.leave_unguarded();
+    }
+
+    /// From now on the robot's hand gets ready for nothing that is not decided: to measure what it gains.
+    pub fn prepare_nothing(&mut self) {
+        self.myopic = true;
+        self.control.prepare_nothing();
     }
 
     /// From now on control's planner holds its answers back.
@@ -205,6 +213,9 @@ impl Lockstep {
         self.control = Control::new(self.robot.clone(), &self.task, &self.limits)?;
         if self.unguarded {
             self.control.leave_unguarded();
+        }
+        if self.myopic {
+            self.control.prepare_nothing();
         }
         self.control.hold_plans_back(self.planner_delay);
         self.control.resume(&self.command);

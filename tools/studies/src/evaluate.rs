@@ -27,6 +27,7 @@ use std::process::ExitCode;
   coact evaluate                                      100 with a partner who errs now and then
   coact evaluate --trials 10000 --out reports/random  many, with every action written down
   coact evaluate --baseline reactive                  against a robot without anticipation
+  coact evaluate --baseline myopic                    ... that does not get ready for anything either
   coact evaluate --baseline unguarded                 what keeping clear of the person costs
   coact evaluate --ablate oml                         without object memory
   coact evaluate --partner random:goal=0.2,clarity=0.3..1
@@ -152,6 +153,8 @@ impl Moved {
 enum Baseline {
     /// Without anticipation: it answers what the person has done, never what the person is about to do
     Reactive,
+    /// Without anticipation and look-ahead: moreover its hand gets ready for nothing
+    Myopic,
     /// Without its guard: it goes on at its planned speed however near the person is
     Unguarded,
 }
@@ -209,6 +212,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     let network = NetworkVariant {
         reactive: false,
+        myopic: false,
         without: args.ablate.iter().map(|layer| layer.ablation()).collect(),
     };
     let models = tempfile::tempdir().context("no folder for models of preshaping")?;
@@ -221,8 +225,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let baseline = match args.baseline {
         None => None,
         Some(baseline) => {
-            let reactive = baseline == Baseline::Reactive;
-            let network = NetworkVariant { reactive, ..network.clone() };
+            let myopic = baseline == Baseline::Myopic;
+            let reactive = myopic || baseline == Baseline::Reactive;
+            let network = NetworkVariant { reactive, myopic, ..network.clone() };
             let guarded = baseline != Baseline::Unguarded;
             let what = format!("without {}", baseline.lacks());
             let trials = assemble((&network, guarded), what)?;
@@ -260,6 +265,7 @@ impl Baseline {
     fn lacks(self) -> &'static str {
         match self {
             Self::Reactive => "anticipation",
+            Self::Myopic => "anticipation and look-ahead",
             Self::Unguarded => "guard",
         }
     }

@@ -13,9 +13,9 @@ pub(crate) struct PhaseProgress {
     pub met: u64,
     /// Cycles for which the person has pulled at the held part.
     pub pulled: u64,
-    /// Camera frames that have shown the part between the fingers.
+    /// Camera frames that have shown the part between the fingers, once they had closed.
     pub sightings: u64,
-    /// Cycle of the newest of them.
+    /// Cycle of the newest one that has shown it, while they closed as well; 0 before.
     pub seen_in: u64,
     /// Sum of the places at which they have shown it, in the palm's frame, m.
     pub seen: [f64; 3],

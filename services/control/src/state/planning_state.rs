@@ -28,7 +28,7 @@ const FIRST_LEAD: u64 = cycles(Duration::from_millis(40));
 /// The same at most: each answer that is late doubles it. The arm then goes on to the old goal for so long.
 const LONGEST_LEAD: u64 = cycles(Duration::from_millis(320));
 /// Cycles after which a query that was refused is made again: the person, or a part, may have moved by then.
-const PAUSE: u64 = cycles(Duration::from_millis(300));
+const PAUSE: u64 = cycles(Duration::from_millis(100));
 
 impl PlanningState {
     /// Nothing was asked yet.

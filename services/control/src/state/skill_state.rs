@@ -34,6 +34,13 @@ impl SkillState {
         self.progress = PhaseProgress::zeroed();
     }
 
+    /// The fingers have closed: what they have felt and seen meanwhile counts.
+    pub fn verify(&mut self) {
+        let PhaseProgress { touched, seen_in, .. } = self.progress;
+        self.enter(SkillPhase::Verify);
+        self.progress = PhaseProgress { touched, seen_in, ..self.progress };
+    }
+
     /// Whether the hand goes, or is, where another skill begins: a part is requested where it is received.
     pub fn leads_to(&self, skill: Skill, kind: Slot) -> bool {
         let stands_or_comes = matches!(self.phase, SkillPhase::Plan | SkillPhase::Move | SkillPhase::Dwell);

@@ -99,6 +99,18 @@ fn phases_of_an_insertion_come_in_order() {
     assert_eq!(world.command.action, NONE);
 }
 
+/// The hand is beside it already, and sees what it closes on no more: nothing is waited for once the fingers have closed and feel it.
+#[test]
+fn a_grasp_takes_hardly_longer_than_the_fingers_do() {
+    let mut world = KinematicWorld::new();
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
+    world.until(6.0, "taken", |world| world.phase() == MotionPhase::Transport);
+    let [.., (MotionPhase::Grasp, from), (MotionPhase::Transport, to)] = world.phases[..] else {
+        panic!("{:?}", world.phases)
+    };
+    assert!(to - from < 300, "{} ms", to - from);
+}
+
 #[test]
 fn without_the_part_in_sight_the_robot_does_not_reach() {
     let mut world = KinematicWorld::new();

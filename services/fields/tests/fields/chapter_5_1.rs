@@ -30,6 +30,21 @@ fn robot_requests_a_wheel_while_the_person_idles() {
     assert_eq!(robot.decision().as_deref(), Some("request: wheel on the robot's side"));
 }
 
+/// Column 1 lies with the person, and nothing else can be done before it is in its hole.
+#[test]
+fn what_the_plan_hangs_on_is_requested_at_once_where_the_person_has_no_step_of_the_own() {
+    let mut robot = start();
+    for wheel_or_nut in [PERSON_WHEEL, ROBOT_WHEEL, "nut on the person's side"] {
+        robot.achieve(wheel_or_nut);
+    }
+    robot.run(500);
+    assert_eq!(robot.decision().as_deref(), Some("insert: nut on the robot's side"));
+    robot.achieve("nut on the robot's side");
+    robot.run(300);
+    assert_eq!(robot.available(), ["column 1 in its hole"]);
+    assert_eq!(robot.decision().as_deref(), Some("request: column 1 in its hole"), "nobody idles yet");
+}
+
 #[test]
 fn grip_from_above_makes_the_robot_give_up_its_own_intention_and_steady_the_base() {
     let mut robot = start();

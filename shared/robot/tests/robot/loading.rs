@@ -119,7 +119,7 @@ fn a_robot_file_with_a_wrong_key_is_refused_with_its_line() {
         ("palm = ", "plam = ", "plam"),
         ("joints = [\"arm_1\"", "joints = [\"arm_9\"", "joints"),
         ("park = [-2.39983", "park = [2.9", "park"),
-        ("jerk = 400.0", "jerk = -1.0", "jerk"),
+        ("jerk = 2000.0", "jerk = -1.0", "jerk"),
     ] {
         std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
         let error = Robot::load(&path).unwrap_err().to_string();

@@ -8,6 +8,7 @@ use coact_evaluation::{
 use coact_joint_task::NetworkPlan;
 use coact_messages::LayerKind;
 use coact_pipeline::{RunSettings, WorldMode};
+use coact_run_records::{Occupation, Waiting};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -76,6 +77,48 @@ fn a_robot_without_anticipation_answers_later() {
     draw_fluency(&[("with", &with), ("without", &without)], &folder.path().join("fluency.svg")).unwrap();
     let picture = std::fs::read_to_string(folder.path().join("fluency.svg")).unwrap();
     assert!(picture.contains("functional delay"));
+}
+
+#[test]
+fn a_robot_that_does_not_look_ahead_gets_ready_for_nothing() {
+    let myopic = NetworkVariant { reactive: true, myopic: true, ..NetworkVariant::default() };
+    let prepared = |network: &NetworkVariant| {
+        let (mut trials, span) = (trials("synthetic", network, 2, 2), Occupation::Prepares);
+        let spans = trials.drain(..).flat_map(|trial| trial.timeline);
+        spans.filter(|own| own.who == Waiting::Robot && own.occupation == span).count()
+    };
+    assert!(prepared(&NetworkVariant::default()) > 0);
+    assert_eq!(prepared(&myopic), 0);
+}
+
+/// A person who builds several assemblies one after another is known after ten reaches.
+#[test]
+fn what_is_understood_of_a_person_after_ten_reaches_is_told_apart() {
+    let (settings, network) = (settings("synthetic"), NetworkVariant::default());
+    let campaign = Campaign {
+        settings: &settings,
+        tasks: &[],
+        people: &[],
+        network: &network,
+        guarded: true,
+        planner_delay: PlannerDelay::None,
+        trials: 1,
+        assemblies: 3,
+        threads: 1,
+    };
+    let trials = run(&campaign, || {}).unwrap();
+    let report = EvaluationReport::new(&network, &trials);
+    assert_eq!(report.completed.count, 1);
+    let known = report.known_people.unwrap();
+    let actions = &trials[0].actions;
+    let later = actions.iter().filter(|action| action.earlier_reaches >= 10 && action.grasp_ms.is_some());
+    assert_eq!(known.right.of, later.count());
+    assert!(known.right.of < report.right.of, "{} of {}", known.right.of, report.right.of);
+    assert!(actions.is_sorted_by_key(|action| action.earlier_reaches));
+    let alone = run(&Campaign { assemblies: 1, ..campaign }, || {}).unwrap();
+    assert!(alone[0].actions.iter().all(|action| action.earlier_reaches < 10));
+    assert_eq!(EvaluationReport::new(&network, &alone).known_people, None);
+    assert_eq!(actions[..alone[0].actions.len() - 1], alone[0].actions[..alone[0].actions.len() - 1]);
 }
 
 #[test]

@@ -93,6 +93,8 @@ fn rows(report: &EvaluationReport) -> Vec<(String, String)> {
             "arm held back, stopped",
             format!("{:.1} %, {:.1} %", 100.0 * report.held_back, 100.0 * report.stopped),
         ),
+        row("setpoints followed within 20 mrad", proportion(&report.tracked)),
+        row("  farthest from them, mrad", format!("{:.1}", 1e3 * report.tracking_error_rad)),
         row("goal inferred rightly at grasp", proportion(&report.right)),
         row("  wrongly", proportion(&report.wrong)),
         row("  not", proportion(&report.absent)),
