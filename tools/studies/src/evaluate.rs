@@ -27,14 +27,14 @@ use std::process::ExitCode;
   coact evaluate                                      100 with a partner who errs now and then
   coact evaluate --trials 10000 --out reports/random  many, with every action written down
   coact evaluate --baseline reactive                  against a robot without anticipation
-  coact evaluate --baseline myopic                    ... that does not get ready for anything either
+  coact evaluate --baseline myopic                    ... that does not look ahead either
   coact evaluate --baseline unguarded                 what keeping clear of the person costs
   coact evaluate --ablate oml                         without object memory
   coact evaluate --partner random:goal=0.2,clarity=0.3..1
   coact evaluate --partner random:changes=0.5         who changes the mind in mid-reach
   coact evaluate --layout random                      parts lie elsewhere in each
   coact evaluate --movement recorded                  the hand reaches as recorded people did
-  coact evaluate --assemblies 4                       what is understood of a person after ten reaches
+  coact evaluate --assemblies 4                       people whom the robot knows
   coact evaluate --person mine.toml                   people hold the hand as that file says
   coact evaluate --world physics --trials 20          with contact forces; takes longer
   coact evaluate --planner-delay measured             movements are there as late as in real time
