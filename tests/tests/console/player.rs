@@ -17,6 +17,8 @@ pub const PATIENCE: Duration = Duration::from_secs(60);
 /// How long somebody looks whether the hand has done what it was to do, and how often it tries.
 const LOOKS: Duration = Duration::from_secs(4);
 const TRIES: usize = 5;
+/// How many pictures somebody looks at who wants to know where a part lies.
+const PICTURES: usize = 12;
 
 /// Somebody at the page, who moves the mouse as a recorded person reached.
 pub struct Player {
@@ -99,23 +101,45 @@ impl Player {
         self.at = to;
     }
 
-    /// The part of a kind that lies nearest to a place; with whoever holds it, 0 being nobody.
-    pub fn part(&mut self, kind: &str, near: DVec2, held_by: u32) -> Option<DVec3> {
+    /// Where one picture shows parts of a kind; with whoever holds them, 0 being nobody.
+    fn shown(&mut self, kind: &str, held_by: u32) -> Vec<DVec3> {
         let expression = format!(
             "(() => {{ const kind = coact.hello().task.kinds.findIndex(({{name}}) => name === {kind:?}); const {{parts}} = \
              coact.picture(); const found = []; for (let i = 0; i < parts.length; i += 9) if (parts[i] === kind && parts[i + 8] === \
              {held_by}) found.push([parts[i + 1], parts[i + 2], parts[i + 3]]); return found; }})()"
         );
         let found: Vec<[f64; 3]> = serde_json::from_value(self.browser.value(&expression)).unwrap();
-        let away = |place: &DVec3| place.truncate().distance(near);
-        let places = found.into_iter().map(DVec3::from);
-        places.min_by(|one, other| away(one).total_cmp(&away(other)))
+        found.into_iter().map(DVec3::from).collect()
     }
 
-    /// The part of a kind that lies nearest to where the hand rests, once it is seen: single frames lack it.
+    /// The part of a kind that one picture shows nearest to a place; with whoever holds it, 0 being nobody.
+    pub fn part(&mut self, kind: &str, near: DVec2, held_by: u32) -> Option<DVec3> {
+        nearest(self.shown(kind, held_by), near)
+    }
+
+    /// Where parts of a kind lie by most of several pictures: single ones lack a part, or show one where there is none.
+    fn steadily_shown(&mut self, kind: &str) -> Vec<DVec3> {
+        let mut pictures: Vec<Vec<DVec3>> = Vec::new();
+        for _ in 0..PICTURES {
+            pictures.push(self.shown(kind, 0));
+            std::thread::sleep(Duration::from_millis(60));
+        }
+        let shows = |picture: &[DVec3], place: DVec3| picture.iter().any(|own| own.distance(place) < 0.02);
+        let is_steady =
+            |place: &DVec3| 2 * pictures.iter().filter(|picture| shows(picture, *place)).count() > PICTURES;
+        pictures.iter().flatten().copied().filter(is_steady).collect()
+    }
+
+    /// The part of a kind that lies nearest to where the hand rests, and not in its place, once it is seen.
     fn lying(&mut self, kind: &str) -> DVec3 {
         let near = self.rest();
-        wait_within(PATIENCE, kind, || self.part(kind, near, 0))
+        let sockets = self.browser.value("coact.hello().task.subgoals.map(({socket}) => socket.at)");
+        let sockets: Vec<[f64; 3]> = serde_json::from_value(sockets).unwrap();
+        wait_within(PATIENCE, kind, || {
+            let mut places = self.steadily_shown(kind);
+            places.retain(|place| sockets.iter().all(|socket| place.distance(DVec3::from(*socket)) > 0.05));
+            nearest(places, near)
+        })
     }
 
     fn grip(&mut self, number: u32) {
@@ -160,39 +184,46 @@ impl Player {
     }
 
     /// Takes a part from where it is, looks whether the hand has it, and tries again if not: on a busy machine the fingers close late.
-    fn takes_from(&mut self, kind: &str, grip: u32, place: impl Fn(&mut Self) -> DVec3) {
+    fn takes_from(&mut self, kind: &str, grip: u32, place: impl Fn(&mut Self) -> DVec3) -> DVec3 {
         for _ in 0..TRIES {
             let part = place(self);
             self.grasp(part.truncate(), grip);
             if self.sees(LOOKS, |player| player.in_hand(kind).is_some()) {
-                return;
+                return part;
             }
             self.opens();
         }
         panic!("the {kind} is not taken: {}", self.state());
     }
 
-    /// Takes a part, brings it there, and sees that it has come there, or is in the robot's hand already; if not, tries again: on a busy machine the
-    /// hand leaves before its fingers have closed.
+    /// Takes a part, brings it there, and sees that it has come there, is in the robot's hand already, or is at least not where it was:
+    /// hands may cover it. If it is, tries again: on a busy machine the hand leaves before its fingers have closed.
     fn brings(&mut self, kind: &str, grip: u32, to: DVec2) {
         self.brings_from(kind, grip, to, |player| player.lying(kind));
     }
 
     fn brings_from(&mut self, kind: &str, grip: u32, to: DVec2, place: impl Fn(&mut Self) -> DVec3) {
         for _ in 0..TRIES {
-            self.takes_from(kind, grip, &place);
+            let from = self.takes_from(kind, grip, &place);
             self.go(to);
             let is_there = |at: DVec2| at.distance(to) < 0.03;
             let is_beside = |at: DVec3| at.truncate().distance(to) < 0.15;
             let came = |player: &mut Self| {
                 player.in_hand(kind).is_some_and(is_there) || player.part(kind, to, 1).is_some_and(is_beside)
             };
-            if self.sees(LOOKS, came) {
+            if self.sees(LOOKS, came) || !self.is_left(kind, from) {
                 return;
             }
             self.opens();
         }
         panic!("the {kind} is not where the hand is: {}", self.state());
+    }
+
+    /// Whether a part of the kind is still where the fingers were to close on it: on the table, or in the robot's hand.
+    fn is_left(&mut self, kind: &str, from: DVec3) -> bool {
+        let is_there = |at: DVec3| at.distance(from) < 0.03;
+        let with_robot = self.shown(kind, 1);
+        with_robot.into_iter().chain(self.steadily_shown(kind)).any(is_there)
     }
 
     fn opens(&mut self) {
@@ -343,6 +374,11 @@ impl Player {
         self.wait_for("the page again", "coact.state().pictures > 5");
         self.wait_for("all events", &format!("coact.state().events.length >= {known}"));
     }
+}
+
+fn nearest(places: Vec<DVec3>, near: DVec2) -> Option<DVec3> {
+    let away = |place: &DVec3| place.truncate().distance(near);
+    places.into_iter().min_by(|one, other| away(one).total_cmp(&away(other)))
 }
 
 fn place(value: &Value) -> DVec3 {
