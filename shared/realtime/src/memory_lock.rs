@@ -1,5 +1,6 @@
 //! No page fault in a steady cycle: memory is locked, or at least prefaulted before the first cycle.
 
+use crate::SchedulingClass;
 use rustix::mm::{Advice, MlockAllFlags, madvise, mlockall};
 use rustix::process::{Resource, getrlimit};
 use rustix::thread::{CapabilitySet, capabilities};
@@ -14,6 +15,9 @@ const STACK_RESERVE: usize = 256 << 10;
 /// Heaps of one process: more than it has threads, so that each has its own. Of one heap for all, an ordinary thread that was kept from its
 /// core held the lock while the real-time one wanted memory for a new connection: a stage was without output for up to 6 ms.
 const HEAPS: i32 = 32;
+/// Memory that is populated at once, bytes: whoever populates holds a lock of the address space, and a real-time thread that maps a
+/// peer's memory waits for it. Chosen by hand: 16 pages take some ten microseconds.
+const PIECE: usize = 64 << 10;
 
 /// Prefaults all memory, and locks it if the machine grants that.
 ///
@@ -76,9 +80,24 @@ pub(crate) fn populate() {
     for (range, rights) in maps.lines().filter_map(mapping) {
         let advice =
             if rights.starts_with("rw") { Advice::LinuxPopulateWrite } else { Advice::LinuxPopulateRead };
-        // SAFETY: populating neither changes contents nor rights; ranges that have vanished are refused.
-        let _ = unsafe { madvise(range.start as *mut _, range.len(), advice) };
+        for start in range.clone().step_by(PIECE) {
+            let size = PIECE.min(range.end - start);
+            // SAFETY: populating neither changes contents nor rights; ranges that have vanished are refused.
+            let _ = unsafe { madvise(start as *mut _, size, advice) };
+        }
     }
+}
+
+/// The same by a thread beside cycles that run already, on their core, which is an ordinary one afterwards.
+///
+/// Meanwhile it stands above ordinary threads. As one of those it was kept from its core by other programs while it held the lock of
+/// the address space, and the real-time thread of a replacement stood for more than 100 ms in `munmap`: it was taken for hung.
+pub(crate) fn populate_beside_cycles() {
+    // Refused, no thread of the process is of a real-time class.
+    let _ = SchedulingClass::STARTING.apply();
+    populate();
+    // Always granted.
+    let _ = SchedulingClass::Other.apply();
 }
 
 /// Address range and access rights of one line of /proc/self/maps.
@@ -93,6 +112,10 @@ fn mapping(line: &str) -> Option<(std::ops::Range<usize>, &str)> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::{Duration, Instant};
 
     #[test]
     fn mapping_is_read_with_its_rights() {
@@ -105,13 +128,7 @@ mod tests {
     #[test]
     fn populated_memory_takes_no_fault_when_it_is_written() {
         let pages = 512;
-        let size = pages * 4096;
-        // SAFETY: a fresh anonymous mapping, used only below.
-        let memory = unsafe {
-            let flags = rustix::mm::MapFlags::PRIVATE;
-            let rights = rustix::mm::ProtFlags::READ | rustix::mm::ProtFlags::WRITE;
-            rustix::mm::mmap_anonymous(std::ptr::null_mut(), size, rights, flags).unwrap()
-        };
+        let memory = anonymous(pages * 4096);
         populate();
         let before = faults();
         for page in 0..pages {
@@ -119,6 +136,75 @@ mod tests {
             unsafe { memory.cast::<u8>().add(page * 4096).write_volatile(1) };
         }
         assert!(faults() - before < pages as i64 / 4, "{} faults for {pages} pages", faults() - before);
+    }
+
+    #[test]
+    fn whoever_gives_memory_back_waits_for_no_thread_that_populates_while_others_have_its_core() {
+        let core = first_core();
+        let took = on_core(core, move || {
+            if SchedulingClass::Fifo(3).apply().is_err() {
+                println!("skipped: no right to SCHED_FIFO");
+                return None;
+            }
+            let done = Arc::new(AtomicBool::new(false));
+            let stays = done.clone();
+            let others: Vec<_> = (0..3).map(|_| others_work(stays.clone())).collect();
+            let memory = anonymous(128 << 20);
+            let begun = Instant::now();
+            let beside = std::thread::spawn(populate_beside_cycles);
+            let mut longest = Duration::ZERO;
+            while !beside.is_finished() {
+                let cycle = Instant::now();
+                give_back(anonymous(4096), 4096);
+                longest = longest.max(cycle.elapsed());
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            let all = begun.elapsed();
+            done.store(true, Ordering::Relaxed);
+            others.into_iter().for_each(|other| other.join().unwrap());
+            give_back(memory, 128 << 20);
+            Some((longest, all))
+        });
+        let Some((longest, all)) = took else { return };
+        assert!(longest < all / 5, "{longest:?} of the {all:?} that populating took");
+    }
+
+    fn first_core() -> CpuSet {
+        let granted = sched_getaffinity(None).unwrap();
+        let mut core = CpuSet::new();
+        core.set((0..CpuSet::MAX_CPU).find(|&core| granted.is_set(core)).unwrap());
+        core
+    }
+
+    /// What a thread on this core gives.
+    fn on_core<T: Send + 'static>(core: CpuSet, work: impl FnOnce() -> T + Send + 'static) -> T {
+        let there = move || {
+            sched_setaffinity(None, &core).unwrap();
+            work()
+        };
+        std::thread::spawn(there).join().unwrap()
+    }
+
+    /// An ordinary thread on the same core that always has something to do.
+    fn others_work(done: Arc<AtomicBool>) -> std::thread::JoinHandle<()> {
+        std::thread::spawn(move || {
+            SchedulingClass::Other.apply().unwrap();
+            while !done.load(Ordering::Relaxed) {
+                std::hint::spin_loop();
+            }
+        })
+    }
+
+    fn anonymous(size: usize) -> *mut libc::c_void {
+        let rights = rustix::mm::ProtFlags::READ | rustix::mm::ProtFlags::WRITE;
+        let flags = rustix::mm::MapFlags::PRIVATE;
+        // SAFETY: a fresh anonymous mapping, used only by whoever asked for it.
+        unsafe { rustix::mm::mmap_anonymous(std::ptr::null_mut(), size, rights, flags).unwrap() }
+    }
+
+    fn give_back(memory: *mut libc::c_void, size: usize) {
+        // SAFETY: mapped by `anonymous` with this size, and not used any more.
+        unsafe { rustix::mm::munmap(memory, size).unwrap() };
     }
 
     fn faults() -> i64 {

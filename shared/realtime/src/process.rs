@@ -182,11 +182,11 @@ impl Process {
     fn keep_last_thread(&self) -> Result<(), ProcessError> {
         let prefaults = self.generation > 0;
         let last = move || {
+            if prefaults {
+                memory_lock::populate_beside_cycles();
+            }
             // Always granted.
             let _ = SchedulingClass::Other.apply();
-            if prefaults {
-                memory_lock::populate();
-            }
             park();
         };
         std::thread::Builder::new().name("last".into()).spawn(last).map(drop).map_err(ProcessError::Thread)
