@@ -3,7 +3,8 @@
 use crate::Control;
 use crate::inputs::Inputs;
 use crate::robot::FingerShape;
-use crate::state::{FinishedAction, MovementQuery, Skill, SkillPhase, StoredPose};
+use crate::state::{FinishedAction, HandState, MovementQuery, Skill, SkillPhase, StoredPose};
+use coact_joint_task::ActionType;
 use coact_period::cycles;
 use coact_stage_state::{Flag, Slot};
 use nalgebra::Isometry3;
@@ -17,6 +18,9 @@ const MET: u64 = cycles(Duration::from_millis(100));
 const PULL: f64 = 1.5;
 /// How long it must last: the wrist's sensor reports means of 30 ms, so that one of them is past.
 const PULLED: u64 = cycles(Duration::from_millis(30));
+/// The same of a part that the robot has for itself: a hand that only brushes it, or a part that only touches its place, takes nothing.
+/// Chosen by hand.
+const INSISTED: u64 = cycles(Duration::from_millis(500));
 /// Force below which the person has let go, N. Chosen by hand: above what the held part's own acceleration makes of it.
 pub(crate) const LET_GO: f64 = 0.3;
 /// After so long, a handover that does not come about is given up. Chosen by hand: people who assemble are busy for longer than
@@ -34,14 +38,21 @@ impl Control {
     pub(crate) fn pursue(&mut self, inputs: &Inputs) {
         let age = &mut self.state.skill.progress.age;
         *age = age.saturating_add(1);
+        self.feel_pull(inputs);
         self.take_up_movement(inputs);
         match self.state.skill.phase() {
             SkillPhase::Idle => {}
             SkillPhase::Plan | SkillPhase::Move if self.servo.arm_stands() && self.is_taken(inputs) => {
                 // The person comes to meet a hand that does not get on: no movement begins any more but out of her hand.
+                // Whatever it was for, it is given now.
+                self.state.skill.skill = Skill::Give;
                 self.state.planning.query = MovementQuery::NONE;
                 self.state.arm.rest_in_hand(self.servo.posture());
                 self.move_fingers(SkillPhase::Open);
+            }
+            // She insists on what goes elsewhere: the arm stops first.
+            SkillPhase::Move if self.state.skill.skill != Skill::Give && self.is_taken(inputs) => {
+                self.state.arm.braking = Flag::Set;
             }
             SkillPhase::Plan => self.ask_again(inputs),
             SkillPhase::Move => self.go_on(inputs),
@@ -148,14 +159,25 @@ impl Control {
         }
     }
 
-    /// Whether the person has pulled for a while at the part that the robot gives.
-    fn is_taken(&mut self, inputs: &Inputs) -> bool {
-        let given = self.state.hand.held().filter(|_| self.state.skill.skill == Skill::Give);
-        let can_take = given.is_some_and(|kind| inputs.person_can_take(kind));
+    /// For how long the person has pulled at the held part, with a hand that can have it.
+    fn feel_pull(&mut self, inputs: &Inputs) {
+        let can_take = self.state.hand.held().is_some_and(|kind| inputs.person_can_take(kind));
         let pulls = can_take && inputs.pull().is_some_and(|force| force > PULL);
-        let pulled = &mut self.state.skill.progress.pulled;
+        let pulled = &mut self.state.hand.pulled;
         *pulled = if pulls { pulled.saturating_add(1) } else { 0 };
-        *pulled >= PULLED
+    }
+
+    /// Whether the person has pulled for a while at the part that the robot gives, or insists on another one: her hand is there as well.
+    fn is_taken(&self, inputs: &Inputs) -> bool {
+        let HandState { pulled, .. } = self.state.hand;
+        match self.state.skill.skill {
+            Skill::Give => pulled >= PULLED,
+            Skill::Insert | Skill::PutBack => {
+                let palm = self.model.robot.palm(&self.servo.posture());
+                pulled >= INSISTED && inputs.person_waits_at(&(palm * self.model.robot.hand.grasp_point()))
+            }
+            _ => false,
+        }
     }
 
     /// Opens the fingers; they close again on a part that the person has let go before they did.
@@ -169,11 +191,13 @@ impl Control {
         }
     }
 
-    /// The fingers have opened: what they held is where it belongs.
+    /// The fingers have opened: what they held is where it belongs, or the person has it. Where that was not decided, the action has failed.
     fn let_go(&mut self) {
         if !self.state.hand.is_empty() {
+            let action = self.state.skill.action.get().and_then(|index| self.task.actions.get(index));
+            let is_decided = action.is_some_and(|action| action.action_type == ActionType::Give);
             self.state.hand.held = Slot::EMPTY;
-            self.finish(Flag::Unset);
+            self.finish(Flag::from(self.state.skill.skill == Skill::Give && !is_decided));
         }
         self.state.skill.enter(SkillPhase::Idle);
     }

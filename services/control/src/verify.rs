@@ -90,6 +90,7 @@ impl Control {
             from_table: Flag::from(skill.skill == Skill::Pick),
             picked_at: frame.translation.vector.into(),
             refused: 0,
+            pulled: 0,
         };
         self.state.decisions.misses = 0;
         self.state.skill.enter(SkillPhase::Idle);

@@ -20,6 +20,8 @@ pub(crate) struct HandState {
     pub picked_at: [f64; 3],
     /// How often no movement was found to where the part belongs, with it as it is held.
     pub refused: u64,
+    /// Cycles for which the person has pulled at the held part.
+    pub pulled: u64,
 }
 
 /// An action that was refused so often is not tried again with the part as it is held. Chosen by hand: at the first time somebody may have

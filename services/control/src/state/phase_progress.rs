@@ -11,8 +11,6 @@ pub(crate) struct PhaseProgress {
     pub touched: u64,
     /// Cycles for which the person's hand has been where it is waited for.
     pub met: u64,
-    /// Cycles for which the person has pulled at the held part.
-    pub pulled: u64,
     /// Camera frames that have shown the part between the fingers, once they had closed.
     pub sightings: u64,
     /// Cycle of the newest one that has shown it, while they closed as well; 0 before.

@@ -258,6 +258,39 @@ fn a_part_is_given_where_the_person_comes_to_meet_the_hand() {
     assert!((world.grasp_point() - place).norm() < 1e-3, "the hand that opens stays where it is");
 }
 
+/// The robot carries a part to its place, and the person's hand comes in the way, or stays away; what the wrist feels then.
+fn carries_past_the_person(comes: bool, pull: f64) -> (KinematicWorld, usize) {
+    let mut world = KinematicWorld::new();
+    lay_down(&mut world, NUT);
+    world.decide(Some(world.action(ActionType::Insert, NUT)));
+    world.until(8.0, "carried", |world| world.held().is_some() && world.phase() == MotionPhase::Transport);
+    let part = world.parts.iter().position(|part| part.holder == Holder::Robot).unwrap();
+    world.run(0.2);
+    if comes {
+        let goal = world.task.subgoals.iter().find(|goal| goal.name == NUT).unwrap();
+        let here = world.grasp_point();
+        let ahead = here + 0.08 * (Point3::from(goal.socket) - here).normalize();
+        world.fingers_at(ahead.into());
+    }
+    world.pull([-pull, 0.0, 0.0]);
+    (world, part)
+}
+
+#[test]
+fn a_part_on_which_the_person_insists_is_let_go_whatever_it_is_for() {
+    let (mut world, part) = carries_past_the_person(true, 3.0);
+    world.until(3.0, "has it", |world| world.parts[part].holder == Holder::Person);
+    // It is hers: nothing of it is mounted by the robot meanwhile.
+    world.pull([0.0; 3]);
+    world.run(1.0);
+    assert!(world.held().is_none());
+    for (comes, pull) in [(true, 0.5), (false, 3.0)] {
+        let (mut world, _) = carries_past_the_person(comes, pull);
+        world.run(0.8);
+        assert!(world.held().is_some(), "her hand comes: {comes}, {pull} N");
+    }
+}
+
 #[test]
 fn the_base_is_steadied_until_the_decision_ends() {
     let mut world = KinematicWorld::new();
