@@ -2,7 +2,7 @@
 
 use crate::person::error;
 use crate::random_policy::notices_after;
-use crate::{Activity, ActivityPhase, Holder, Manipulation, Person, PersonState, Surroundings};
+use crate::{Activity, ActivityPhase, Holder, Manipulation, Person, PersonState, Policy, Surroundings};
 use coact_messages::PartnerError;
 use coact_period::cycles;
 use coact_random::Stream;
@@ -111,7 +111,7 @@ impl Person {
         if state.activity() == Activity::Undo {
             return self.take_back(state, around);
         }
-        if state.activity() == Activity::Insert && is_coming(state, around) {
+        if state.activity() == Activity::Insert && (is_coming(state, around) || self.yields(state, around)) {
             let place = DVec3::from(state.home) + HELD_READY * DVec3::Z;
             self.carry_to(state, around, (place, DVec3::Z), WayKind::Carry);
             return state.enter(ActivityPhase::AwaitTurn, around.tick + TURN_PATIENCE);
@@ -130,11 +130,18 @@ impl Person {
         state.enter(ActivityPhase::Carry, state.movement.end);
     }
 
-    /// Holds the part ready until its turn has come, or for as long as patience lasts.
+    /// Whether the person lets the robot finish first that is at work beside where the part goes.
+    fn yields(&self, state: &PersonState, around: &Surroundings) -> bool {
+        matches!(self.policy, Policy::Active)
+            && state.subgoal.get().is_some_and(|goal| around.robot_works_beside(goal))
+    }
+
+    /// Holds the part ready until its turn has come and the robot is out of the way, or for as long as patience lasts.
     pub(crate) fn await_turn(&self, state: &mut PersonState, around: &Surroundings, done: &mut Manipulation) {
         done.moved = self.carry(state, around);
         let goal = state.subgoal.get();
-        if goal.is_some_and(|goal| around.parts.is_available(goal, around.task)) {
+        let has_come = goal.is_some_and(|goal| around.parts.is_available(goal, around.task));
+        if has_come && !self.yields(state, around) {
             self.lift(state, around);
         } else if around.tick >= state.until {
             self.take_back(state, around);

@@ -18,7 +18,8 @@ const SHORT_PAUSE: Range<u64> = cycles(Duration::from_millis(150))..cycles(Durat
 pub enum Policy {
     /// Chosen at random among the plan's valid actions.
     Synthetic,
-    /// The same, but without a pause, and at work on what comes next while the robot mounts what comes before it.
+    /// The same, but without a pause, and at work on what comes next while the robot mounts what comes before it; where the robot is at
+    /// work beside her place she lets it finish.
     Active,
     /// As the synthetic one, but with mistakes, pauses and variations as this says.
     Random(RandomBehaviour),

@@ -8,6 +8,8 @@ use std::time::Duration;
 /// How long a part must be given before the person reacts, cycles. Chosen by hand, of the size of a
 /// reaction time.
 const NOTICED: u64 = cycles(Duration::from_millis(300));
+/// A place so near to what the robot brings has no room for another hand, m. Chosen by hand: two hands' breadths.
+const BESIDE: f64 = 0.20;
 
 /// What the person perceives in one tick: the parts, and the robot's hand from the outside.
 #[derive(Debug, Clone, Copy)]
@@ -56,6 +58,13 @@ impl Surroundings<'_> {
             Some(step.kind) == held && step.side == Agent::Robot && task.is_available(own, achieved)
         });
         !task.is_available(goal, achieved) && next.any(|own| task.is_available(goal, achieved | (1 << own)))
+    }
+
+    /// Whether the robot is at work beside the place of `goal`: the part that it brings is near.
+    pub(crate) fn robot_works_beside(&self, goal: usize) -> bool {
+        let socket = DVec3::from(self.task.subgoals[goal].socket);
+        let brought = self.robot.held.filter(|_| self.robot.giving_since == 0);
+        brought.is_some_and(|part| self.parts.position(part).distance(socket) < BESIDE)
     }
 
     /// What is wrong with an intention as things are now: nothing with one whose turn is coming.

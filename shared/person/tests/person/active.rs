@@ -88,6 +88,23 @@ fn holds_out_what_the_robot_needs_next_before_its_hand_is_free() {
 }
 
 #[test]
+fn lets_the_robot_finish_that_is_at_work_beside_the_place_where_the_part_goes() {
+    for (policy, yields) in [(Policy::Active, true), (Policy::Synthetic, false)] {
+        let mut scene = Scene::before("wheel on the robot's side", policy, 1);
+        let [x, y, z] = scene.task.subgoals[scene.goal("wheel on the person's side")].socket;
+        let wheel = scene.robot.held.unwrap();
+        scene.parts[wheel].position = [x + 0.1, y, z];
+        let phases = scene.run(6000);
+        assert_eq!(phases.contains(&ActivityPhase::AwaitTurn), yields, "{phases:?}");
+        if yields {
+            assert!(!phases.contains(&ActivityPhase::AwaitSteadying), "{phases:?}");
+            scene.parts[wheel].position = [x + 0.3, y, z];
+            assert!(scene.run(2000).contains(&ActivityPhase::AwaitSteadying), "it has left");
+        }
+    }
+}
+
+#[test]
 fn puts_it_back_when_the_turn_does_not_come() {
     let mut scene = Scene::before("column 1 in its hole", Policy::Active, 1);
     scene.run(6000);

@@ -12,44 +12,35 @@ use coact_run_records::{Occupation, Waiting};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// One assembly of the shipped task by one person, on one thread.
+fn campaign<'a>(settings: &'a RunSettings, network: &'a NetworkVariant) -> Campaign<'a> {
+    Campaign {
+        settings,
+        tasks: &[],
+        people: &[],
+        network,
+        guarded: true,
+        planner_delay: PlannerDelay::None,
+        trials: 1,
+        assemblies: 1,
+        threads: 1,
+    }
+}
+
 fn settings(partner: &str) -> RunSettings {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rt-config");
     RunSettings { partner: partner.into(), world: WorldMode::Kinematic, ..RunSettings::shipped(&folder) }
 }
 
 fn trials(partner: &str, network: &NetworkVariant, trials: u64, threads: usize) -> Vec<Trial> {
-    run(
-        &Campaign {
-            settings: &settings(partner),
-            tasks: &[],
-            people: &[],
-            network,
-            guarded: true,
-            planner_delay: PlannerDelay::None,
-            trials,
-            assemblies: 1,
-            threads,
-        },
-        || {},
-    )
-    .unwrap()
+    run(&Campaign { trials, threads, ..campaign(&settings(partner), network) }, || {}).unwrap()
 }
 
 #[test]
 fn same_seeds_give_the_same_trials_with_any_number_of_threads() {
     let done = AtomicUsize::new(0);
     let (settings, network) = (settings("random:goal=0.2"), NetworkVariant::default());
-    let campaign = Campaign {
-        settings: &settings,
-        tasks: &[],
-        people: &[],
-        network: &network,
-        guarded: true,
-        planner_delay: PlannerDelay::None,
-        trials: 2,
-        assemblies: 1,
-        threads: 2,
-    };
+    let campaign = Campaign { trials: 2, threads: 2, ..campaign(&settings, &network) };
     let one = run(&campaign, || _ = done.fetch_add(1, Ordering::Relaxed)).unwrap();
     assert_eq!(done.into_inner(), 2);
     assert_eq!(one.iter().map(|trial| trial.seed).collect::<Vec<_>>(), [1, 2]);
@@ -95,17 +86,7 @@ fn a_robot_that_does_not_look_ahead_gets_ready_for_nothing() {
 #[test]
 fn what_is_understood_of_a_person_after_ten_reaches_is_told_apart() {
     let (settings, network) = (settings("synthetic"), NetworkVariant::default());
-    let campaign = Campaign {
-        settings: &settings,
-        tasks: &[],
-        people: &[],
-        network: &network,
-        guarded: true,
-        planner_delay: PlannerDelay::None,
-        trials: 1,
-        assemblies: 3,
-        threads: 1,
-    };
+    let campaign = Campaign { assemblies: 3, ..campaign(&settings, &network) };
     let trials = run(&campaign, || {}).unwrap();
     let report = EvaluationReport::new(&network, &trials);
     assert_eq!(report.completed.count, 1);
@@ -125,17 +106,7 @@ fn what_is_understood_of_a_person_after_ten_reaches_is_told_apart() {
 fn without_its_guard_the_robot_is_never_held_back_and_closes_on_people() {
     let (settings, network) = (settings("synthetic"), NetworkVariant::default());
     let reports = [true, false].map(|guarded| {
-        let campaign = Campaign {
-            settings: &settings,
-            tasks: &[],
-            people: &[],
-            network: &network,
-            guarded,
-            planner_delay: PlannerDelay::None,
-            trials: 2,
-            assemblies: 1,
-            threads: 2,
-        };
+        let campaign = Campaign { guarded, trials: 2, threads: 2, ..campaign(&settings, &network) };
         EvaluationReport::new(&network, &run(&campaign, || {}).unwrap())
     });
     let [with, without] = &reports;
@@ -213,21 +184,7 @@ fn without_common_subgoals_nothing_is_achieved_and_that_is_reported_as_a_deadloc
 #[test]
 fn a_robot_that_leaves_a_handover_closes_on_nobody() {
     let (settings, network) = (RunSettings { seed: 51, ..settings("random") }, NetworkVariant::default());
-    let trials = run(
-        &Campaign {
-            settings: &settings,
-            tasks: &[],
-            people: &[],
-            network: &network,
-            guarded: true,
-            planner_delay: PlannerDelay::None,
-            trials: 1,
-            assemblies: 1,
-            threads: 1,
-        },
-        || {},
-    )
-    .unwrap();
+    let trials = run(&campaign(&settings, &network), || {}).unwrap();
     assert!(trials[0].completed_ms.is_some());
     assert_eq!(trials[0].separation.robot_closing_ms, 0, "{:?}", trials[0].separation);
 }
