@@ -3,7 +3,7 @@
 use crate::Control;
 use crate::inputs::Inputs;
 use crate::robot::FingerShape;
-use crate::state::{FinishedAction, HandState, MovementQuery, Skill, SkillPhase, StoredPose};
+use crate::state::{FinishedAction, MovementQuery, Skill, SkillPhase, StoredPose};
 use coact_joint_task::ActionType;
 use coact_period::cycles;
 use coact_stage_state::{Flag, Slot};
@@ -169,12 +169,12 @@ impl Control {
 
     /// Whether the person has pulled for a while at the part that the robot gives, or insists on another one: her hand is there as well.
     fn is_taken(&self, inputs: &Inputs) -> bool {
-        let HandState { pulled, .. } = self.state.hand;
+        let pulled = self.state.hand.pulled;
         match self.state.skill.skill {
             Skill::Give => pulled >= PULLED,
             Skill::Insert | Skill::PutBack => {
-                let palm = self.model.robot.palm(&self.servo.posture());
-                pulled >= INSISTED && inputs.person_waits_at(&(palm * self.model.robot.hand.grasp_point()))
+                let here = || self.model.robot.grasp_point(&self.servo.posture());
+                pulled >= INSISTED && inputs.person_waits_at(&here())
             }
             _ => false,
         }

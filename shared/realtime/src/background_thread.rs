@@ -36,7 +36,7 @@ impl BackgroundThread {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
+    use crate::scheduling;
     use std::sync::atomic::AtomicBool;
 
     /// Whether a thread starves that does this, some time after it began.
@@ -61,11 +61,8 @@ mod tests {
         const OTHERS: usize = 30;
         let (over, mut thread) = (AtomicBool::new(false), BackgroundThread::default());
         let known = thread.clone();
-        let mut core = CpuSet::new();
-        let allowed = sched_getaffinity(None).unwrap();
-        core.set((0..CpuSet::MAX_CPU).find(|core| allowed.is_set(*core)).unwrap());
         let spin = || {
-            sched_setaffinity(None, &core).unwrap();
+            scheduling::keep_to_first_core();
             while !over.load(Ordering::Relaxed) {
                 std::hint::spin_loop();
             }

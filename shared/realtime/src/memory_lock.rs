@@ -88,16 +88,14 @@ pub(crate) fn populate() {
     }
 }
 
-/// The same by a thread beside cycles that run already, on their core, which is an ordinary one afterwards.
+/// The same by a thread beside cycles that run already, on their core: from then on it stands above ordinary threads.
 ///
-/// Meanwhile it stands above ordinary threads. As one of those it was kept from its core by other programs while it held the lock of
+/// As one of those it was kept from its core by other programs while it held the lock of
 /// the address space, and the real-time thread of a replacement stood for more than 100 ms in `munmap`: it was taken for hung.
 pub(crate) fn populate_beside_cycles() {
     // Refused, no thread of the process is of a real-time class.
     let _ = SchedulingClass::STARTING.apply();
     populate();
-    // Always granted.
-    let _ = SchedulingClass::Other.apply();
 }
 
 /// Address range and access rights of one line of /proc/self/maps.
@@ -112,8 +110,7 @@ fn mapping(line: &str) -> Option<(std::ops::Range<usize>, &str)> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
-    use std::sync::Arc;
+    use crate::scheduling;
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::{Duration, Instant};
 
@@ -140,59 +137,43 @@ mod tests {
 
     #[test]
     fn whoever_gives_memory_back_waits_for_no_thread_that_populates_while_others_have_its_core() {
-        let core = first_core();
-        let took = on_core(core, move || {
-            if SchedulingClass::Fifo(3).apply().is_err() {
-                println!("skipped: no right to SCHED_FIFO");
-                return None;
-            }
-            let done = Arc::new(AtomicBool::new(false));
-            let stays = done.clone();
-            let others: Vec<_> = (0..3).map(|_| others_work(stays.clone())).collect();
-            let memory = anonymous(128 << 20);
-            let begun = Instant::now();
-            let beside = std::thread::spawn(populate_beside_cycles);
-            let mut longest = Duration::ZERO;
-            while !beside.is_finished() {
-                let cycle = Instant::now();
-                give_back(anonymous(4096), 4096);
-                longest = longest.max(cycle.elapsed());
-                std::thread::sleep(Duration::from_millis(1));
-            }
-            let all = begun.elapsed();
-            done.store(true, Ordering::Relaxed);
-            others.into_iter().for_each(|other| other.join().unwrap());
-            give_back(memory, 128 << 20);
-            Some((longest, all))
-        });
-        let Some((longest, all)) = took else { return };
-        assert!(longest < all / 5, "{longest:?} of the {all:?} that populating took");
-    }
-
-    fn first_core() -> CpuSet {
-        let granted = sched_getaffinity(None).unwrap();
-        let mut core = CpuSet::new();
-        core.set((0..CpuSet::MAX_CPU).find(|&core| granted.is_set(core)).unwrap());
-        core
-    }
-
-    /// What a thread on this core gives.
-    fn on_core<T: Send + 'static>(core: CpuSet, work: impl FnOnce() -> T + Send + 'static) -> T {
-        let there = move || {
-            sched_setaffinity(None, &core).unwrap();
-            work()
-        };
-        std::thread::spawn(there).join().unwrap()
-    }
-
-    /// An ordinary thread on the same core that always has something to do.
-    fn others_work(done: Arc<AtomicBool>) -> std::thread::JoinHandle<()> {
-        std::thread::spawn(move || {
+        const POPULATED: usize = 128 << 20;
+        let over = AtomicBool::new(false);
+        let work = || {
             SchedulingClass::Other.apply().unwrap();
-            while !done.load(Ordering::Relaxed) {
+            while !over.load(Ordering::Relaxed) {
                 std::hint::spin_loop();
             }
-        })
+        };
+        std::thread::scope(|scope| {
+            let cycles = || {
+                scheduling::keep_to_first_core();
+                if SchedulingClass::Fifo(3).apply().is_err() {
+                    println!("skipped: no right to SCHED_FIFO");
+                    return;
+                }
+                let (memory, begun) = (anonymous(POPULATED), Instant::now());
+                scope.spawn(populate_beside_cycles).join().unwrap();
+                let alone = begun.elapsed();
+                give_back(memory, POPULATED);
+                (0..9).for_each(|_| _ = scope.spawn(work));
+                let (memory, begun) = (anonymous(POPULATED), Instant::now());
+                let beside = scope.spawn(populate_beside_cycles);
+                let mut longest = Duration::ZERO;
+                while !beside.is_finished() {
+                    let cycle = Instant::now();
+                    give_back(anonymous(4096), 4096);
+                    longest = longest.max(cycle.elapsed());
+                    std::thread::sleep(Duration::from_millis(1));
+                }
+                let all = begun.elapsed();
+                over.store(true, Ordering::Relaxed);
+                give_back(memory, POPULATED);
+                assert!(longest < all / 5, "{longest:?} of the {all:?} that populating took");
+                assert!(all < 3 * alone, "others kept it from its core: {all:?}, alone {alone:?}");
+            };
+            scope.spawn(cycles);
+        });
     }
 
     fn anonymous(size: usize) -> *mut libc::c_void {

@@ -177,8 +177,8 @@ impl Process {
 
     /// Starts an ordinary thread on the process's own core that is idle from then on. The memory of a killed process is given back
     /// by whichever thread of it ends last, for milliseconds: by this one, in no real-time class, where others would wait for
-    /// it. It ends last because it gets the core last; on another core it might end first. Of a replacement it also prefaults
-    /// the memory.
+    /// it. It ends last because it gets the core last; on another core it might end first. Of a replacement it prefaults the
+    /// memory before.
     fn keep_last_thread(&self) -> Result<(), ProcessError> {
         let prefaults = self.generation > 0;
         let last = move || {

@@ -78,6 +78,14 @@ fn pin(core: usize) -> Result<(), String> {
     sched_setaffinity(None, &cores).map_err(|error| format!("core {core}: {error}"))
 }
 
+/// Keeps the calling thread, and all that it starts, to the same core as whoever does so as well.
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+pub(crate) fn keep_to_first_core() {
+    let granted = granted();
+    pin((0..CpuSet::MAX_CPU).find(|&core| granted.is_set(core)).unwrap()).unwrap();
+}
+
 fn fifo(priority: u8) -> Result<(), String> {
     SchedulingClass::Fifo(priority).apply().map_err(|error| format!("SCHED_FIFO {priority}: {error}"))
 }
