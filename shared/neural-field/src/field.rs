@@ -1,7 +1,6 @@
-use crate::{ParameterError, Parameters, sigmoid};
-
-/// Standard deviations of the excitation beyond which it is cut off: there it is 4e-6 of its amplitude.
-const CUT_OFF: f64 = 5.0;
+use crate::convolution::Convolution;
+use crate::taps::{CUT_OFF, Taps};
+use crate::{Axis, ParameterError, Parameters, sigmoid};
 
 /// One layer: a row of sites, divided into populations of equal width, each centred on its input.
 ///
@@ -12,13 +11,11 @@ pub struct Field {
     parameters: Parameters,
     populations: usize,
     width: usize,
-    /// Interaction at distances 1, 2, .. sites, times dx; the sites' own at `centre`. Inhibition that reaches
-    /// everywhere is not in it.
-    taps: Vec<f64>,
-    centre: f64,
+    /// Of all sites that interact: all, or those of one population where each is alone. Inhibition that reaches everywhere is not in it.
+    interaction: Convolution,
     /// Gaussian input of strength 1 across one population.
     bump: Vec<f64>,
-    /// f(u) of all sites that interact, or of one population where each is alone, with a border of zeros on both sides as wide as the taps.
+    /// f(u) of all sites.
     output: Vec<f64>,
 }
 
@@ -40,16 +37,18 @@ impl Field {
                 if kernel.range.is_some_and(|range| d <= range) { kernel.inhibition } else { 0.0 };
             (kernel.amplitude * gauss(d, kernel.sigma) - inhibition) * spacing
         };
+        let taps = Taps { centre: interaction(0), beyond: (1..=reach).map(interaction).collect() };
         let sites = populations * width;
+        let together = if kernel.range.is_some() { width } else { sites };
+        let row = Axis { sites: together, spacing, origin: 0.0, circular: false };
         let middle = (width - 1) as f64 / 2.0;
         Ok(Self {
             parameters,
             populations,
             width,
-            taps: (1..=reach).map(interaction).collect(),
-            centre: interaction(0),
+            interaction: Convolution::new(&row, 1, taps),
             bump: (0..width).map(|site| gauss((site as f64 - middle) * spacing, input_sigma)).collect(),
-            output: vec![0.0; if kernel.range.is_some() { width } else { sites } + 2 * reach],
+            output: vec![0.0; sites],
         })
     }
 
@@ -98,21 +97,16 @@ impl Field {
 
     /// Writes the interaction integral of each site (chapter, eq. 1 and 2), but for inhibition that reaches everywhere,
     /// which is the same for all sites and returned.
-    fn interact(&mut self, now: &[f64], interaction: &mut [f64]) -> f64 {
+    fn interact(&mut self, now: &[f64], integral: &mut [f64]) -> f64 {
         let Parameters { slope, threshold, spacing, kernel, .. } = self.parameters;
+        integral.fill(0.0);
         if kernel.amplitude == 0.0 && kernel.inhibition == 0.0 {
-            interaction.fill(0.0);
             return 0.0;
         }
-        let reach = self.taps.len();
-        let together = if kernel.range.is_some() { self.width } else { now.len() }.max(1);
-        let sites = reach..reach + together;
-        for (now, interaction) in now.chunks_exact(together).zip(interaction.chunks_exact_mut(together)) {
-            fire(&mut self.output[sites.clone()], now, slope, threshold);
-            excite(&self.output, self.centre, &self.taps, interaction);
-        }
+        fire(&mut self.output, now, slope, threshold);
+        self.interaction.add_each(&self.output, integral);
         match kernel.range {
-            None => kernel.inhibition * spacing * sum(&self.output[sites]),
+            None => kernel.inhibition * spacing * sum(&self.output),
             Some(_) => 0.0,
         }
     }
@@ -133,8 +127,8 @@ impl Field {
 
 /// Writes f(u) of all sites.
 ///
-/// The two hot loops are compiled for wider registers as well, and chosen at run time: neither fuses nor reorders
-/// operations, so that every machine computes the same bits.
+/// The hot loops, this and those of convolution, are compiled for wider registers as well, and chosen at run time: none fuses or
+/// reorders operations, so that every machine computes the same bits.
 #[multiversion::multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 pub(crate) fn fire(output: &mut [f64], now: &[f64], slope: f64, threshold: f64) {
     for (output, &u) in output.iter_mut().zip(now) {
@@ -153,20 +147,4 @@ pub(crate) fn sum(output: &[f64]) -> f64 {
         }
     }
     rest + partial.iter().sum::<f64>()
-}
-
-/// Writes the interaction integral, but for inhibition that reaches everywhere; `output` has a border of zeros as wide as the taps.
-#[multiversion::multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
-fn excite(output: &[f64], centre: f64, taps: &[f64], interaction: &mut [f64]) {
-    let (reach, sites) = (taps.len(), interaction.len());
-    for (interaction, &own) in interaction.iter_mut().zip(&output[reach..]) {
-        *interaction = centre * own;
-    }
-    for (index, &weight) in taps.iter().enumerate() {
-        let left = &output[reach - index - 1..][..sites];
-        let right = &output[reach + index + 1..][..sites];
-        for ((interaction, &left), &right) in interaction.iter_mut().zip(left).zip(right) {
-            *interaction += weight * (left + right);
-        }
-    }
 }

@@ -70,7 +70,7 @@ impl<const D: usize> Interaction<D> {
         let everywhere = if self.everywhere == 0.0 { 0.0 } else { self.everywhere * sum(output) };
         integral.fill(everywhere);
         for separable in &mut self.separable {
-            separable.add(&self.lattice, output, integral);
+            separable.add(output, integral);
         }
         for (offset, weight) in &self.arbitrary {
             add_shifted(&self.lattice, *offset, *weight, output, integral);

@@ -39,6 +39,7 @@
 //! ```
 
 mod axis;
+mod convolution;
 mod existence;
 mod field;
 mod forgetting;

@@ -35,14 +35,19 @@ impl<const D: usize> MetricField<D> {
         assert_eq!((now.len(), input.len(), next.len()), (sites, sites, sites));
         fire(&mut self.output, now, self.constants.slope, self.constants.threshold);
         self.interaction.integrate(&self.output, next);
-        let rate = dt / self.constants.tau;
-        for ((next, &u), &s) in next.iter_mut().zip(now).zip(input) {
-            *next = u + rate * (h - u + s + *next);
-        }
+        relax(dt / self.constants.tau, now, input, h, next);
     }
 
     /// Writes f(u) of each site: what projections carry to other fields.
     pub fn fire(&self, activity: &[f64], output: &mut [f64]) {
         fire(output, activity, self.constants.slope, self.constants.threshold);
+    }
+}
+
+/// Turns the interaction integral of each site into its next activity.
+#[multiversion::multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+fn relax(rate: f64, now: &[f64], input: &[f64], h: f64, next: &mut [f64]) {
+    for ((next, &u), &s) in next.iter_mut().zip(now).zip(input) {
+        *next = u + rate * (h - u + s + *next);
     }
 }
