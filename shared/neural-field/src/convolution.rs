@@ -79,7 +79,8 @@ fn add_along(Convolution { taps, rows, .. }: &Convolution, mut to: &mut [f64]) {
     }
 }
 
-/// Convolves rows that lie beside each other, two of them at once.
+/// Convolves rows that lie beside each other, two of them at once. (With a function that adds both, a table's
+/// step takes a third longer.)
 #[multiversion::multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn add_across(Convolution { taps, width, stride, rows, .. }: &Convolution, to: &mut [f64]) {
     let mut at = taps.beyond.len() * stride;
@@ -141,7 +142,7 @@ fn block<const B: usize>(row: &[f64], at: usize) -> &[f64; B] {
     &row[at..at + B].as_chunks().0[0]
 }
 
-/// Adds a block, or what of it there is room for.
+/// Adds a block, or what of it there is room for. Of a whole one the length is known when it is compiled: that is faster.
 #[inline(always)]
 fn add<const B: usize>(to: &mut [f64], sums: &[f64; B]) {
     match to.first_chunk_mut::<B>() {
